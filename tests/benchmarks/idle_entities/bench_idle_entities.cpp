@@ -2,14 +2,16 @@
 // Usage: bench_idle_entities [FEW MANY...]
 //
 // Measures the time of a message from publish() to the end of its callback in a single-threaded executor: with few idle
-// subscriptions beside the one that gets it, with many, and with as many idle timers. The executors are in one process
-// and take turns, batch by batch, so that other work on the machine affects all of them.
+// subscriptions beside the one that gets it, with many, and with as many idle timers. Then in an EventsExecutor, with
+// few subscriptions and with as many timers. The executors are in one process and take turns, batch by batch, so that
+// other work on the machine affects all of them.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <memory>
+#include <rclcpp/experimental/executors/events_executor/events_executor.hpp>
 #include <rclcpp/rclcpp.hpp>
 #include <std_msgs/msg/u_int64.hpp>
 #include <string>
@@ -20,6 +22,8 @@
 
 namespace {
 
+using rclcpp::executors::SingleThreadedExecutor;
+using rclcpp::experimental::executors::EventsExecutor;
 using std_msgs::msg::UInt64;
 
 constexpr std::size_t kFew = 3;
@@ -30,7 +34,8 @@ constexpr std::size_t kMessages = 100;  // of a batch
 
 class Nodes {
  public:
-  Nodes(const std::string& name, std::size_t idle, std::size_t idle_timers = 0) {
+  Nodes(std::unique_ptr<rclcpp::Executor> executor, const std::string& name, std::size_t idle, std::size_t idle_timers)
+      : executor_(std::move(executor)) {
     for (std::size_t i = 0; i < idle; ++i) {
       if (i % kOfANode == 0) {
         add_node(name + std::to_string(i / kOfANode));
@@ -48,7 +53,7 @@ class Nodes {
     while (publisher_->get_subscription_count() == 0) {
       nodes_.front()->wait_for_graph_change(change, std::chrono::seconds(1));
     }
-    executor_.spin_all(std::chrono::nanoseconds(0));
+    executor_->spin_all(std::chrono::nanoseconds(0));
   }
 
   // In microseconds.
@@ -58,7 +63,7 @@ class Nodes {
     for (std::size_t i = 1; i <= kMessages; ++i) {
       publisher_->publish(UInt64());
       while (received_ < i) {
-        executor_.spin_once();
+        executor_->spin_once();
       }
     }
     const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
@@ -68,10 +73,10 @@ class Nodes {
  private:
   void add_node(const std::string& name) {
     nodes_.push_back(std::make_shared<rclcpp::Node>(name));
-    executor_.add_node(nodes_.back());
+    executor_->add_node(nodes_.back());
   }
 
-  rclcpp::executors::SingleThreadedExecutor executor_;
+  std::unique_ptr<rclcpp::Executor> executor_;
   std::vector<rclcpp::Node::SharedPtr> nodes_;
   std::vector<rclcpp::SubscriptionBase::SharedPtr> subscriptions_;
   std::vector<rclcpp::TimerBase::SharedPtr> timers_;
@@ -92,8 +97,11 @@ std::string subscriptions(std::size_t count) {
 // An executor with idle entities, and the times of a message in it.
 class Case {
  public:
-  Case(std::string what, const std::string& name, std::size_t subscriptions, std::size_t timers = 0)
-      : what_(std::move(what)), idle_(subscriptions + timers), nodes_(name, subscriptions, timers) {}
+  Case(std::unique_ptr<rclcpp::Executor> executor, std::string what, const std::string& name, std::size_t subscriptions,
+       std::size_t timers = 0)
+      : what_(std::move(what)),
+        idle_(subscriptions + timers),
+        nodes_(std::move(executor), name, subscriptions, timers) {}
 
   void run() { times_.push_back(nodes_.time_of_a_message()); }
   void print(const Case& few) const {
@@ -128,24 +136,35 @@ int main(int argc, char** argv) {
     counts = {kFew, kMany};
   }
   {
+    const std::size_t few_count = counts.front();
+    const std::size_t many_count = counts.back();
+    const auto single = [] { return std::make_unique<SingleThreadedExecutor>(); };
+    const auto events = [] { return std::make_unique<EventsExecutor>(); };
     // To find a reader in this process, Fast DDS goes through the readers that were made before it: the few come first.
-    Case few(subscriptions(counts.front()), "few", counts.front());
-    std::vector<std::unique_ptr<Case>> others;
-    others.push_back(
-        std::make_unique<Case>(fmt::format("{} timers", counts.back()), "timers", counts.front(), counts.back()));
+    Case few(single(), subscriptions(few_count), "few", few_count);
+    Case few_of_events(events(), subscriptions(few_count) + ", events", "few_events", few_count);
+    std::vector<std::pair<std::unique_ptr<Case>, const Case*>> others;  // and what they are compared with
+    others.emplace_back(
+        std::make_unique<Case>(single(), fmt::format("{} timers", many_count), "timers", few_count, many_count), &few);
+    others.emplace_back(std::make_unique<Case>(events(), fmt::format("{} timers, events", many_count), "timers_events",
+                                               few_count, many_count),
+                        &few_of_events);
     for (std::size_t i = 1; i < counts.size(); ++i) {
-      others.push_back(std::make_unique<Case>(subscriptions(counts[i]), "many" + std::to_string(i), counts[i]));
+      others.emplace_back(
+          std::make_unique<Case>(single(), subscriptions(counts[i]), "many" + std::to_string(i), counts[i]), &few);
     }
     for (int i = 0; i < kBatches; ++i) {
       few.run();
-      for (const auto& other : others) {
+      few_of_events.run();
+      for (const auto& [other, floor] : others) {
         other->run();
       }
     }
     fmt::print("{:<32}{:>16}{:>10}{:>16}\n", "idle beside the subscription", "us per message", "of few", "ns for each");
     few.print(few);
-    for (const auto& other : others) {
-      other->print(few);
+    few_of_events.print(few_of_events);
+    for (const auto& [other, floor] : others) {
+      other->print(*floor);
     }
   }
   rclcpp::shutdown();

@@ -289,6 +289,7 @@ void EventsExecutor::refresh() {
       timers_.add_timer(timer);
     }
   }
+  timers_.remove_expired();
   timers_served_ = std::move(timers);
 }
 

@@ -13,7 +13,9 @@ using detail::require_ok;
 
 namespace {
 
-constexpr auto kLater = [](const auto& a, const auto& b) { return a.due > b.due; };
+constexpr auto kLater = [](const auto& a, const auto& b) {
+  return a.due > b.due || (a.due == b.due && a.index > b.index);
+};
 
 rcl_time_point_value_t now_of(rcl_clock_t* clock) {
   rcl_time_point_value_t now = 0;
@@ -29,17 +31,22 @@ void TimerQueue::assign(std::vector<Timer> timers) {
   forget_times();
 }
 
-[[gnu::hot]] std::int64_t TimerQueue::time_until_first() {
+[[gnu::hot]] TimerQueue::First TimerQueue::first() {
   read_times();
-  std::int64_t time = kNever;
+  First first;
   for (OfClock& of_clock : clocks_) {
     return_held_back(of_clock);
     settle_first(of_clock);
-    if (!of_clock.heap.empty()) {
-      time = std::min(time, of_clock.heap.front().due - now_of(of_clock.clock));
+    if (of_clock.heap.empty()) {
+      continue;
+    }
+    const Entry& entry = of_clock.heap.front();
+    const std::int64_t time_until = entry.due - now_of(of_clock.clock);
+    if (time_until < first.time_until) {
+      first = {time_until, entry.index};
     }
   }
-  return time;
+  return first;
 }
 
 [[gnu::hot]] void TimerQueue::append_due(std::vector<std::size_t>& indices) {

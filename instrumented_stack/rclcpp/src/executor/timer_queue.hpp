@@ -35,9 +35,14 @@ class TimerQueue {
   // Lets the queue read the times anew before its next answer.
   void forget_times() { has_times_ = false; }
 
-  // Nanoseconds until the first timer is due by its clock. 0 or less if a timer is due already, `kNever` if there is no
-  // timer.
-  std::int64_t time_until_first();
+  struct First {
+    // Nanoseconds until the timer is due by its clock. 0 or less if it is due already, `kNever` if there is no timer.
+    std::int64_t time_until = kNever;
+    std::size_t index = 0;
+  };
+  // The timer that is due first. Of several that are due at one time, the one with the lowest index.
+  First first();
+  std::int64_t time_until_first() { return first().time_until; }
 
   // Appends the indices of the timers that are due, in ascending order.
   void append_due(std::vector<std::size_t>& indices);

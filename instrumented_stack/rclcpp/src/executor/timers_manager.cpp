@@ -2,8 +2,12 @@
 #include "rclcpp/experimental/timers_manager.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
+
+#include "executor/timer_queue.hpp"
 
 namespace rclcpp::experimental {
 
@@ -15,10 +19,12 @@ bool refers_to(const TimerBase::WeakPtr& weak, const TimerBase::SharedPtr& timer
   return !weak.owner_before(timer) && !timer.owner_before(weak);
 }
 
+constexpr auto has_ended = [](const auto& known) { return known.timer.expired(); };
+
 }  // namespace
 
 TimersManager::TimersManager(std::shared_ptr<rclcpp::Context> context, std::function<void()> on_change)
-    : context_(std::move(context)), on_change_(std::move(on_change)) {}
+    : context_(std::move(context)), on_change_(std::move(on_change)), queue_(std::make_unique<TimerQueue>()) {}
 
 TimersManager::~TimersManager() {
   clear();
@@ -29,12 +35,12 @@ void TimersManager::add_timer(const TimerBase::SharedPtr& timer) {
   if (!timer) {
     throw std::invalid_argument("TimersManager::add_timer() trying to add nullptr timer");
   }
+  std::vector<Timer> removed;
   {
     const std::lock_guard lock(mutex_);
-    timers_.erase(std::remove_if(timers_.begin(), timers_.end(),
-                                 [&](const auto& weak) { return weak.expired() || refers_to(weak, timer); }),
-                  timers_.end());
-    timers_.push_back(timer);
+    removed = take_out([&](const Timer& known) { return refers_to(known.timer, timer); });
+    empty_queue();
+    timers_.push_back({timer, timer->get_timer_handle()});
   }
   timer->set_on_reset_callback([this](size_t) { changed(); });
   changed();
@@ -42,15 +48,28 @@ void TimersManager::add_timer(const TimerBase::SharedPtr& timer) {
 
 void TimersManager::remove_timer(const TimerBase::SharedPtr& timer) {
   timer->clear_on_reset_callback();
+  std::vector<Timer> removed;
   const std::lock_guard lock(mutex_);
-  timers_.erase(
-      std::remove_if(timers_.begin(), timers_.end(), [&](const auto& weak) { return refers_to(weak, timer); }),
-      timers_.end());
+  removed = take_out([&](const Timer& known) { return refers_to(known.timer, timer); });
+}
+
+void TimersManager::remove_expired() {
+  std::vector<Timer> removed;
+  const std::lock_guard lock(mutex_);
+  removed = take_out(has_ended);
 }
 
 void TimersManager::clear() {
-  for (const TimerBase::SharedPtr& timer : living()) {
-    remove_timer(timer);
+  std::vector<Timer> timers;
+  {
+    const std::lock_guard lock(mutex_);
+    empty_queue();
+    timers.swap(timers_);
+  }
+  for (const Timer& known : timers) {
+    if (const TimerBase::SharedPtr timer = known.timer.lock()) {
+      timer->clear_on_reset_callback();
+    }
   }
 }
 
@@ -76,16 +95,19 @@ void TimersManager::stop() {
 
 bool TimersManager::execute_head_timer() {
   TimerBase::SharedPtr head;
-  nanoseconds head_time(1);
-  for (TimerBase::SharedPtr& timer : living()) {
-    const nanoseconds time = timer->time_until_trigger();
-    if (time < head_time) {
-      head_time = time;
-      head = std::move(timer);
+  std::vector<Timer> removed;
+  {
+    const std::lock_guard lock(mutex_);
+    while (!head) {
+      const TimerQueue::First first = queue().first();
+      if (first.time_until > 0) {
+        return false;
+      }
+      head = timers_[first.index].timer.lock();
+      if (!head) {
+        removed = take_out(has_ended);
+      }
     }
-  }
-  if (!head || head_time > nanoseconds::zero()) {
-    return false;
   }
   const std::shared_ptr<void> data = head->call();
   if (!data) {
@@ -96,27 +118,55 @@ bool TimersManager::execute_head_timer() {
 }
 
 size_t TimersManager::get_number_ready_timers() {
-  const std::vector<TimerBase::SharedPtr> timers = living();
-  return static_cast<size_t>(std::count_if(timers.begin(), timers.end(), [](const auto& t) { return t->is_ready(); }));
+  const std::lock_guard lock(mutex_);
+  std::vector<size_t> due;
+  queue().append_due(due);
+  return due.size();
 }
 
 nanoseconds TimersManager::get_head_timeout() {
-  nanoseconds head_time = nanoseconds::max();
-  for (const TimerBase::SharedPtr& timer : living()) {
-    head_time = std::min(head_time, timer->time_until_trigger());
+  std::vector<Timer> removed;
+  const std::lock_guard lock(mutex_);
+  while (true) {
+    const TimerQueue::First first = queue().first();
+    if (first.time_until == TimerQueue::kNever || !timers_[first.index].timer.expired()) {
+      return nanoseconds(first.time_until);
+    }
+    removed = take_out(has_ended);
   }
-  return head_time;
 }
 
-std::vector<TimerBase::SharedPtr> TimersManager::living() {
-  const std::lock_guard lock(mutex_);
-  std::vector<TimerBase::SharedPtr> timers;
-  for (const TimerBase::WeakPtr& weak : timers_) {
-    if (TimerBase::SharedPtr timer = weak.lock()) {
-      timers.push_back(std::move(timer));
-    }
+template <typename PredicateT>
+std::vector<TimersManager::Timer> TimersManager::take_out(PredicateT predicate) {
+  const auto end = std::stable_partition(timers_.begin(), timers_.end(), std::not_fn(predicate));
+  if (end == timers_.end()) {
+    return {};
   }
-  return timers;
+  empty_queue();
+  std::vector<Timer> taken(std::make_move_iterator(end), std::make_move_iterator(timers_.end()));
+  timers_.erase(end, timers_.end());
+  return taken;
+}
+
+void TimersManager::empty_queue() {
+  queue_->assign({});
+  is_queue_filled_ = false;
+}
+
+TimerQueue& TimersManager::queue() {
+  static const std::atomic_bool kMayBeTaken{true};  // the executor does not look at groups
+  if (are_times_changed_.exchange(false)) {
+    queue_->forget_times();
+  }
+  if (!is_queue_filled_) {
+    std::vector<TimerQueue::Timer> timers;
+    for (const Timer& timer : timers_) {
+      timers.push_back({timer.handle.get(), &kMayBeTaken});
+    }
+    queue_->assign(std::move(timers));
+    is_queue_filled_ = true;
+  }
+  return *queue_;
 }
 
 void TimersManager::run() {
@@ -140,6 +190,7 @@ void TimersManager::run() {
 }
 
 void TimersManager::changed() {
+  are_times_changed_ = true;
   {
     const std::lock_guard lock(thread_mutex_);
     has_changed_ = true;

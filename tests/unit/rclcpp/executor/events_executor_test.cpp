@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <atomic>
 #include <future>
 #include <memory>
@@ -239,6 +240,61 @@ TEST_F(EventsExecutorTest, TimersManagerExecutesTheTimerThatIsLongestDue) {
   timers.start();
   EXPECT_THROW(timers.start(), std::runtime_error);
   timers.stop();
+}
+
+TEST_F(EventsExecutorTest, TimersManagerHearsOfResetsAndPassesOverTimersThatHaveEnded) {
+  int changes = 0;
+  TimersManager timers(rclcpp::contexts::get_global_default_context(), [&changes] { ++changes; });
+  int calls = 0;
+  auto due = node_->create_wall_timer(milliseconds(0), [&calls] { ++calls; });
+  auto later = node_->create_wall_timer(std::chrono::hours(1), [&calls] { ++calls; });
+  timers.add_timer(due);
+  timers.add_timer(later);
+  EXPECT_EQ(changes, 2);
+  later->cancel();
+  EXPECT_LE(timers.get_head_timeout(), nanoseconds(0));
+  due.reset();
+  EXPECT_EQ(timers.get_head_timeout(), nanoseconds::max());
+  EXPECT_FALSE(timers.execute_head_timer());
+  later->reset();
+  EXPECT_EQ(changes, 3);
+  EXPECT_GT(timers.get_head_timeout(), std::chrono::minutes(30));
+  int64_t period = 0;
+  ASSERT_EQ(rcl_timer_exchange_period(later->get_timer_handle().get(), 0, &period), RCL_RET_OK);
+  later->reset();
+  EXPECT_EQ(changes, 4);
+  EXPECT_TRUE(timers.execute_head_timer());
+  EXPECT_EQ(calls, 1);
+
+  const std::weak_ptr<const rcl_timer_t> handle = later->get_timer_handle();
+  later.reset();
+  timers.remove_expired();
+  EXPECT_TRUE(handle.expired());
+  timers.clear();
+  EXPECT_EQ(timers.get_head_timeout(), nanoseconds::max());
+}
+
+TEST_F(EventsExecutorTest, ExecutesManyTimersInTheOrderInWhichTheyAreDue) {
+  constexpr int kTimers = 100;
+  EventsExecutor executor;
+  executor.add_node(node_);
+  const auto clock = std::make_shared<rclcpp::Clock>(RCL_ROS_TIME);
+  ASSERT_EQ(rcl_enable_ros_time_override(clock->get_clock_handle()), RCL_RET_OK);
+  std::vector<int> order;
+  std::vector<rclcpp::TimerBase::SharedPtr> timers;
+  for (int i = 0; i < kTimers; ++i) {
+    const int place = (i * 37) % kTimers;  // each number once, out of order
+    timers.push_back(
+        rclcpp::create_timer(node_, clock, rclcpp::Duration::from_nanoseconds(place + 1), [&order, &timers, place, i] {
+          order.push_back(place);
+          timers[static_cast<size_t>(i)]->cancel();
+        }));
+  }
+  executor.spin_some();
+  EXPECT_TRUE(order.empty());
+  ASSERT_EQ(rcl_set_ros_time_override(clock->get_clock_handle(), kTimers), RCL_RET_OK);
+  ASSERT_TRUE(spin_until(executor, [&] { return order.size() == kTimers; }));
+  EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
 }
 
 }  // namespace

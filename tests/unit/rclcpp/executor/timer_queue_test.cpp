@@ -89,6 +89,16 @@ TEST_F(TimerQueueTest, TellsTheTimeUntilTheFirst) {
   EXPECT_EQ(queue_.time_until_first(), 3);
 }
 
+TEST_F(TimerQueueTest, TellsWhichIsFirstAndOfEqualOnesTheOneOfTheLowestIndex) {
+  EXPECT_EQ(queue_.first().index, 1U);
+  set_time(120);
+  ASSERT_EQ(rcl_timer_call(timer(3)), RCL_RET_OK);  // due at 140 then
+  ASSERT_EQ(rcl_timer_call(timer(1)), RCL_RET_OK);  // due at 130, as timer 0
+  const TimerQueue::First first = queue_.first();
+  EXPECT_EQ(first.index, 0U);
+  EXPECT_EQ(first.time_until, 10);
+}
+
 TEST_F(TimerQueueTest, EachIsDueInItsTime) {
   const std::vector<std::vector<std::size_t>> expected = {{}, {1}, {1, 3}, {0, 1}, {1, 3}, {1}};
   for (std::size_t i = 0; i < expected.size(); ++i) {

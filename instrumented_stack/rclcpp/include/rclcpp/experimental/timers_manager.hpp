@@ -9,7 +9,6 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <thread>
 #include <vector>
 
@@ -17,9 +16,14 @@
 #include "rclcpp/macros.hpp"
 #include "rclcpp/timer.hpp"
 
-namespace rclcpp::experimental {
+namespace rclcpp {
 
-// Thread safe. Holds timers weakly. Looks at all timers to find the next one, so it suits some hundreds, not more.
+class TimerQueue;
+
+namespace experimental {
+
+// Thread safe. Holds timers weakly. They are in a heap: to find and to execute the next one costs the logarithm of
+// their number.
 class TimersManager {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS(TimersManager)
@@ -32,6 +36,8 @@ class TimersManager {
 
   void add_timer(const TimerBase::SharedPtr& timer);
   void remove_timer(const TimerBase::SharedPtr& timer);
+  // Gives up the timers that have ended. Until then their rcl timers are kept.
+  void remove_expired();
   void clear();
 
   // Executes timers in a thread of this object until stop(). Throws std::runtime_error if the thread runs already. An
@@ -47,14 +53,26 @@ class TimersManager {
   std::chrono::nanoseconds get_head_timeout();
 
  private:
-  std::vector<TimerBase::SharedPtr> living();
+  struct Timer {
+    TimerBase::WeakPtr timer;
+    std::shared_ptr<const rcl_timer_t> handle;  // the queue refers to it
+  };
+
+  // These with the mutex held. What is taken out is to be released without it: the end of an rcl timer locks its clock.
+  template <typename PredicateT>
+  std::vector<Timer> take_out(PredicateT predicate);
+  void empty_queue();
+  TimerQueue& queue();
   void run();
   void changed();
 
   const std::shared_ptr<rclcpp::Context> context_;
   const std::function<void()> on_change_;
   std::mutex mutex_;
-  std::vector<TimerBase::WeakPtr> timers_;
+  std::vector<Timer> timers_;
+  const std::unique_ptr<TimerQueue> queue_;  // of `timers_`, with their indices
+  bool is_queue_filled_ = false;
+  std::atomic_bool are_times_changed_{false};
 
   std::mutex thread_mutex_;
   std::condition_variable thread_wakes_;
@@ -63,4 +81,6 @@ class TimersManager {
   std::thread thread_;
 };
 
-}  // namespace rclcpp::experimental
+}  // namespace experimental
+
+}  // namespace rclcpp

@@ -27,7 +27,7 @@ class SimpleEventsQueue : public EventsQueue {
     const auto has_event = [this] { return !events_.empty(); };
     if (timeout == std::chrono::nanoseconds::max()) {
       arrived_.wait(lock, has_event);
-    } else {
+    } else if (timeout > std::chrono::nanoseconds::zero()) {  // a wait for no time would still ask the kernel
       arrived_.wait_until(lock, std::chrono::steady_clock::now() + timeout, has_event);
     }
     if (events_.empty()) {
