@@ -89,16 +89,17 @@ TEST_F(Workspace, IsBuiltTestedAndSourced) {
             "0\n");
 }
 
-// Packages that use the stack as tf2, tf2_ros, tf2_eigen, message_filters, diagnostic_updater and bond do. Their own
-// tests run, too.
+// Packages that use the stack as tf2, tf2_ros, tf2_eigen, message_filters, diagnostic_updater and bond do, and a server
+// of the kind of Navigation 2's that uses them all. Their own tests run, too.
 TEST_F(Workspace, MayHoldLibrariesOnRclcpp) {
   fs::remove_all(workspace_ / "src");
   fs::copy(LIBRARIES_SOURCES, workspace_ / "src", fs::copy_options::recursive);
   const CommandResult built = build({"--test", "--cmake-args", "-DCMAKE_BUILD_TYPE=None"});
   EXPECT_EQ(built.exit_code, 0) << built.out << built.err;
-  EXPECT_THAT(built.out, HasSubstr("\n6 packages built in "));
+  EXPECT_THAT(built.out, HasSubstr("\n7 packages built in "));
   for (const auto& [package, test] :
-       {std::pair{"track_frames_ros", "test_listener"}, std::pair{"track_bond", "test_bond"}}) {
+       {std::pair{"track_frames_ros", "test_listener"}, std::pair{"track_bond", "test_bond"},
+        std::pair{"track_navigator", "test_navigator"}}) {
     EXPECT_THAT(test_support::read_file(workspace_ / "build" / package / "test_results/ctest.xml"),
                 HasSubstr("testcase name=\"" + std::string(test) + "\""));
   }

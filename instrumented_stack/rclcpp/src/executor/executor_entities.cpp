@@ -258,9 +258,10 @@ void ExecutorEntities::find_groups(Owners& owners) {
       owners.nodes.push_back(std::move(node));
     }
   }
-  groups_.erase(std::remove_if(groups_.begin(), groups_.end(),
-                               [](const ServedGroup& s) { return s.group.expired() || s.node.expired(); }),
-                groups_.end());
+  // A group may outlive its node, with a client for example. It is served on.
+  groups_.erase(
+      std::remove_if(groups_.begin(), groups_.end(), [](const ServedGroup& served) { return served.group.expired(); }),
+      groups_.end());
 }
 
 void ExecutorEntities::rebuild(Owners& owners, std::vector<detail::ReadyEntity>& ready_earlier) {

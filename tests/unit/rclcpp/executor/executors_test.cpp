@@ -278,6 +278,28 @@ TYPED_TEST(ExecutorsTest, TellsItsGroupsByTheirOrigin) {
   EXPECT_EQ(this->executor_.get_all_callback_groups().size(), 1u);
 }
 
+// A client that spins for its answers may have been given a node that nobody keeps.
+TYPED_TEST(ExecutorsTest, ServesAGroupThatOutlivesItsNode) {
+  const auto group = this->node_->create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive, false);
+  this->executor_.add_callback_group(group, this->node_->get_node_base_interface());
+  const auto service = this->node_->template create_service<AddTwoInts>(
+      "add",
+      [](const AddTwoInts::Request::SharedPtr request, AddTwoInts::Response::SharedPtr response) {
+        response->sum = request->a + request->b;
+      },
+      rclcpp::ServicesQoS(), group);
+  const auto client = this->node_->template create_client<AddTwoInts>("add", rclcpp::ServicesQoS(), group);
+  ASSERT_TRUE(client->wait_for_service(kPatience));
+  this->node_.reset();
+  auto request = std::make_shared<AddTwoInts::Request>();
+  request->a = 1;
+  request->b = 2;
+  auto sum = client->async_send_request(request);
+  ASSERT_EQ(this->executor_.spin_until_future_complete(sum, kPatience), FutureReturnCode::SUCCESS);
+  EXPECT_EQ(sum.get()->sum, 3);
+  EXPECT_EQ(this->executor_.get_manually_added_callback_groups().size(), 1U);
+}
+
 TYPED_TEST(ExecutorsTest, SurvivesWhatItServes) {
   auto timer = this->eager_timer([] {});
   auto subscription = this->node_->template create_subscription<UInt64>("topic", 1, [](const UInt64&) {});
