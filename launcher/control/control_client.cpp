@@ -24,13 +24,16 @@ constexpr int kForEver = -1;
 
 }  // namespace
 
-Json ControlClient::ask(Json request) {
+void ControlClient::send_request(const Json& request) {
   Json whole{{"version", kControlVersion}};
   whole.update(request);
   send(whole.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+template <typename HasAnswer>
+void ControlClient::wait_for_answer(const HasAnswer& has_answer) {
   const auto until = std::chrono::steady_clock::now() + kPatience;
-  std::optional<Json> answer;
-  while (!(answer = take(true))) {
+  while (!has_answer()) {
     if (ended_) {
       throw ControlError(fmt::format("launch {} has ended", pid()));
     }
@@ -40,10 +43,25 @@ Json ControlClient::ask(Json request) {
     }
     receive(static_cast<int>(left));
   }
+}
+
+Json ControlClient::ask(const Json& request) {
+  send_request(request);
+  std::optional<Json> answer;
+  wait_for_answer([&] { return (answer = take(true)).has_value(); });
   if (!answer->value("ok", false)) {
     throw ControlError(answer->value("error", "the launch has given no reason"), answer->value("help", ""));
   }
   return *std::move(answer);
+}
+
+std::string ControlClient::ask_for_line(const Json& request) {
+  send_request(request);
+  std::size_t end = 0;
+  wait_for_answer([&] { return (end = buffer_.find('\n')) != std::string::npos; });
+  std::string line = buffer_.substr(0, end);
+  buffer_.erase(0, end + 1);
+  return line;
 }
 
 std::optional<Json> ControlClient::next() {

@@ -38,8 +38,10 @@ class ControlClient {
 
   // Sends a request and waits for the answer. `request` gets the version. Throws ControlError when the launch refuses,
   // has ended, or does not answer for a while (it may be stopped).
-  Json ask(Json request);
+  Json ask(const Json& request);
   Json ask(const char* what) { return ask(Json{{"do", what}}); }
+  // As ask(), but returns the line of the answer as it is, also a refusal. Only for a client that follows nothing.
+  std::string ask_for_line(const Json& request);
 
   // What the launch tells, after a request for it: waits for the next line. Nothing when the launch has ended, or when
   // the time is over.
@@ -49,6 +51,10 @@ class ControlClient {
   bool ended() const { return ended_; }
 
  private:
+  void send_request(const Json& request);
+  // Waits until `has_answer` returns true.
+  template <typename HasAnswer>
+  void wait_for_answer(const HasAnswer& has_answer);
   std::optional<Json> take(bool answer);
   bool receive(int patience);
   void send(std::string_view text);

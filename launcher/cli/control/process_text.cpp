@@ -5,20 +5,20 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <system_error>
+#include <vector>
+
+#include "launcher/control/process_usage.hpp"
 
 namespace launch {
 
-std::vector<std::optional<ProcessUsage>> usage_of(const nlohmann::ordered_json& processes) {
+void add_usage(nlohmann::ordered_json& processes) {
   std::vector<pid_t> pids;
   for (const nlohmann::ordered_json& process : processes) {
     pids.push_back(process.value("pid", -1));
   }
-  return read_process_usage(pids);
-}
-
-void add_usage(nlohmann::ordered_json& processes) {
-  const std::vector<std::optional<ProcessUsage>> usage = usage_of(processes);
+  const std::vector<std::optional<ProcessUsage>> usage = read_process_usage(pids);
   for (std::size_t i = 0; i < usage.size(); ++i) {
     if (usage[i]) {
       processes[i]["cpu"] = usage[i]->cpu;
@@ -33,9 +33,12 @@ std::string end_text(const nlohmann::ordered_json& end) {
 }
 
 std::string state_text(const nlohmann::ordered_json& process) {
-  const std::string state = process.value("state", "");
   const auto end = process.find("last_end");
-  return state == "ended" && end != process.end() ? fmt::format("ended: {}", end_text(*end)) : state;
+  return state_text(process.value("state", ""), end == process.end() ? "" : end_text(*end));
+}
+
+std::string state_text(const std::string& state, const std::string& end) {
+  return state == "ended" && !end.empty() ? fmt::format("ended: {}", end) : state;
 }
 
 std::string memory_text(std::uint64_t bytes) {
@@ -63,13 +66,13 @@ std::string duration_text(double seconds) {
 }
 
 std::string place_text(const nlohmann::ordered_json& place) {
-  if (!place.is_object()) {
-    return "-";
-  }
+  return place.is_object() ? place_text(place.value("file", ""), place.value("line", 0)) : "-";
+}
+
+std::string place_text(const std::string& file, int line) {
   // Most processes are asked for by one file, and a path takes longer than the rest of a row.
   static std::string last;
   static std::string shown;
-  const std::string file = place.value("file", "");
   if (file != last || shown.empty()) {
     std::error_code unknown;
     static const std::filesystem::path here = std::filesystem::current_path(unknown);
@@ -77,7 +80,7 @@ std::string place_text(const nlohmann::ordered_json& place) {
     last = file;
     shown = relative.empty() || relative.starts_with("..") ? file : relative;
   }
-  return fmt::format("{}:{}", shown, place.value("line", 0));
+  return fmt::format("{}:{}", shown, line);
 }
 
 std::size_t columns_of(std::string_view text) {

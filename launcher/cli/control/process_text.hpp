@@ -5,21 +5,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
-
-#include "launcher/control/process_usage.hpp"
 
 namespace launch {
 
-// What each process uses, nothing for those that do not run.
-std::vector<std::optional<ProcessUsage>> usage_of(const nlohmann::ordered_json& processes);
 // Adds `cpu` (seconds) and `memory` (bytes) to those of the processes that run.
 void add_usage(nlohmann::ordered_json& processes);
 // "running", "ended: exit code 1", "ended: SIGSEGV".
 std::string state_text(const nlohmann::ordered_json& process);
+std::string state_text(const std::string& state, const std::string& end);
 // "exit code 1", "SIGSEGV".
 std::string end_text(const nlohmann::ordered_json& end);
 // "12.3 MiB"
@@ -28,6 +23,7 @@ std::string memory_text(std::uint64_t bytes);
 std::string duration_text(double seconds);
 // "system.launch.xml:4", the file relative to the current directory if it is below it. "-" for no place.
 std::string place_text(const nlohmann::ordered_json& place);
+std::string place_text(const std::string& file, int line);
 // Columns of a terminal that a text takes, a column for each character.
 std::size_t columns_of(std::string_view text);
 

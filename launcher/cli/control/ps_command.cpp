@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `launch ps`: the processes of the launches that run.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -8,6 +9,9 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "launcher/cli/control/commands.hpp"
 #include "launcher/cli/control/process_text.hpp"
@@ -15,40 +19,45 @@
 #include "launcher/control/control_client.hpp"
 #include "launcher/control/control_protocol.hpp"
 #include "launcher/control/process_usage.hpp"
+#include "launcher/control/ps_answer.hpp"
 
 namespace launch {
 namespace {
 
 using Json = ControlClient::Json;
-using ProcessRow = std::array<std::string, 8>;
+
+constexpr std::size_t kColumns = 8;
+using ProcessRow = std::array<std::string, kColumns>;
 
 // As ps(1): the share of a processor since the start.
-std::string cpu_text(const std::optional<ProcessUsage>& usage, const Json& process) {
-  const double running_for = process.value("running_for", 0.0);
-  return usage && running_for > 0 ? fmt::format("{:.1f} %", 100 * usage->cpu / running_for) : "-";
+std::string cpu_text(const ProcessUsage& usage, double running_for) {
+  return running_for > 0 ? fmt::format("{:.1f} %", 100 * usage.cpu / running_for) : "-";
 }
 
-ProcessRow row_of(const Json& process, const std::optional<ProcessUsage>& usage) {
-  const auto pid = process.find("pid");
-  const auto restarts = process.find("restarts");
-  return {process["name"].get<std::string>(),
-          state_text(process),
-          pid == process.end() ? "-" : std::to_string(pid->get<pid_t>()),
-          restarts == process.end() ? "-" : std::to_string(restarts->get<std::int64_t>()),
-          cpu_text(usage, process),
+ProcessRow row_of(const ListedLaunch& launch, const ListedProcess& process, const std::optional<ProcessUsage>& usage) {
+  const bool runs = process.pid >= 0;
+  return {process.name,
+          state_text(process.state, process.end),
+          runs ? std::to_string(process.pid) : "-",
+          process.restarts < 0 ? "-" : std::to_string(process.restarts),
+          usage ? cpu_text(*usage, process.running_for) : "-",
           usage ? memory_text(usage->memory) : "-",
-          pid == process.end() ? "-" : duration_text(process.value("running_for", 0.0)),
-          place_text(process["place"])};
+          runs ? duration_text(process.running_for) : "-",
+          process.line == 0 ? "-" : place_text(launch.places[process.file], process.line)};
 }
 
-std::string table(const Json& processes) {
-  const std::vector<std::optional<ProcessUsage>> usage = usage_of(processes);
-  std::vector<ProcessRow> rows{{"NAME", "STATE", "PID", "RESTARTS", "CPU", "MEMORY", "TIME", "PLACE"}};
-  rows.reserve(processes.size() + 1);
-  for (std::size_t i = 0; i < processes.size(); ++i) {
-    rows.push_back(row_of(processes[i], usage[i]));
+std::string table(const ListedLaunch& launch) {
+  std::vector<pid_t> pids;
+  for (const ListedProcess& process : launch.processes) {
+    pids.push_back(process.pid);
   }
-  std::array<std::size_t, std::tuple_size_v<ProcessRow>> widths{};
+  const std::vector<std::optional<ProcessUsage>> usage = read_process_usage(pids);
+  std::vector<ProcessRow> rows{{"NAME", "STATE", "PID", "RESTARTS", "CPU", "MEMORY", "TIME", "PLACE"}};
+  rows.reserve(launch.processes.size() + 1);
+  for (std::size_t i = 0; i < launch.processes.size(); ++i) {
+    rows.push_back(row_of(launch, launch.processes[i], usage[i]));
+  }
+  std::array<std::size_t, kColumns> widths{};
   for (const ProcessRow& row : rows) {
     for (std::size_t i = 0; i < row.size(); ++i) {
       widths[i] = std::max(widths[i], columns_of(row[i]));
@@ -67,16 +76,17 @@ std::string table(const Json& processes) {
   return text;
 }
 
-std::string heading(const Json& answer) {
-  const Json& launch = answer["launch"];
-  const double age = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count() -
-                     launch["started"].get<double>();
-  const std::size_t count = answer["processes"].size();
-  const std::string isolation = launch.contains("isolation")
-                                    ? fmt::format(", isolated by {}", launch["isolation"].get<std::string>())
-                                    : std::string();
-  return fmt::format("launch {}: {}, {} for {}, {} process{}{}\n", launch["pid"].get<pid_t>(), files_of(answer),
-                     launch["state"].get<std::string>(), duration_text(age), count, count == 1 ? "" : "es", isolation);
+std::string heading(const ListedLaunch& launch) {
+  const double age =
+      std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count() - launch.started;
+  std::vector<std::string> files;
+  for (const std::string& file : launch.files) {
+    files.push_back(std::filesystem::path(file).filename().string());
+  }
+  const std::size_t count = launch.processes.size();
+  return fmt::format("launch {}: {}, {} for {}, {} process{}{}{}\n", launch.pid, fmt::join(files, ", "), launch.state,
+                     duration_text(age), count, count == 1 ? "" : "es",
+                     launch.isolation.empty() ? "" : ", isolated by ", launch.isolation);
 }
 
 // The launch that `wanted` names, or all.
@@ -106,17 +116,22 @@ int ps_command(const std::string& name, const std::vector<std::string>& words, c
     return *exit_code;
   }
   std::vector<ControlClient> asked = launches(environment, wanted);
+  std::vector<std::string> tables;
   Json answers = Json::array();
   int exit_code = asked.empty() ? 1 : 0;
   for (ControlClient& launch : asked) {
     try {
-      Json answer = launch.ask({{"do", "ps"}, {"processes", names}});
+      const Json request{{"do", "ps"}, {"processes", names}};
       if (as_json) {
+        Json answer = launch.ask(request);
         add_usage(answer["processes"]);
+        answer.erase("ok");
+        answer.erase("version");
+        answers.push_back(std::move(answer));
+      } else {
+        const ListedLaunch listed = read_ps_answer(launch.ask_for_line(request));
+        tables.push_back(heading(listed) + table(listed));
       }
-      answer.erase("ok");
-      answer.erase("version");
-      answers.push_back(std::move(answer));
     } catch (const ControlError& error) {
       // Another launch may have a process of this name.
       if (asked.size() == 1) {
@@ -131,14 +146,12 @@ int ps_command(const std::string& name, const std::vector<std::string>& words, c
   if (as_json) {
     fmt::print("{}\n", Json{{"version", kControlVersion}, {"launches", answers}}.dump(2));
   } else {
-    for (std::size_t i = 0; i < answers.size(); ++i) {
-      fmt::print("{}{}{}", i == 0 ? "" : "\n", heading(answers[i]), table(answers[i]["processes"]));
-    }
+    fmt::print("{}", fmt::join(tables, "\n"));
   }
   if (asked.empty()) {
     throw ControlError("no launch runs");
   }
-  if (answers.empty() && !names.empty()) {
+  if (answers.empty() && tables.empty() && !names.empty()) {
     throw ControlError(fmt::format("no launch has a process of this name: {}", fmt::join(names, ", ")));
   }
   return exit_code;

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// The answer of a launch to "ps", as plain data. It is read without a tree of JSON values in between, which would take
+// as long as everything else that `launch ps` does with a thousand processes.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace launch {
+
+struct ListedProcess {
+  std::string name;
+  std::string state;           // "running", … (docs/control.md)
+  std::string end;             // of the last run: "exit code 1", "SIGSEGV"; "" if none has ended
+  pid_t pid = -1;              // -1: it does not run
+  std::int64_t restarts = -1;  // -1: it has not been started
+  double running_for = 0;      // seconds
+  std::size_t file = 0;        // its place: the number in ListedLaunch::places
+  int line = 0;                // 0: no file asked for it
+};
+
+struct ListedLaunch {
+  pid_t pid = -1;
+  std::string state;
+  std::string isolation;            // "" if it is not isolated
+  double started = 0;               // seconds since 1970
+  std::vector<std::string> files;   // those of the command line
+  std::vector<std::string> places;  // the files that have asked for processes
+  std::vector<ListedProcess> processes;
+};
+
+// Reads the line. Throws ControlError: with the text of the launch if it refuses, or if this is no such answer.
+ListedLaunch read_ps_answer(std::string_view line);
+
+}  // namespace launch
