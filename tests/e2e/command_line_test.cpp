@@ -15,6 +15,7 @@ using namespace test_support;
 using namespace std::chrono_literals;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::StartsWith;
 
 class CommandLine : public testing::Test {
@@ -35,6 +36,15 @@ TEST_F(CommandLine, HelpNamesTheOptionsAndTheOtherCommands) {
   }
   EXPECT_EQ(launch({"trace", "--help"}).exit_code, 0);
   EXPECT_EQ(launch({"report", "--help"}).exit_code, 0);
+}
+
+// Each library costs every command and every launch a part of a millisecond.
+TEST_F(CommandLine, LoadsNoLibraryBeforeItIsNeeded) {
+  const CommandResult result = run_command({"/usr/bin/env", "LD_TRACE_LOADED_OBJECTS=1", LAUNCH_PROGRAM});
+  EXPECT_THAT(result.out, HasSubstr("libc.so"));
+  for (const char* const library : {"libsystemd", "liblttng", "libxml2", "libicu", "libpython", "libncurses"}) {
+    EXPECT_THAT(result.out, Not(HasSubstr(library)));
+  }
 }
 
 TEST_F(CommandLine, ReferencePageOfTheDocumentationIsUpToDate) {

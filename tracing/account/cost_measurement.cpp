@@ -2,7 +2,6 @@
 #include "tracing/account/cost_measurement.hpp"
 
 #include <fmt/core.h>
-#include <lttng/lttng.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 
 #include "tracing/lttng/channels.hpp"
 #include "tracing/lttng/installed_program.hpp"
+#include "tracing/lttng/lttng_ctl.hpp"
 #include "tracing/lttng/lttng_error.hpp"
 #include "tracing/lttng/session_daemon.hpp"
 #include "tracing/plan/channel_plan.hpp"

@@ -2,12 +2,12 @@
 #include "tracing/account/loss_counters.hpp"
 
 #include <fmt/core.h>
-#include <lttng/lttng.h>
 
 #include <cstdint>
 #include <utility>
 
 #include "tracing/lttng/channels.hpp"
+#include "tracing/lttng/lttng_ctl.hpp"
 #include "tracing/lttng/lttng_error.hpp"
 #include "tracing/lttng/lttng_list.hpp"
 #include "tracing/plan/channel_plan.hpp"

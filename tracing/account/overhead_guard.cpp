@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/account/overhead_guard.hpp"
 
-#include <lttng/lttng.h>
-
 #include <algorithm>
 #include <chrono>
 #include <map>
@@ -11,6 +9,7 @@
 
 #include "tracing/account/event_counters.hpp"
 #include "tracing/lttng/channels.hpp"
+#include "tracing/lttng/lttng_ctl.hpp"
 #include "tracing/plan/plan_channels.hpp"
 #include "tracing/plan/trace_error.hpp"
 

@@ -3,13 +3,13 @@
 
 #include <fmt/core.h>
 #include <fnmatch.h>
-#include <lttng/lttng.h>
 
 #include <algorithm>
 #include <array>
 #include <set>
 
 #include "tracing/lttng/channels.hpp"
+#include "tracing/lttng/lttng_ctl.hpp"
 #include "tracing/lttng/lttng_list.hpp"
 
 namespace tracing {

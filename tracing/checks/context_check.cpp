@@ -2,7 +2,6 @@
 #include "tracing/checks/context_check.hpp"
 
 #include <fmt/core.h>
-#include <lttng/lttng.h>
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -12,6 +11,7 @@
 #include "tracing/checks/perf_check.hpp"
 #include "tracing/lttng/channels.hpp"
 #include "tracing/lttng/installed_program.hpp"
+#include "tracing/lttng/lttng_ctl.hpp"
 #include "tracing/lttng/lttng_error.hpp"
 #include "tracing/plan/trace_error.hpp"
 

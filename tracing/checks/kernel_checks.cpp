@@ -4,7 +4,6 @@
 #include <fmt/core.h>
 #include <fnmatch.h>
 #include <lttng/lttng-error.h>
-#include <lttng/lttng.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -12,6 +11,7 @@
 
 #include "launcher/base/text/nearest_name.hpp"
 #include "tracing/lttng/channels.hpp"
+#include "tracing/lttng/lttng_ctl.hpp"
 #include "tracing/lttng/lttng_list.hpp"
 #include "tracing/plan/event_rule.hpp"
 #include "tracing/plan/trace_error.hpp"

@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <fmt/core.h>
-#include <lttng/lttng.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
 
@@ -11,6 +10,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "tracing/lttng/lttng_ctl.hpp"
 #include "tracing/plan/trace_error.hpp"
 
 namespace tracing {

@@ -2,7 +2,6 @@
 #include "tracing/checks/unreachable_processes.hpp"
 
 #include <fmt/core.h>
-#include <lttng/lttng.h>
 #include <sys/stat.h>
 
 #include <charconv>
@@ -16,6 +15,7 @@
 #include <utility>
 
 #include "tracing/lttng/channels.hpp"
+#include "tracing/lttng/lttng_ctl.hpp"
 #include "tracing/lttng/lttng_list.hpp"
 #include "tracing/lttng/session_daemon.hpp"
 

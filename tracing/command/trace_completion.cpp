@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/command/trace_completion.hpp"
 
-#include <lttng/lttng.h>
-
 #include <algorithm>
 #include <set>
 #include <sstream>
 
 #include "tracing/checks/kernel_checks.hpp"
 #include "tracing/command/trace_options.hpp"
+#include "tracing/lttng/lttng_ctl.hpp"
 #include "tracing/plan/context_fields.hpp"
 #include "tracing/plan/trace_config.hpp"
 #include "tracing/plan/trace_error.hpp"

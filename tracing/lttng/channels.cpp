@@ -3,11 +3,11 @@
 
 #include <fmt/core.h>
 #include <lttng/event.h>
-#include <lttng/lttng.h>
 
 #include <algorithm>
 #include <vector>
 
+#include "tracing/lttng/lttng_ctl.hpp"
 #include "tracing/lttng/lttng_error.hpp"
 #include "tracing/plan/context_fields.hpp"
 #include "tracing/plan/event_rule.hpp"
@@ -81,8 +81,7 @@ DomainHandle domain_handle(const std::string& lttng_session_name, lttng_domain d
 
 void enable_channel(const std::string& lttng_session_name, const ChannelPlan& plan) {
   lttng_domain domain = make_domain(plan.domain, plan.buffers);
-  const std::unique_ptr<lttng_channel, decltype(&lttng_channel_destroy)> channel(lttng_channel_create(&domain),
-                                                                                 &lttng_channel_destroy);
+  const LttngOwned<lttng_channel> channel(lttng_channel_create(&domain), lttng_channel_destroy);
   if (!channel) throw lttng_error(LTTNG_ERR_NOMEM, "create a channel");
   plan.channel.copy(channel->name, sizeof channel->name - 1);
   channel->enabled = 1;

@@ -3,10 +3,10 @@
 
 #include <fmt/core.h>
 #include <lttng/lttng-error.h>
-#include <lttng/lttng.h>
 
 #include <cstdlib>
 
+#include "tracing/lttng/lttng_ctl.hpp"
 #include "tracing/lttng/session_daemon.hpp"
 #include "tracing/plan/trace_error.hpp"
 

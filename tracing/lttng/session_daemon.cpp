@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <fmt/core.h>
-#include <lttng/lttng.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -23,6 +22,7 @@
 #include "launcher/base/processes/process_mark.hpp"
 #include "launcher/base/processes/process_stat.hpp"
 #include "launcher/base/processes/spawn.hpp"
+#include "tracing/lttng/lttng_ctl.hpp"
 #include "tracing/plan/trace_error.hpp"
 
 namespace tracing {

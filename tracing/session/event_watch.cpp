@@ -2,11 +2,11 @@
 #include "tracing/session/event_watch.hpp"
 
 #include <fmt/core.h>
-#include <lttng/lttng.h>
 
 #include <algorithm>
 #include <chrono>
 
+#include "tracing/lttng/lttng_ctl.hpp"
 #include "tracing/lttng/lttng_error.hpp"
 #include "tracing/plan/event_rule.hpp"
 #include "tracing/plan/trace_error.hpp"
@@ -17,15 +17,12 @@ namespace {
 // liblttng-ctl has no call that waits for a notification and can be ended, nor a descriptor to wait on.
 constexpr std::chrono::milliseconds kBetweenLooks{2};
 
-template <typename T>
-using Owned = std::unique_ptr<T, void (*)(T*)>;
-
 std::string trigger_name(const std::string& name, std::size_t number) {
   return fmt::format("{}:{}", name, number);
 }
 
-Owned<lttng_event_rule> make_rule(const EventRule& rule) {
-  Owned<lttng_event_rule> made(lttng_event_rule_user_tracepoint_create(), &lttng_event_rule_destroy);
+LttngOwned<lttng_event_rule> make_rule(const EventRule& rule) {
+  LttngOwned<lttng_event_rule> made(lttng_event_rule_user_tracepoint_create(), lttng_event_rule_destroy);
   const auto check = [&rule](lttng_event_rule_status status) {
     if (status != LTTNG_EVENT_RULE_STATUS_OK) {
       throw TraceError(fmt::format("LTTng does not watch for event '{}'", rule.pattern),
@@ -36,10 +33,10 @@ Owned<lttng_event_rule> make_rule(const EventRule& rule) {
   check(lttng_event_rule_user_tracepoint_set_name_pattern(made.get(), rule.pattern.c_str()));
   if (!rule.filter.empty()) check(lttng_event_rule_user_tracepoint_set_filter(made.get(), rule.filter.c_str()));
   if (rule.log_level) {
-    const Owned<lttng_log_level_rule> level(rule.exactly_that_level
-                                                ? lttng_log_level_rule_exactly_create(*rule.log_level)
-                                                : lttng_log_level_rule_at_least_as_severe_as_create(*rule.log_level),
-                                            &lttng_log_level_rule_destroy);
+    const LttngOwned<lttng_log_level_rule> level(
+        rule.exactly_that_level ? lttng_log_level_rule_exactly_create(*rule.log_level)
+                                : lttng_log_level_rule_at_least_as_severe_as_create(*rule.log_level),
+        lttng_log_level_rule_destroy);
     check(lttng_event_rule_user_tracepoint_set_log_level_rule(made.get(), level.get()));
   }
   return made;
@@ -57,7 +54,7 @@ void EventWatch::ChannelDeleter::operator()(lttng_notification_channel* channel)
 
 EventWatch::EventWatch(const std::string& name, const std::vector<std::string>& rules,
                        std::function<void(const std::string&)> seen)
-    : seen_(std::move(seen)), channel_(lttng_notification_channel_create(lttng_session_daemon_notification_endpoint)) {
+    : seen_(std::move(seen)), channel_(lttng_notification_channel_create(lttng_notification_endpoint())) {
   if (!channel_) throw TraceError("cannot watch for events: the session daemon does not answer");
   try {
     for (const std::string& rule : rules) add(name, rule);
@@ -83,12 +80,12 @@ void EventWatch::add(const std::string& name, const std::string& text) {
 }
 
 void EventWatch::add(const std::string& name, const EventRule& parsed, const std::string& text) {
-  const Owned<lttng_event_rule> rule = make_rule(parsed);
-  const Owned<lttng_condition> condition(lttng_condition_event_rule_matches_create(rule.get()),
-                                         &lttng_condition_destroy);
+  const LttngOwned<lttng_event_rule> rule = make_rule(parsed);
+  const LttngOwned<lttng_condition> condition(lttng_condition_event_rule_matches_create(rule.get()),
+                                              lttng_condition_destroy);
   // In a list, as `lttng add-trigger` makes it: `lttng list-triggers` aborts at an action that stands alone.
-  const Owned<lttng_action> notify(lttng_action_notify_create(), &lttng_action_destroy);
-  const Owned<lttng_action> action(lttng_action_list_create(), &lttng_action_destroy);
+  const LttngOwned<lttng_action> notify(lttng_action_notify_create(), lttng_action_destroy);
+  const LttngOwned<lttng_action> action(lttng_action_list_create(), lttng_action_destroy);
   lttng_action_list_add_action(action.get(), notify.get());
   std::unique_ptr<lttng_trigger, TriggerDeleter> trigger(lttng_trigger_create(condition.get(), action.get()));
   const std::string unique = trigger_name(name, rules_.size());
@@ -129,7 +126,7 @@ bool EventWatch::tell_next() {
   }
   lttng_notification* received = nullptr;
   const auto status = lttng_notification_channel_get_next_notification(channel_.get(), &received);
-  const Owned<lttng_notification> notification(received, &lttng_notification_destroy);
+  const LttngOwned<lttng_notification> notification(received, lttng_notification_destroy);
   // LTTng drops notifications that come too fast. The notifications that arrive suffice to report the event.
   if (status == LTTNG_NOTIFICATION_CHANNEL_STATUS_NOTIFICATIONS_DROPPED) return true;
   if (status != LTTNG_NOTIFICATION_CHANNEL_STATUS_OK) return false;
@@ -143,7 +140,7 @@ bool EventWatch::tell_next() {
 void EventWatch::clean_up(const std::string& name) {
   lttng_triggers* listed = nullptr;
   if (lttng_list_triggers(&listed) != LTTNG_OK) return;
-  const Owned<lttng_triggers> triggers(listed, &lttng_triggers_destroy);
+  const LttngOwned<lttng_triggers> triggers(listed, lttng_triggers_destroy);
   unsigned int count = 0;
   lttng_triggers_get_count(listed, &count);
   for (unsigned int i = 0; i < count; ++i) {

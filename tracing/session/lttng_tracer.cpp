@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
-#include <lttng/lttng.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -25,6 +24,7 @@
 #include "tracing/checks/unreachable_processes.hpp"
 #include "tracing/kernel/kernel_recorder.hpp"
 #include "tracing/lttng/consumer_priority.hpp"
+#include "tracing/lttng/lttng_ctl.hpp"
 #include "tracing/lttng/lttng_error.hpp"
 #include "tracing/lttng/relay_connection.hpp"
 #include "tracing/lttng/session_daemon.hpp"

@@ -2,12 +2,12 @@
 #include "tracing/session/new_session.hpp"
 
 #include <fmt/core.h>
-#include <lttng/lttng.h>
 
 #include <chrono>
 #include <filesystem>
 #include <system_error>
 
+#include "tracing/lttng/lttng_ctl.hpp"
 #include "tracing/lttng/lttng_error.hpp"
 #include "tracing/plan/trace_error.hpp"
 #include "tracing/session/session_end.hpp"

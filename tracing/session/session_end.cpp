@@ -3,7 +3,6 @@
 
 #include <fmt/core.h>
 #include <lttng/destruction-handle.h>
-#include <lttng/lttng.h>
 
 #include <algorithm>
 #include <chrono>
@@ -11,6 +10,7 @@
 #include <thread>
 
 #include "tracing/account/loss_counters.hpp"
+#include "tracing/lttng/lttng_ctl.hpp"
 #include "tracing/lttng/lttng_error.hpp"
 #include "tracing/plan/trace_error.hpp"
 #include "tracing/session/session_listing.hpp"

@@ -2,7 +2,6 @@
 #include "tracing/session/session_listing.hpp"
 
 #include <fmt/core.h>
-#include <lttng/lttng.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +13,7 @@
 #include "tracing/account/loss_counters.hpp"
 #include "tracing/checks/kernel_checks.hpp"
 #include "tracing/lttng/channels.hpp"
+#include "tracing/lttng/lttng_ctl.hpp"
 #include "tracing/lttng/lttng_list.hpp"
 #include "tracing/lttng/session_daemon.hpp"
 #include "tracing/plan/channel_plan.hpp"

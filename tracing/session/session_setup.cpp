@@ -2,7 +2,6 @@
 #include "tracing/session/session_setup.hpp"
 
 #include <fmt/core.h>
-#include <lttng/lttng.h>
 #include <sys/sysinfo.h>
 #include <unistd.h>
 
@@ -21,6 +20,7 @@
 #include "tracing/lttng/channels.hpp"
 #include "tracing/lttng/consumer_priority.hpp"
 #include "tracing/lttng/installed_program.hpp"
+#include "tracing/lttng/lttng_ctl.hpp"
 #include "tracing/lttng/lttng_error.hpp"
 #include "tracing/lttng/session_daemon.hpp"
 #include "tracing/plan/channel_plan.hpp"

@@ -2,13 +2,12 @@
 #include "tracing/session/session_store.hpp"
 
 #include <fmt/core.h>
-#include <lttng/load.h>
 #include <lttng/lttng-error.h>
-#include <lttng/save.h>
 
 #include <filesystem>
 #include <memory>
 
+#include "tracing/lttng/lttng_ctl.hpp"
 #include "tracing/lttng/lttng_error.hpp"
 #include "tracing/plan/trace_error.hpp"
 
@@ -24,8 +23,8 @@ std::string absolute(const std::string& directory) {
 
 void save_session(const std::string& name, const std::string& directory) {
   const std::string doing = fmt::format("save trace session '{}'", name);
-  const std::unique_ptr<lttng_save_session_attr, decltype(&lttng_save_session_attr_destroy)> attributes(
-      lttng_save_session_attr_create(), &lttng_save_session_attr_destroy);
+  const LttngOwned<lttng_save_session_attr> attributes(lttng_save_session_attr_create(),
+                                                       lttng_save_session_attr_destroy);
   if (!attributes) throw lttng_error(LTTNG_ERR_NOMEM, doing);
   check_lttng(lttng_save_session_attr_set_session_name(attributes.get(), name.c_str()), doing);
   check_lttng(lttng_save_session_attr_set_overwrite(attributes.get(), 1), doing);
@@ -40,8 +39,8 @@ void save_session(const std::string& name, const std::string& directory) {
 
 void load_session(const std::string& name, const std::string& directory) {
   const std::string doing = fmt::format("load trace session '{}'", name);
-  const std::unique_ptr<lttng_load_session_attr, decltype(&lttng_load_session_attr_destroy)> attributes(
-      lttng_load_session_attr_create(), &lttng_load_session_attr_destroy);
+  const LttngOwned<lttng_load_session_attr> attributes(lttng_load_session_attr_create(),
+                                                       lttng_load_session_attr_destroy);
   if (!attributes) throw lttng_error(LTTNG_ERR_NOMEM, doing);
   check_lttng(lttng_load_session_attr_set_session_name(attributes.get(), name.c_str()), doing);
   if (!directory.empty()) {

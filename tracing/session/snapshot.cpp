@@ -2,7 +2,6 @@
 #include "tracing/session/snapshot.hpp"
 
 #include <fmt/core.h>
-#include <lttng/lttng.h>
 #include <sys/sysinfo.h>
 
 #include <algorithm>
@@ -14,6 +13,7 @@
 #include "tracing/account/stream_packets.hpp"
 #include "tracing/account/verdict.hpp"
 #include "tracing/kernel/kernel_recorder.hpp"
+#include "tracing/lttng/lttng_ctl.hpp"
 #include "tracing/lttng/lttng_error.hpp"
 #include "tracing/lttng/lttng_list.hpp"
 #include "tracing/session/session_listing.hpp"
@@ -61,8 +61,7 @@ bool has_buffers_of_processes(const std::string& name) {
 
 void add_snapshot_output(const TraceConfig& config) {
   const std::string doing = fmt::format("add the output of snapshot session '{}'", config.lttng_session_name());
-  const std::unique_ptr<lttng_snapshot_output, decltype(&lttng_snapshot_output_destroy)> output(
-      lttng_snapshot_output_create(), &lttng_snapshot_output_destroy);
+  const LttngOwned<lttng_snapshot_output> output(lttng_snapshot_output_create(), lttng_snapshot_output_destroy);
   if (!output) throw lttng_error(LTTNG_ERR_NOMEM, doing);
   check_lttng(lttng_snapshot_output_set_name(kSnapshotName, output.get()), doing);
   if (config.over_network()) {
@@ -80,8 +79,7 @@ void add_snapshot_output(const TraceConfig& config) {
 std::optional<fs::path> snapshot_directory(const std::string& name) {
   lttng_snapshot_output_list* listed = nullptr;
   if (lttng_snapshot_list_output(name.c_str(), &listed) != 0) return std::nullopt;
-  const std::unique_ptr<lttng_snapshot_output_list, decltype(&lttng_snapshot_output_list_destroy)> outputs(
-      listed, &lttng_snapshot_output_list_destroy);
+  const LttngOwned<lttng_snapshot_output_list> outputs(listed, lttng_snapshot_output_list_destroy);
   const lttng_snapshot_output* const output = lttng_snapshot_output_list_get_next(outputs.get());
   if (output == nullptr) return std::nullopt;
   const std::string url = lttng_snapshot_output_get_ctrl_url(output);
@@ -136,8 +134,7 @@ void record_and_clear(const std::string& name) {
   if (const lttng_error_code code = lttng_clear_session(name.c_str(), &started); code != LTTNG_OK) {
     throw lttng_error(code, doing);
   }
-  const std::unique_ptr<lttng_clear_handle, decltype(&lttng_clear_handle_destroy)> handle(started,
-                                                                                          &lttng_clear_handle_destroy);
+  const LttngOwned<lttng_clear_handle> handle(started, lttng_clear_handle_destroy);
   lttng_error_code result = LTTNG_ERR_UNK;
   if (lttng_clear_handle_wait_for_completion(handle.get(), kWaitForever) != LTTNG_CLEAR_HANDLE_STATUS_COMPLETED ||
       lttng_clear_handle_get_result(handle.get(), &result) != LTTNG_CLEAR_HANDLE_STATUS_OK || result != LTTNG_OK) {
