@@ -59,8 +59,8 @@ std::string ControlClient::ask_for_line(const Json& request) {
   send_request(request);
   std::size_t end = 0;
   wait_for_answer([&] { return (end = buffer_.find('\n')) != std::string::npos; });
-  std::string line = buffer_.substr(0, end);
-  buffer_.erase(0, end + 1);
+  std::string line = std::exchange(buffer_, buffer_.substr(end + 1));
+  line.resize(end);
   return line;
 }
 

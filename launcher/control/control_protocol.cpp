@@ -263,14 +263,17 @@ std::string info_line(const LaunchFacts& facts, bool ending) {
 
 std::string ps_line(const LaunchFacts& facts, bool ending, const std::vector<SteeredProcess>& processes,
                     const ProcessSupervisor& supervisor) {
+  constexpr std::size_t kUsualProcess = 256;
   std::string line = info_line(facts, ending);
+  line.reserve(line.size() + processes.size() * kUsualProcess);
   line.pop_back();
   line += ",\"processes\":[";
   for (const SteeredProcess& process : processes) {
     line += &process == &processes.front() ? "" : ",";
     append_process(line, process, supervisor);
   }
-  return line + "]}";
+  line += "]}";
+  return line;
 }
 
 std::string outcome_line(const SteeringOutcome& outcome) {
