@@ -142,7 +142,7 @@ TEST_F(OnATerminal, CtrlCReachesTheProcessThatHasTheTerminalOnce) {
   terminal.type("\003");
   EXPECT_EQ(terminal.wait(), 0) << terminal.screen();
   const std::string all = terminal.screen();
-  EXPECT_THAT(all, HasSubstr("\n[ask-1] interrupted\n"));
+  EXPECT_THAT(all, HasSubstr("[ask-1] interrupted\n"));
   EXPECT_EQ(all.find("[ask-1] interrupted"), all.rfind("[ask-1] interrupted")) << all;
   EXPECT_THAT(all, HasSubstr("[INFO] [ask-1]: sending signal 'SIGTERM' to process[ask-1]\n"));
   EXPECT_THAT(all, HasSubstr("[ask-1] ended\n"));
