@@ -33,8 +33,9 @@ TEST(Navigator, IsBroughtUpComputesAndIsTakenDown) {
   request->plugin_name = "track_navigator::Navigator";
   auto loaded = load->async_send_request(request);
   ASSERT_EQ(rclcpp::spin_until_future_complete(client_node, loaded), rclcpp::FutureReturnCode::SUCCESS);
-  ASSERT_EQ(loaded.get()->error_message, "");
-  EXPECT_EQ(loaded.get()->full_node_name, "/navigator");
+  const auto response = loaded.get();
+  EXPECT_EQ(response->error_message, "");
+  EXPECT_EQ(response->full_node_name, "/navigator");
 
   const auto map = client_node->create_publisher<nav_msgs::msg::OccupancyGrid>("map", rclcpp::QoS(1).transient_local());
   nav_msgs::msg::OccupancyGrid grid;
