@@ -120,6 +120,15 @@ TEST_F(InstalledStack, FindsItsLibrariesWhereItWasMovedTo) {
   EXPECT_NE(libraries.find(prefix_.string()), std::string::npos) << libraries;
 }
 
+// ldd lists libraries in the order in which the dynamic linker searches them.
+TEST_F(InstalledStack, SearchesFastDdsBeforeItsOwnLibraries) {
+  const std::string libraries = run({"ldd", (prefix_ / "lib/librclcpp.so").string()}).out;
+  const std::size_t fast_dds = libraries.find("libfastrtps.so");
+  ASSERT_NE(fast_dds, std::string::npos) << libraries;
+  EXPECT_LT(fast_dds, libraries.find("librcl.so")) << libraries;
+  EXPECT_LT(fast_dds, libraries.find("libtype_description_interfaces.so")) << libraries;
+}
+
 TEST_F(InstalledStack, HoldsNoPathOfTheBuild) {
   const std::string build_root = fs::path(STACK_BUILD).parent_path().string();
   int files = 0;

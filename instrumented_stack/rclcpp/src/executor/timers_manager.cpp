@@ -19,7 +19,7 @@ bool refers_to(const TimerBase::WeakPtr& weak, const TimerBase::SharedPtr& timer
   return !weak.owner_before(timer) && !timer.owner_before(weak);
 }
 
-constexpr auto has_ended = [](const auto& known) { return known.timer.expired(); };
+constexpr auto kHasEnded = [](const auto& known) { return known.timer.expired(); };
 
 }  // namespace
 
@@ -56,7 +56,7 @@ void TimersManager::remove_timer(const TimerBase::SharedPtr& timer) {
 void TimersManager::remove_expired() {
   std::vector<Timer> removed;
   const std::lock_guard lock(mutex_);
-  removed = take_out(has_ended);
+  removed = take_out(kHasEnded);
 }
 
 void TimersManager::clear() {
@@ -105,7 +105,7 @@ bool TimersManager::execute_head_timer() {
       }
       head = timers_[first.index].timer.lock();
       if (!head) {
-        removed = take_out(has_ended);
+        removed = take_out(kHasEnded);
       }
     }
   }
@@ -132,7 +132,7 @@ nanoseconds TimersManager::get_head_timeout() {
     if (first.time_until == TimerQueue::kNever || !timers_[first.index].timer.expired()) {
       return nanoseconds(first.time_until);
     }
-    removed = take_out(has_ended);
+    removed = take_out(kHasEnded);
   }
 }
 
