@@ -19,6 +19,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -26,7 +27,9 @@
 #include "launcher/base/environment/own_prefix.hpp"
 #include "launcher/base/files/pipe.hpp"
 #include "launcher/base/processes/process_mark.hpp"
+#include "launcher/base/processes/spawn.hpp"
 #include "launcher/process/guardian/guardian_protocol.hpp"
+#include "launcher/process/guardian/process_scan.hpp"
 
 namespace launch {
 namespace {
@@ -133,7 +136,38 @@ Guardian Guardian::put_above(const std::vector<std::string>& command_line, const
     ::_exit(EXIT_FAILURE);
   }
   ::sigprocmask(SIG_SETMASK, &before, nullptr);
-  return {std::move(records), std::move(ready.read), id, guardian};
+  return {std::move(records), std::move(ready.read), id, guardian, program, ::getpid()};
+}
+
+Guardian::~Guardian() {
+  if (!records_ || ::getpid() != launcher_ || is_alive() || has_spare()) {
+    return;
+  }
+  ::unsetenv(kMarkVariable);  // or else it would take itself for a process of the launch
+  try {
+    spawn({.program = program_,
+           .argv = {"launch-guardian", id_, std::to_string(launcher_), std::to_string(records_.get()), "-1", "",
+                    "--after"},
+           .descriptors = {{records_.get(), records_.get()}},
+           .only_given_descriptors = true,
+           .signals = ChildSignals::kAllBlocked});
+  } catch (const std::system_error&) {
+    // Nothing else can be done.
+  }
+}
+
+bool Guardian::has_spare() const {
+  const std::string argument = '\0' + id_ + '\0';
+  const std::vector<FoundProcess> all = all_processes();
+  return std::any_of(all.begin(), all.end(), [&](const FoundProcess& process) {
+    if (process.name != "guardian-spare" ||
+        read_proc_file(process.pid, "cmdline").find(argument) == std::string::npos || is_being_killed(process.pid)) {
+      return false;
+    }
+    // A process that takes SIGKILL has it no longer, and begins to exit.
+    const std::optional<FoundProcess> now = read_process(process.pid);
+    return now && !now->is_dead() && !now->dying;
+  });
 }
 
 void Guardian::wait_until_ready() {

@@ -25,6 +25,10 @@ class Guardian {
   // the launch. Throws std::system_error; a missing program ends the process with exit code 1 and a message.
   static Guardian put_above(const std::vector<std::string>& command_line,
                             const std::string& program = default_program(), const std::vector<int>& held = {});
+  // If guardian and spare have been killed, starts another spare, which ends what this process leaves.
+  ~Guardian();
+  Guardian(Guardian&&) = default;
+  Guardian& operator=(Guardian&&) = default;
 
   // Waits until guardian and spare are there. A process that is started earlier may survive when all three are killed
   // at once.
@@ -55,13 +59,22 @@ class Guardian {
   static std::string default_program();
 
  private:
-  Guardian(UniqueFd records, UniqueFd ready, std::string id, pid_t pid)
-      : records_(std::move(records)), ready_(std::move(ready)), id_(std::move(id)), pid_(pid) {}
+  Guardian(UniqueFd records, UniqueFd ready, std::string id, pid_t pid, std::string program, pid_t launcher)
+      : records_(std::move(records)),
+        ready_(std::move(ready)),
+        id_(std::move(id)),
+        pid_(pid),
+        program_(std::move(program)),
+        launcher_(launcher) {}
+
+  bool has_spare() const;
 
   UniqueFd records_;
   UniqueFd ready_;  // a pipe that is closed when the guardian and its spare are there
   std::string id_;
   pid_t pid_ = -1;
+  std::string program_;
+  pid_t launcher_ = -1;         // this process, and not a copy that fork(2) has made of it
   std::int32_t clean_ups_ = 0;  // numbers given so far
 };
 

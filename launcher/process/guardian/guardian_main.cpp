@@ -49,6 +49,8 @@ class GuardianProcess {
 
   // Returns the wait status of the launcher after everything has ended.
   int run();
+  // Waits for the end of the launcher, the parent of this process, and ends what it leaves.
+  [[noreturn]] void follow_launcher();
   bool ended_all() const { return ended_all_; }
 
  private:
@@ -69,7 +71,7 @@ class GuardianProcess {
   UniqueFd ready_;
   std::set<pid_t> strangers_;
   UniqueFd launcher_process_ = open_process(launcher_);
-  UniqueFd own_process_ = open_process(::getpid());
+  UniqueFd guardian_process_ = open_process(::getpid());
   UniqueFd signals_;
   const std::optional<launch::TerminalState> terminal_ = launch::TerminalState::of(STDIN_FILENO);
   launch::UnansweredSignals unanswered_{launcher_};
@@ -134,6 +136,14 @@ void GuardianProcess::watch_signals() {
   signals_.reset(::signalfd(-1, &watched, SFD_CLOEXEC | SFD_NONBLOCK));
 }
 
+void GuardianProcess::follow_launcher() {
+  guardian_process_.reset();  // there is none any more
+  if (::getppid() != launcher_) {
+    launcher_process_.reset();  // it has ended, and its number may be that of another process
+  }
+  be_spare();
+}
+
 void GuardianProcess::start_spare() {
   spare_ = ::fork();
   if (spare_ == 0) {
@@ -149,8 +159,8 @@ void GuardianProcess::be_spare() {
   ready_.reset();
   // A launcher without a guardian gets SIGTERM from the kernel. It can be too busy to take it.
   launch::UnansweredSignals unanswered(launcher_);
-  std::array<pollfd, 2> ended{{{launcher_process_.get(), POLLIN, 0}, {own_process_.get(), POLLIN, 0}}};
-  for (bool guarded = true; (ended[0].revents & POLLIN) == 0;) {
+  std::array<pollfd, 2> ended{{{launcher_process_.get(), POLLIN, 0}, {guardian_process_.get(), POLLIN, 0}}};
+  for (bool guarded = static_cast<bool>(guardian_process_); launcher_process_ && (ended[0].revents & POLLIN) == 0;) {
     ::poll(ended.data(), ended.size(), unanswered.next_look());
     if ((ended[1].revents & POLLIN) != 0) {
       guarded = false;
@@ -160,9 +170,11 @@ void GuardianProcess::be_spare() {
       ::syscall(SYS_pidfd_send_signal, launcher_process_.get(), SIGKILL, nullptr, 0);
     }
   }
-  // A guardian that somebody has stopped must go on now.
-  ::syscall(SYS_pidfd_send_signal, own_process_.get(), SIGCONT, nullptr, 0);
-  wait_for_end(own_process_);
+  if (guardian_process_) {
+    // A guardian that somebody has stopped must go on now.
+    ::syscall(SYS_pidfd_send_signal, guardian_process_.get(), SIGCONT, nullptr, 0);
+    wait_for_end(guardian_process_);
+  }
   end_rest(
       {.launch_id = id_, .group = group_, .session = session_, .by_mark = true, .records = records_, .cgroup = cgroup_},
       "launcher and guardian have gone", -1);
@@ -263,12 +275,16 @@ std::set<pid_t> numbers(const char* text) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 7 || std::strcmp(argv[6], "--") != 0) {
+  const bool follows = argc >= 7 && std::strcmp(argv[6], "--after") == 0;
+  if (argc < 7 || (!follows && std::strcmp(argv[6], "--") != 0)) {
     std::fputs("launch-guardian is started by launch, not by hand\n", stderr);
     return EXIT_FAILURE;
   }
   GuardianProcess guardian(argv[1], std::atoi(argv[2]), std::atoi(argv[3]), UniqueFd(std::atoi(argv[4])),
                            numbers(argv[5]));
+  if (follows) {
+    guardian.follow_launcher();
+  }
   const int status = guardian.run();
   if (!guardian.ended_all() && WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS) {
     return EXIT_FAILURE;

@@ -11,7 +11,8 @@
 // ID is the number of the launch, LAUNCHER the process number of the launcher, RECORDS the descriptor of the memory
 // file, READY that of a pipe that is closed when the spare guardian is out of reach of signals to the process group,
 // CHILDREN the process numbers of children that the program had before, with commas. WORD… is the command line of
-// the launcher, for a reader of ps(1).
+// the launcher, for a reader of ps(1). A launcher that ends after guardian and spare were killed starts a spare again:
+// "--after" stands in the place of "--" then, and READY is -1.
 #pragma once
 
 #include <cstdint>

@@ -21,6 +21,34 @@ namespace {
 
 constexpr unsigned kExiting = 0x4;  // PF_EXITING of the kernel, in the flags of /proc/PID/stat
 
+// The part before the next colon, which is removed together with the colon.
+std::string_view next_part(std::string_view& text) {
+  const std::size_t end = std::min(text.find(':'), text.size());
+  const std::string_view part = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return part;
+}
+
+std::int64_t timeout(std::string_view text) {
+  constexpr std::int64_t kYear = 365LL * 24 * 3600 * 1000;
+  return std::clamp<std::int64_t>(std::atoll(std::string(text).c_str()), 0, kYear);
+}
+
+void read_mark_value(std::string_view value, const std::string& launch_id, ProcessMark& mark) {
+  if (next_part(value) != launch_id) {
+    return;
+  }
+  mark.ours = true;
+  mark.sigterm_timeout = timeout(next_part(value));
+  mark.sigkill_timeout = timeout(next_part(value));
+  const std::string_view screen = next_part(value);
+  mark.out_on_screen = screen.find('o') != std::string_view::npos;
+  mark.error_on_screen = screen.find('e') != std::string_view::npos;
+  mark.label = value;
+}
+
+}  // namespace
+
 // From /proc/PID/stat, proc(5): "pid (name) state ppid pgrp session tty tpgid flags … starttime …".
 std::optional<FoundProcess> read_process(pid_t pid) {
   constexpr int kFieldOfStart = 19;  // counted from the state, which is 0
@@ -53,34 +81,6 @@ std::optional<FoundProcess> read_process(pid_t pid) {
   }
   return process;
 }
-
-// The part before the next colon, which is removed together with the colon.
-std::string_view next_part(std::string_view& text) {
-  const std::size_t end = std::min(text.find(':'), text.size());
-  const std::string_view part = text.substr(0, end);
-  text.remove_prefix(std::min(end + 1, text.size()));
-  return part;
-}
-
-std::int64_t timeout(std::string_view text) {
-  constexpr std::int64_t kYear = 365LL * 24 * 3600 * 1000;
-  return std::clamp<std::int64_t>(std::atoll(std::string(text).c_str()), 0, kYear);
-}
-
-void read_mark_value(std::string_view value, const std::string& launch_id, ProcessMark& mark) {
-  if (next_part(value) != launch_id) {
-    return;
-  }
-  mark.ours = true;
-  mark.sigterm_timeout = timeout(next_part(value));
-  mark.sigkill_timeout = timeout(next_part(value));
-  const std::string_view screen = next_part(value);
-  mark.out_on_screen = screen.find('o') != std::string_view::npos;
-  mark.error_on_screen = screen.find('e') != std::string_view::npos;
-  mark.label = value;
-}
-
-}  // namespace
 
 std::string read_proc_file(pid_t pid, const char* name) {
   return read_whole_file("/proc/" + std::to_string(pid) + "/" + name);

@@ -41,6 +41,8 @@ std::string read_whole_file(const std::string& path);
 // The bytes of /proc/PID/NAME; empty when the process has gone.
 std::string read_proc_file(pid_t pid, const char* name);
 
+// Nothing when the process has gone.
+std::optional<FoundProcess> read_process(pid_t pid);
 // All processes that this user can see, in the order of their numbers.
 std::vector<FoundProcess> all_processes();
 

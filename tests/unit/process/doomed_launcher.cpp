@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // doomed_launcher GUARDIAN [--timeouts SIGTERM SIGKILL] [--log FILE] [--clean-up SCRIPT] [--forgotten SCRIPT]
-//                 [--leave] [--exit CODE] SCRIPT…
+//                 [--leave] [--exit CODE] [--end-by-sigterm] SCRIPT…
 //
 // Puts a guardian above itself, starts a shell for each script and waits for its first line. Prints the process numbers
 // of guardian, launcher and shells. Then it waits to be killed, or exits with CODE. The timeouts are milliseconds. A
-// clean-up is forgotten when it is taken back. With --leave, what the shells leave goes on.
+// clean-up is forgotten when it is taken back. With --leave, what the shells leave goes on. With --end-by-sigterm it
+// waits for SIGTERM and ends in order.
 #include <fmt/format.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -31,6 +33,10 @@ int main(int argc, char** argv) {
   spec.output = *launch::OutputRouting::from_mode("both");
   spec.environment = {{"PATH", "/usr/bin:/bin"}};
   std::optional<int> exit_code;
+  bool ends_by_sigterm = false;
+  sigset_t sigterm;
+  sigemptyset(&sigterm);
+  sigaddset(&sigterm, SIGTERM);
   std::vector<std::string> scripts;
   for (int i = 2; i < argc; ++i) {
     const std::string word = argv[i];
@@ -47,6 +53,9 @@ int main(int argc, char** argv) {
       spec.environment.insert_or_assign(launch::kLeaveRunningVariable, "1");
     } else if (word == "--exit") {
       exit_code = std::atoi(argv[++i]);
+    } else if (word == "--end-by-sigterm") {
+      ends_by_sigterm = true;
+      ::sigprocmask(SIG_BLOCK, &sigterm, nullptr);
     } else {
       scripts.push_back(word);
     }
@@ -65,6 +74,10 @@ int main(int argc, char** argv) {
   std::fflush(stdout);
   if (exit_code) {
     return *exit_code;
+  }
+  if (ends_by_sigterm) {
+    int signal = 0;
+    return ::sigwait(&sigterm, &signal);
   }
   ::pause();
 }

@@ -30,9 +30,10 @@ using testing::MatchesRegex;
 
 constexpr int kPatience = 60'000;  // milliseconds, before a test fails
 const std::string kSleeper = "echo ready; exec sleep 1000";
-// Leaves a process that has a session of its own and whose parent has died.
+// Leaves a process that has a session of its own, ignores SIGINT, and whose parent has died. The shell would let it
+// ignore SIGINT anyway, because it starts it in the background, but it may tell its number before.
 const std::string kDaemon =
-    "setsid sh -c 'sleep 1000 >/dev/null 2>&1 </dev/null & echo $!' | { read pid; echo $pid; }; ";
+    "setsid sh -c 'trap \"\" INT; sleep 1000 >/dev/null 2>&1 </dev/null & echo $!' | { read pid; echo $pid; }; ";
 
 bool wait_for_end(const UniqueFd& fd) {
   pollfd descriptor{fd.get(), POLLIN, 0};
@@ -218,7 +219,7 @@ TEST_F(GuardianTest, PassesSignalsToTheLauncher) {
 TEST_F(GuardianTest, TellsOfWhatALauncherLeavesAtItsOrdinaryEnd) {
   const std::string log = directory.path() + "/launch.log";
   std::ofstream(log) << "";
-  start({"--timeouts", "100", "100", "--log", log, "--exit", "0", kDaemon + "exec sleep 1000"}, 1);
+  start({"--timeouts", "100", "60000", "--log", log, "--exit", "0", kDaemon + "exec sleep 1000"}, 1);
   EXPECT_EQ(end(), 0);
   EXPECT_THAT(read_file(log), MatchesRegex("[0-9.]+ \\[WARNING\\] \\[launch\\]: shell-1 left 2 processes running: "
                                            "(sh|sleep) \\([0-9]+\\), (sh|sleep) \\([0-9]+\\); ending them\n"
@@ -284,6 +285,20 @@ TEST_F(GuardianTest, TheLauncherIsToldWhenTheGuardianIsKilled) {
   ::kill(guardian, SIGKILL);
   EXPECT_EQ(end(), -SIGKILL);
   expect_nothing_left();  // SIGTERM has ended the launcher, and the spare the rest
+}
+
+TEST_F(GuardianTest, ALauncherThatHasLostGuardianAndSpareStartsASpareAtItsEnd) {
+  const std::string done = directory.path() + "/done";
+  start({"--timeouts", "100", "100", "--end-by-sigterm", "--clean-up", "echo clean > " + done,
+         kDaemon + "exec sleep 1000", kSleeper},
+        2);
+  const pid_t spare = wait_for_spare();
+  ::kill(guardian, SIGSTOP);  // or else it would start another spare
+  ::kill(spare, SIGKILL);
+  ::kill(guardian, SIGKILL);
+  EXPECT_EQ(end(), -SIGKILL);
+  expect_nothing_left();
+  EXPECT_EQ(read_file(done), "clean\n");
 }
 
 TEST_F(GuardianTest, AStoppedGuardianGoesOnWhenTheLauncherIsKilled) {
