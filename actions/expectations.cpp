@@ -77,7 +77,7 @@ PerformExpectation output_expectation(const Fields& fields) {
     throw LaunchError("absent means max=\"0\": it goes without min and max", fields.where("absent"), {},
                       Finding::kExclusive);
   }
-  const SourceRange most_where = fields.where("max");
+  const SourceRange& most_where = fields.where("max");
   return [=](LaunchContext& context) {
     Scope& scope = context.scope();
     ExpectedOutput expected{line.perform(scope), 1, std::nullopt, after_shutdown};

@@ -154,7 +154,7 @@ PerformExpectation order_expectation(const Fields& fields) {
 
 PerformExpectation allocations_expectation(const Fields& fields) {
   const ExpectationSubject subject(fields);
-  const Template node = fields.text("node");
+  const Template& node = fields.text("node");
   const std::vector<std::string> states = {"active", "unconfigured", "inactive", "finalized", "any"};
   const std::string state = states[choice(fields, "state", states)];
   const std::optional<NumberField> most = from_zero(fields, "max");
@@ -168,7 +168,7 @@ PerformExpectation allocations_expectation(const Fields& fields) {
 
 PerformExpectation delivery_expectation(const Fields& fields) {
   const ExpectationSubject subject(fields);
-  const Template topic = fields.text("topic");
+  const Template& topic = fields.text("topic");
   const std::optional<Template> from = fields.optional_text("from");
   const std::optional<Template> to = fields.optional_text("to");
   const std::optional<NumberField> least = from_zero(fields, "min");
@@ -198,7 +198,7 @@ PerformExpectation latency_expectation(const Fields& fields) {
   }
   const std::optional<NumberField> least = from_zero(fields, "min");
   const Bounds bounds(fields);
-  const SourceRange nodes_where = fields.where("nodes");
+  const SourceRange& nodes_where = fields.where("nodes");
   return [=](LaunchContext& context) {
     Scope& scope = context.scope();
     ExpectedLatency latency{perform_name(topic, scope),     perform_name(from, scope), perform_name(to, scope), {},
@@ -240,11 +240,11 @@ PerformExpectation callback_expectation(const Fields& fields) {
 
 PerformExpectation timer_expectation(const Fields& fields) {
   const ExpectationSubject subject(fields);
-  const Template node = fields.text("node");
+  const Template& node = fields.text("node");
   const TimeField period = *milliseconds(fields, "period_ms");
   const std::optional<TimeField> jitter = milliseconds(fields, "jitter_ms");
   const std::optional<NumberField> percentile = fields.number("percentile");
-  const SourceRange percentile_where = fields.where("percentile");
+  const SourceRange& percentile_where = fields.where("percentile");
   const std::optional<NumberField> missed = from_zero(fields, "max_missed");
   return [=](LaunchContext& context) {
     Scope& scope = context.scope();

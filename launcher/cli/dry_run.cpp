@@ -16,6 +16,8 @@ namespace launch {
 
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 // The argv of a process with "@params:N" for the path of its generated file N.
 std::vector<std::string> plain_argv(const ProcessSpec& spec) {
   std::vector<std::string> argv = spec.argv;

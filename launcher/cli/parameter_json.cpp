@@ -11,6 +11,8 @@ namespace launch {
 
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 Json number_as_json(double value) {
   if (std::isfinite(value)) {
     return value;
@@ -82,7 +84,7 @@ Json node_as_json(const YamlNode& node) {
 
 }  // namespace
 
-Json parameter_as_json(const ParameterValue& value) {
+nlohmann::ordered_json parameter_as_json(const ParameterValue& value) {
   if (const auto* const scalar = std::get_if<ParameterScalar>(&value)) {
     return scalar_as_json(*scalar);
   }
@@ -103,7 +105,7 @@ std::string parameter_type_name(const ParameterValue& value) {
   return items.empty() ? "byte_array" : std::string(kNames[items.front().index()]) + "_array";
 }
 
-Json parameter_file_as_json(const std::string& text) {
+nlohmann::ordered_json parameter_file_as_json(const std::string& text) {
   try {
     std::vector<Diagnostic> duplicate_keys;  // the last one counts
     return node_as_json(read_yaml(LocatedText(text), duplicate_keys));

@@ -8,6 +8,11 @@
 #include <utility>
 
 namespace launch {
+namespace {
+
+using Kind = ControlRequest::Kind;
+
+}  // namespace
 
 LaunchControl::LaunchControl(EventLoop& loop, int listener, ProcessSupervisor& supervisor, Steering& steering,
                              LaunchFacts facts)
@@ -34,7 +39,6 @@ LaunchControl::~LaunchControl() {
 }
 
 std::string LaunchControl::answer(ClientId client, std::string_view line) {
-  using Kind = ControlRequest::Kind;
   ControlRequest request;
   try {
     request = parse_control_request(line);

@@ -61,18 +61,18 @@ std::partial_ordering compare(const Operand& left, const Operand& right) {
 
 bool is_true(std::string_view relation, std::partial_ordering order) {
   if (relation == "==") {
-    return order == 0;
+    return std::is_eq(order);
   }
   if (relation == "!=") {
-    return order != 0;
+    return std::is_neq(order);
   }
   if (relation == "<") {
-    return order < 0;
+    return std::is_lt(order);
   }
   if (relation == "<=") {
-    return order <= 0;
+    return std::is_lteq(order);
   }
-  return relation == ">" ? order > 0 : order >= 0;
+  return relation == ">" ? std::is_gt(order) : std::is_gteq(order);
 }
 
 bool is_word(char c) {

@@ -22,6 +22,7 @@ struct Memory {
   Memory(const Memory<U>& other) : allocator(other.allocator) {}  // NOLINT(google-explicit-constructor)
 
   T* allocate(size_t count) {
+    // NOLINTNEXTLINE(bugprone-sizeof-expression): T may well be a pointer
     void* memory = allocator.allocate(count * sizeof(T), allocator.state);
     if (memory == nullptr) {
       throw std::bad_alloc();
