@@ -40,6 +40,7 @@ struct Client final : ServiceChannel {
   // Matched endpoints that belong to services.
   std::atomic<int32_t> response_writers{0};
   std::atomic<int32_t> request_readers{0};
+  std::atomic<int64_t> unanswered{0};  // requests
 };
 
 // rmw_wait() takes `data` as a Waitable.
@@ -69,7 +70,9 @@ rmw_client_t* rmw_create_client(const rmw_node_t* node, const rosidl_service_typ
 rmw_ret_t rmw_destroy_client(rmw_node_t* node, rmw_client_t* client) try {
   RMW_CHECK_HANDLE(node, RMW_RET_INVALID_ARGUMENT);
   RMW_CHECK_HANDLE(client, RMW_RET_INVALID_ARGUMENT);
-  client_of(*client).wait_until_received();
+  if (client_of(*client).unanswered > 0) {  // otherwise the requests have arrived
+    client_of(*client).wait_until_received();
+  }
   std::lock_guard lock(node->context->impl->mutex);
   TRACETOOLS_EXT_TRACEPOINT(rmw_client_fini, static_cast<const void*>(client));
   const std::unique_ptr<Client> owned(&client_of(*client));
@@ -88,7 +91,9 @@ rmw_ret_t rmw_send_request(const rmw_client_t* client, const void* ros_request, 
   rtps::WriteParams params;
   params.related_sample_identity().writer_guid() = owned.reader->guid();
   OutgoingMessage outgoing{ros_request, nullptr};
+  ++owned.unanswered;
   if (!owned.writer->write(&outgoing, params)) {
+    --owned.unanswered;
     RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("a request to service '%s' cannot be written", client->service_name);
     return RMW_RET_ERROR;
   }
@@ -121,6 +126,7 @@ rmw_ret_t rmw_take_response(const rmw_client_t* client, rmw_service_info_t* requ
     request_header->source_timestamp = sample.source_timestamp.to_ns();
     request_header->received_timestamp = sample.reception_timestamp.to_ns();
     *taken = addressee == owned.reader->guid() || addressee == owned.writer->guid();
+    owned.unanswered -= *taken ? 1 : 0;
   }
   TRACETOOLS_TRACEPOINT(rmw_take_response, static_cast<const void*>(client), ros_response,
                         request_header->request_id.sequence_number, request_header->source_timestamp, *taken);
