@@ -38,7 +38,7 @@ TEST(NodeInC, TalksWithNodesOfRclcpp) {
     ASSERT_TRUE(client->wait_for_service(kPatience));
     const auto event = node->get_graph_event();
     while (publisher->get_subscription_count() == 0 || subscription->get_publisher_count() == 0) {
-      node->wait_for_graph_change(event, std::chrono::milliseconds(100));
+      node->wait_for_graph_change(event, kPatience);
       event->check_and_clear();
     }
 
@@ -73,7 +73,7 @@ TEST(NodeInC, TalksWithNodesOfRclcpp) {
   rclcpp::shutdown();
 }
 
-// The end of the service is told on another way than its answer. This test lets the answer come late.
+// The end of the service comes by another port than its answer. This test lets the answer be read late.
 TEST(NodeInC, AnswersAlsoIfItEndsAtOnce) {
   test_support::Sandbox sandbox;
   test_support::RunningCommand program(test_support::Command{{C_NODE}});
@@ -84,8 +84,7 @@ TEST(NodeInC, AnswersAlsoIfItEndsAtOnce) {
     const auto subscription = node->create_subscription<JointState>("doubled", 10, [](const JointState&) {});
     const auto client = node->create_client<AddTwoInts>("add");
     ASSERT_TRUE(client->wait_for_service(kPatience));
-    // Messages are received by one thread. It is held up until the service is gone, or for as long as a machine that is
-    // busy may well hold it up.
+    // One thread receives messages. This callback holds it up until the service is gone, but at most 100 ms.
     std::promise<void> echoed;
     subscription->set_on_new_message_callback([&, has = false](std::size_t) mutable {
       if (std::exchange(has, true)) {

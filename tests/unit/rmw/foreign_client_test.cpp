@@ -79,6 +79,24 @@ class ForeignClient : public testing::Test {
     return participant_->create_topic(name, type, fdds::TOPIC_QOS_DEFAULT);
   }
 
+  static rmw_service_t* create_service(const rmw_test::Node& node) {
+    return rmw_create_service(node.handle, rosidl_typesupport_cpp::get_service_type_support_handle<AddTwoInts>(),
+                              "/add", &rmw_qos_profile_services_default);
+  }
+
+  // Waits for a request whose numbers have the sum 42.
+  static rmw_service_info_t take_request(const rmw_service_t* service) {
+    AddTwoInts::Request request;
+    rmw_service_info_t info{};
+    bool taken = false;
+    wait_for([&] {
+      EXPECT_EQ(rmw_take_request(service, &info, &request, &taken), RMW_RET_OK);
+      return taken;
+    });
+    EXPECT_EQ(request.a + request.b, 42);
+    return info;
+  }
+
   test_support::Sandbox sandbox_;
   fdds::DomainParticipant* participant_;
   fdds::DataWriter* writer_;
@@ -88,9 +106,7 @@ class ForeignClient : public testing::Test {
 TEST_F(ForeignClient, IsAnsweredWithTheIdentityOfItsRequest) {
   rmw_test::Context context(kDomain);
   rmw_test::Node node(context);
-  rmw_service_t* service =
-      rmw_create_service(node.handle, rosidl_typesupport_cpp::get_service_type_support_handle<AddTwoInts>(), "/add",
-                         &rmw_qos_profile_services_default);
+  rmw_service_t* service = create_service(node);
   ASSERT_NE(service, nullptr) << rmw_test::take_error();
   wait_for([&] {
     fdds::PublicationMatchedStatus sending;
@@ -103,14 +119,7 @@ TEST_F(ForeignClient, IsAnsweredWithTheIdentityOfItsRequest) {
   std::vector<uint8_t> request = cdr({40, 2});
   rtps::WriteParams sent;
   ASSERT_TRUE(writer_->write(&request, sent));
-  AddTwoInts::Request taken_request;
-  rmw_service_info_t info{};
-  bool taken = false;
-  wait_for([&] {
-    EXPECT_EQ(rmw_take_request(service, &info, &taken_request, &taken), RMW_RET_OK);
-    return taken;
-  });
-  EXPECT_EQ(taken_request.a + taken_request.b, 42);
+  rmw_service_info_t info = take_request(service);
   AddTwoInts::Response response;
   response.sum = 42;
   // The service's side of the match may come a moment later than the client's; a client repeats its request then.
@@ -138,9 +147,7 @@ TEST_F(ForeignClient, IsAnsweredWhenItsReaderIsFoundLongAfterItsRequest) {
 
   rmw_test::Context context(kDomain);
   rmw_test::Node node(context);
-  rmw_service_t* service =
-      rmw_create_service(node.handle, rosidl_typesupport_cpp::get_service_type_support_handle<AddTwoInts>(), "/add",
-                         &rmw_qos_profile_services_default);
+  rmw_service_t* service = create_service(node);
   ASSERT_NE(service, nullptr) << rmw_test::take_error();
   wait_for([&] {
     fdds::PublicationMatchedStatus sending;
@@ -151,13 +158,7 @@ TEST_F(ForeignClient, IsAnsweredWhenItsReaderIsFoundLongAfterItsRequest) {
   rtps::WriteParams sent;
   sent.related_sample_identity().writer_guid() = late_reader->guid();
   ASSERT_TRUE(writer_->write(&request, sent));
-  AddTwoInts::Request taken_request;
-  rmw_service_info_t info{};
-  bool taken = false;
-  wait_for([&] {
-    EXPECT_EQ(rmw_take_request(service, &info, &taken_request, &taken), RMW_RET_OK);
-    return taken;
-  });
+  rmw_service_info_t info = take_request(service);
   AddTwoInts::Response response;
   response.sum = 42;
   EXPECT_EQ(rmw_send_response(service, &info.request_id, &response), RMW_RET_OK) << rmw_test::take_error();

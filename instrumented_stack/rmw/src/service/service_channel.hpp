@@ -29,11 +29,11 @@ class ServiceChannel : public DataReaderWaitable, public eprosima::fastdds::dds:
             const std::string& service_name, const rmw_qos_profile_t& profile);
   void close(const rmw_node_t* node);
 
-  // At its end a channel waits so long for other sides. It needs this time only if another side is stopped or gone.
+  // At its end a channel waits at most so long for the other ends. It needs all of it only if one is stopped or gone.
   static constexpr std::chrono::nanoseconds kPatienceAtEnd = std::chrono::milliseconds(500);
 
-  // Waits until the other ends have got all that was sent. The end of an endpoint is told on another way than
-  // its messages and may arrive first; then Fast DDS drops the messages. Call it before close(), without the lock.
+  // Waits until the other ends have got all that was sent. Fast DDS tells the end of an endpoint on another port than
+  // its messages. If the end is read first, it drops the messages. Call it before close(), without the lock.
   void wait_until_received() const;
 
   const std::string& service_name() const { return service_name_; }

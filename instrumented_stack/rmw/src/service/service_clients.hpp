@@ -22,7 +22,7 @@ class ServiceClients {
   enum class Presence { kMatched, kUnmatched, kGone };
   using Send = std::function<void()>;
 
-  // So many responses wait for the reader of one client. Its requests are kept in no larger number by default.
+  // At most so many responses wait for the reader of one client: as many as a service keeps by default.
   static constexpr std::size_t kMostWaiting = 10;
 
   // A request came from `writer`; its response goes to `reader`.
