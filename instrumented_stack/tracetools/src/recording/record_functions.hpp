@@ -16,18 +16,27 @@
 
 namespace tracetools {
 
-/// The plan of an event that is the first one on a message's way; null for others.
+/// True for an event that is the first one on a message's way. A variable of its own: with UndefinedBehaviorSanitizer
+/// GCC 12 does not take the comparison of an address with null for a constant.
+template <typename Event>
+inline constexpr bool has_plan = false;
+
+/// The plan of such an event; null for others.
 template <typename Event>
 inline constexpr FetchPlan* plan_of = nullptr;
 
 inline constinit FetchPlan publications(&lttng_ust_tracepoint_ros2___rcl_publish,
                                         &lttng_ust_tracepoint_ros2___rmw_publish);
 template <>
+inline constexpr bool has_plan<event::rclcpp_publish> = true;
+template <>
 inline constexpr FetchPlan* plan_of<event::rclcpp_publish> = &publications;
 
 inline constinit FetchPlan takes(&lttng_ust_tracepoint_ros2___rclcpp_executor_execute,
                                  &lttng_ust_tracepoint_ros2___rmw_take, &lttng_ust_tracepoint_ros2___rcl_take,
                                  &lttng_ust_tracepoint_ros2___rclcpp_take, &lttng_ust_tracepoint_ros2___callback_start);
+template <>
+inline constexpr bool has_plan<event::rclcpp_executor_get_next_ready> = true;
 template <>
 inline constexpr FetchPlan* plan_of<event::rclcpp_executor_get_next_ready> = &takes;
 
@@ -58,9 +67,10 @@ inline constexpr FetchPlan* plan_of<event::rclcpp_executor_get_next_ready> = &ta
   if constexpr (tracetools::is_plain<tracetools::event::name>) {                                                     \
     using Payload = tracetools::PayloadOf<decltype(lttng_ust_tracepoint_cb_##provider##___##name)>::type;            \
     const Payload payload{__VA_ARGS__};                                                                              \
-    if constexpr (constexpr auto plan = tracetools::plan_of<tracetools::event::name>; plan != nullptr) {             \
+    if constexpr (tracetools::has_plan<tracetools::event::name>) {                                                   \
       tracetools::record_first(lttng_ust_tracepoint_##provider##___##name, tracetools::CountedEvent::name,           \
-                               payload.data(), Payload::size(), &Payload::call, *plan);                              \
+                               payload.data(), Payload::size(), &Payload::call,                                      \
+                               *tracetools::plan_of<tracetools::event::name>);                                       \
     } else {                                                                                                         \
       tracetools::record(lttng_ust_tracepoint_##provider##___##name, tracetools::CountedEvent::name, payload.data(), \
                          Payload::size(), &Payload::call);                                                           \
