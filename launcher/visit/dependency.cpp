@@ -3,18 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "launcher/base/overloaded.hpp"
+
 namespace launch {
-
-namespace {
-
-template <typename... Cases>
-struct Overloaded : Cases... {
-  using Cases::operator()...;
-};
-template <typename... Cases>
-Overloaded(Cases...) -> Overloaded<Cases...>;
-
-}  // namespace
 
 std::string describe(const Dependency& dependency) {
   if (const auto* const readiness = std::get_if<std::shared_ptr<ReadinessCondition>>(&dependency.condition)) {

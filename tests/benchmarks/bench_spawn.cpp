@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the cost of supervision: starts and stops N sleeping children with the supervisor on the real loop, and with
-// bare posix_spawn(3), kill(2) and waitpid(2), in turns in the same run. Prints medians and their ratios.
+// Measures the cost of supervision: starts and stops N sleeping children in three ways, in turns in the same run.
+// Prints medians and their ratios.
+// - bare: posix_spawn(3), kill(2) and waitpid(2);
+// - pipes: the same, each child with a process group, and pipes for its three streams, which are read to their ends and
+//   closed. No launcher that gives its children input and logs their output can do less;
+// - supervised: the supervisor on the real loop.
 #include <fmt/format.h>
 #include <signal.h>
 #include <spawn.h>
@@ -17,8 +21,11 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "launcher/base/files/pipe.hpp"
+#include "launcher/base/files/unique_fd.hpp"
 #include "launcher/process/process_supervisor.hpp"
 
 namespace {
@@ -44,17 +51,28 @@ void wait_until_asleep(pid_t pid) {
   }
 }
 
-Times run_bare(std::size_t count) {
+// What a child of the loops is started with.
+struct Sleeper {
   std::array<char, 6> name{"sleep"};
   std::array<char, 5> duration{"1000"};
-  const std::array<char*, 3> argv{name.data(), duration.data(), nullptr};
+  std::array<char*, 3> argv{name.data(), duration.data(), nullptr};
+
+  pid_t spawn(const posix_spawn_file_actions_t* actions = nullptr, const posix_spawnattr_t* attributes = nullptr) {
+    pid_t pid = -1;
+    if (::posix_spawn(&pid, "/bin/sleep", actions, attributes, argv.data(), environ) != 0) {
+      throw std::runtime_error("cannot start /bin/sleep");
+    }
+    return pid;
+  }
+};
+
+Times run_bare(std::size_t count) {
+  Sleeper sleeper;
   std::vector<pid_t> pids(count);
   Times times;
   const auto start = Clock::now();
   for (pid_t& pid : pids) {
-    if (::posix_spawn(&pid, "/bin/sleep", nullptr, nullptr, argv.data(), environ) != 0) {
-      throw std::runtime_error("cannot start /bin/sleep");
-    }
+    pid = sleeper.spawn();
   }
   times.start = Microseconds(Clock::now() - start).count();
   std::for_each(pids.begin(), pids.end(), wait_until_asleep);
@@ -64,6 +82,57 @@ Times run_bare(std::size_t count) {
   }
   for (const pid_t pid : pids) {
     ::waitpid(pid, nullptr, 0);
+  }
+  times.stop = Microseconds(Clock::now() - stop).count();
+  return times;
+}
+
+struct PipedChild {
+  pid_t pid = -1;
+  launch::UniqueFd in;
+  std::array<launch::UniqueFd, 2> outputs;
+};
+
+PipedChild spawn_with_pipes(Sleeper& sleeper, const posix_spawnattr_t& own_group) {
+  launch::Pipe in = launch::make_pipe();
+  std::array<launch::Pipe, 2> outputs{launch::make_pipe(), launch::make_pipe()};
+  posix_spawn_file_actions_t actions;
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_adddup2(&actions, in.read.get(), STDIN_FILENO);
+  ::posix_spawn_file_actions_adddup2(&actions, outputs[0].write.get(), STDOUT_FILENO);
+  ::posix_spawn_file_actions_adddup2(&actions, outputs[1].write.get(), STDERR_FILENO);
+  PipedChild child{sleeper.spawn(&actions, &own_group),
+                   std::move(in.write),
+                   {std::move(outputs[0].read), std::move(outputs[1].read)}};
+  ::posix_spawn_file_actions_destroy(&actions);
+  return child;
+}
+
+Times run_with_pipes(std::size_t count) {
+  Sleeper sleeper;
+  posix_spawnattr_t own_group;
+  ::posix_spawnattr_init(&own_group);
+  ::posix_spawnattr_setflags(&own_group, POSIX_SPAWN_SETPGROUP);
+  std::vector<PipedChild> children(count);
+  Times times;
+  const auto start = Clock::now();
+  for (PipedChild& child : children) {
+    child = spawn_with_pipes(sleeper, own_group);
+  }
+  times.start = Microseconds(Clock::now() - start).count();
+  ::posix_spawnattr_destroy(&own_group);
+  std::for_each(children.begin(), children.end(), [](const PipedChild& child) { wait_until_asleep(child.pid); });
+  const auto stop = Clock::now();
+  for (const PipedChild& child : children) {
+    ::kill(-child.pid, SIGINT);
+  }
+  for (PipedChild& child : children) {
+    for (launch::UniqueFd& output : child.outputs) {
+      launch::read_to_end(output);
+      output.reset();
+    }
+    ::waitpid(child.pid, nullptr, 0);
+    child.in.reset();
   }
   times.stop = Microseconds(Clock::now() - stop).count();
   return times;
@@ -119,22 +188,27 @@ double median(std::vector<double> values) {
 }
 
 void measure(Launcher& launcher, std::size_t count, std::size_t rounds) {
-  std::array<std::vector<double>, 2> start;
-  std::array<std::vector<double>, 2> stop;
+  constexpr std::size_t kWays = 3;
+  std::array<std::vector<double>, kWays> start;
+  std::array<std::vector<double>, kWays> stop;
   for (std::size_t round = 0; round < rounds; ++round) {
-    for (std::size_t turn = 0; turn < 2; ++turn) {
-      const std::size_t which = (round + turn) % 2;  // neither always runs on the warmer machine
-      const Times times = which == 0 ? run_bare(count) : run_supervised(launcher, count);
+    for (std::size_t turn = 0; turn < kWays; ++turn) {
+      const std::size_t which = (round + turn) % kWays;  // none always runs on the warmest machine
+      const Times times = which == 0   ? run_bare(count)
+                          : which == 1 ? run_with_pipes(count)
+                                       : run_supervised(launcher, count);
       start[which].push_back(times.start / static_cast<double>(count));
       stop[which].push_back(times.stop / static_cast<double>(count));
     }
   }
-  const auto row = [](const std::array<std::vector<double>, 2>& values) {
+  const auto row = [](const std::array<std::vector<double>, kWays>& values) {
     const double bare = median(values[0]);
-    const double supervised = median(values[1]);
-    return fmt::format("{:>9.1f} {:>11.1f} {:>7.2f}", bare, supervised, supervised / bare);
+    const double pipes = median(values[1]);
+    const double supervised = median(values[2]);
+    return fmt::format("{:>7.1f} {:>7.1f} {:>10.1f} {:>6.2f} {:>6.2f}", bare, pipes, supervised, supervised / bare,
+                       supervised / pipes);
   };
-  fmt::print("{:>9} | {} | {}\n", count, row(start), row(stop));
+  fmt::print("{:>8} | {} | {}\n", count, row(start), row(stop));
   std::fflush(stdout);
 }
 
@@ -144,14 +218,16 @@ int main() {
   try {
     Launcher launcher;
     run_supervised(launcher, 1);  // makes everything that is made on first need
-    fmt::print("microseconds for each child; ratio = supervised / bare\n");
-    fmt::print("{:>9} | {:^29} | {:^29}\n", "", "start", "stop (SIGINT)");
-    fmt::print("{:>9} | {:>9} {:>11} {:>7} | {:>9} {:>11} {:>7}\n", "children", "bare", "supervised", "ratio", "bare",
-               "supervised", "ratio");
+    fmt::print("microseconds for each child; the ratios are supervised / bare and supervised / pipes\n");
+    fmt::print("{:>8} | {:^40} | {:^40}\n", "", "start", "stop (SIGINT)");
+    const std::string columns =
+        fmt::format("{:>7} {:>7} {:>10} {:>6} {:>6}", "bare", "pipes", "supervised", "/bare", "/pipes");
+    fmt::print("{:>8} | {} | {}\n", "children", columns, columns);
     measure(launcher, 1, 101);
     measure(launcher, 10, 31);
     measure(launcher, 100, 15);
     measure(launcher, 500, 7);
+    measure(launcher, 2000, 5);
   } catch (const std::exception& error) {
     fmt::print(stderr, "bench_spawn: {}\n", error.what());
     return EXIT_FAILURE;

@@ -18,6 +18,7 @@ import yaml
 
 HERE = pathlib.Path(__file__).parent
 LAUNCH = os.environ['LAUNCH_PROGRAM']
+SANITIZERS = ('ASAN_OPTIONS', 'LSAN_OPTIONS')
 
 
 def prefix_at(folder):
@@ -59,7 +60,8 @@ class PythonCorpus(unittest.TestCase):
         cls.prefix = prefix_at(folder / 'prefix')
         cls.environment = {'USER': 'user', 'LANG': 'C.UTF-8', 'HOME': str(cls.home), 'TMPDIR': str(cls.tmp),
                            'ROS_DISTRO': 'jazzy', 'AMENT_PREFIX_PATH': str(cls.prefix),
-                           'PATH': f'{cls.prefix}/bin:/usr/bin:/bin'}
+                           'PATH': f'{cls.prefix}/bin:/usr/bin:/bin',
+                           **{name: os.environ[name] for name in SANITIZERS if name in os.environ}}
 
     def plan(self, record):
         """(outcome, plan, what is on standard error)"""
@@ -98,6 +100,8 @@ class PythonCorpus(unittest.TestCase):
             found['processes'] = f'expected {names[0]}, got {names[1]}'
             return found
         for expected, actual in zip(record['processes'], plan['processes']):
+            for name in SANITIZERS:
+                actual.get('env', {}).pop(name, None)
             for field, default in (('cwd', None), ('env', {}), ('shell', False)):
                 if (expected.get(field) or default) != (actual.get(field) or default):
                     found[field] = f'{expected["name"]}: expected {expected.get(field)}, got {actual.get(field)}'

@@ -8,6 +8,7 @@
 #include "tests/e2e/recorded_trace.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace {
 
@@ -60,9 +61,9 @@ class PythonLaunch : public testing::Test {
 };
 
 TEST_F(PythonLaunch, TheTraceActionRecordsTheRun) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "skipped, because sanitizers and a preloaded malloc exclude each other";
-#endif
+  if (test_support::kSanitized) {
+    GTEST_SKIP() << test_support::kMallocIsTaken;
+  }
   const CommandResult result = launch({EXAMPLES_DIRECTORY "/26_trace_action.launch.py"});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   EXPECT_THAT(result.out, HasSubstr("trace is complete: no events lost"));

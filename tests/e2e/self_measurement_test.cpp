@@ -13,6 +13,7 @@
 
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace {
 
@@ -269,6 +270,9 @@ TEST_F(SelfMeasurement, EqualsWhatABufferHasOverwritten) {
 }
 
 TEST_F(SelfMeasurement, EqualsTheMemoryInTheReport) {
+  if (test_support::kSanitized) {
+    GTEST_SKIP() << test_support::kMallocIsTaken;
+  }
   const auto file = sandbox.directory() / "memory.launch.xml";
   std::ofstream(file) << R"(<launch>
   <trace session-name="memory" events-ust="ros2:* lttng_ust_libc:*" subbuffer-size-ust="4194304"/>

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tests/e2e/launch_test_fixture.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace {
 
@@ -261,6 +262,9 @@ TEST_F(TestExpectations, EventsComeInTheirOrder) {
 }
 
 TEST_F(TestExpectations, CallbacksOfAnActiveNodeAskForMemoryOrDoNot) {
+  if (test_support::kSanitized) {
+    GTEST_SKIP() << test_support::kMallocIsTaken;
+  }
   const std::string system = R"xml(
   <lifecycle_node pkg="lifecycle" exec="lifecycle_talker" name="lc_talker" namespace="" autostart="true">
     <param name="period_ms" value="20"/>

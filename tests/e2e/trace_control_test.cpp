@@ -15,6 +15,7 @@
 
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace {
 
@@ -142,9 +143,9 @@ TEST_F(TraceControl, LaunchEventsCanBeLeftOut) {
 }
 
 TEST_F(TraceControl, ProcessesThatAreNotToBeTracedAreSilent) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "skipped, because sanitizers and a preloaded malloc exclude each other";
-#endif
+  if (test_support::kSanitized) {
+    GTEST_SKIP() << test_support::kMallocIsTaken;
+  }
   const std::string app = std::string("sh -c '") + TRACED_APP + " 3 10 &lt;/dev/null'";
   const std::string file =
       write("system.launch.xml",

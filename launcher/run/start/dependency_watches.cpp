@@ -7,16 +7,11 @@
 #include <utility>
 #include <variant>
 
+#include "launcher/base/overloaded.hpp"
+
 namespace launch {
 
 namespace {
-
-template <typename... Cases>
-struct Overloaded : Cases... {
-  using Cases::operator()...;
-};
-template <typename... Cases>
-Overloaded(Cases...) -> Overloaded<Cases...>;
 
 // Whether the condition holds, as far as the process alone shows it; nothing when that is still open.
 struct Verdict {

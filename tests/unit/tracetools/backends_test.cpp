@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "tests/support/command.hpp"
-#include "tests/support/preloading.hpp"
 #include "tracetools/tracetools.h"
 
 namespace {
@@ -52,7 +51,7 @@ Names symbols(const std::string& file, const std::string& kind, const std::vecto
 
 // A program that was built with the library of LTTng runs with another library in its place.
 CommandResult run_with(const std::string& library, const std::string& program) {
-  return run_command(Command{{program}, test_support::preloading(library)});
+  return run_command(Command{{program}, {{"LD_PRELOAD", library}}});
 }
 
 void expect_status(const CommandResult& result, int exit_code, const std::string& out) {

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "tests/support/command.hpp"
-#include "tests/support/preloading.hpp"
 #include "tests/support/sandbox.hpp"
 
 namespace {
@@ -52,12 +51,11 @@ TEST(Provider, OtherValuesDoNotDisableTracing) {
 TEST(Provider, ProcessGoesOnUntracedWhenItIsMissing) {
   test_support::Sandbox sandbox;
   fs::copy(TRACETOOLS_LIBRARY, sandbox.directory() / "libtracetools.so");
-  expect_result(
-      run_command(Command{{STATUS}, test_support::preloading((sandbox.directory() / "libtracetools.so").string())}), 1,
-      "Tracing disabled\n",
-      "tracetools: tracing is disabled, the provider cannot be loaded: " +
-          (sandbox.directory() / "libtracetools_provider.so").string() +
-          ": cannot open shared object file: No such file or directory\n");
+  expect_result(run_command(Command{{STATUS}, {{"LD_PRELOAD", (sandbox.directory() / "libtracetools.so").string()}}}),
+                1, "Tracing disabled\n",
+                "tracetools: tracing is disabled, the provider cannot be loaded: " +
+                    (sandbox.directory() / "libtracetools_provider.so").string() +
+                    ": cannot open shared object file: No such file or directory\n");
 }
 
 }  // namespace
