@@ -45,6 +45,11 @@ class ProcessRunner {
   // The children that have been stopped since the last call.
   virtual std::vector<StoppedChild> take_stopped() = 0;
 
+  // After SIGSTOP: waits until no thread of a process that has the terminal runs any more. A thread that reads the
+  // terminal and has not seen the signal would take input that is meant for the shell. Gives up after a second, because
+  // a thread that waits for a device stops only when the device answers.
+  virtual void await_stop(const Process& process) = 0;
+
   // Whether the launcher and the processes that have the terminal may read it now.
   virtual bool in_foreground() const = 0;
 

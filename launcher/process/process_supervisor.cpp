@@ -284,6 +284,11 @@ void ProcessSupervisor::suspend() {
       impl_->runner.signal_group(process->process, SIGSTOP);
     }
   }
+  for (const auto& process : impl_->processes) {
+    if (process->unreaped && process->process.has_terminal) {
+      impl_->runner.await_stop(process->process);
+    }
+  }
 }
 
 void ProcessSupervisor::resume() {

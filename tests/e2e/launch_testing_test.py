@@ -97,6 +97,7 @@ class LaunchTest(unittest.TestCase):
             output = self.run_other(sys.executable, '-m', module, 'kept_alive.py', PYTHONPATH=packages)
             self.assertIn('OK', output)
 
+    @unittest.skipIf(os.environ.get('SANITIZE') == 'thread', 'python3 cannot load modules with ThreadSanitizer')
     @unittest.skipUnless(importlib.util.find_spec('pytest'), 'pytest is not installed')
     def test_pytest_collects_such_files(self):
         plugins = next((Path(os.environ['LAUNCH_PROGRAM']).parent.parent / 'lib').glob('python3*/dist-packages'))

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/e2e/launch_test_fixture.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace {
 
@@ -92,6 +93,9 @@ TEST_F(NetworkFaultTest, LosesAndDelaysPackets) {
 }
 
 TEST_F(NetworkFaultTest, NoTestPassesWhereTheyAreNotPossible) {
+  if (test_support::kThreadSanitized) {
+    GTEST_SKIP() << test_support::kHasAThreadMore;  // unshare(2) of a user namespace
+  }
   ASSERT_EQ(::mount("/dev/null", "/dev/net/tun", nullptr, MS_BIND, nullptr), 0);
   const std::string file = write(nodes(5) + R"xml(
   <test name="t"><fault do="partition" group="ping" probability="0"/><exit process="ping"/></test>)xml");

@@ -16,6 +16,7 @@
 
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace {
 
@@ -103,6 +104,9 @@ TEST_F(ProcessFaults, DescriptorsThatRunOutFailStartsAndNotTheLaunch) {
 TEST_F(ProcessFaults, ProcessesThatRunOutFailStartsAndNotTheLaunch) {
   if (::geteuid() != 0) {
     GTEST_SKIP() << "skipped, because it needs a user of its own, whose processes are counted";
+  }
+  if (test_support::kThreadSanitized) {
+    GTEST_SKIP() << test_support::kHasAThreadMore;
   }
   const std::string file = write(many(40, "cmd=\"sleep 1000\""));
   ASSERT_EQ(::chmod(sandbox_.directory().c_str(), 0777), 0);

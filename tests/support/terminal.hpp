@@ -103,6 +103,10 @@ class Terminal {
       return false;
     });
   }
+  // Reads until a line of the screen is this text and nothing else.
+  bool shows_line(const std::string& text) {
+    return read_until([&] { return ("\n" + screen()).find("\n" + text + "\n") != std::string::npos; });
+  }
   bool hides(const std::string& text) {
     return read_until([&] { return line_with(text).empty(); });
   }

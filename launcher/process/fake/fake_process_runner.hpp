@@ -73,6 +73,7 @@ class FakeProcessRunner final : public ProcessRunner {
   std::optional<std::uint64_t> limit(const Process& process, int resource, std::uint64_t soft) override;
   std::vector<bool> groups_live(const std::vector<const Process*>& leaders) override;
   std::vector<StoppedChild> take_stopped() override { return std::exchange(stopped_, {}); }
+  void await_stop(const Process& process) override { awaited_stops_.push_back(process.pid); }
   bool in_foreground() const override { return foreground_; }
   ProcessExit outcome(const Process& process) override;
   ProcessExit reap(const Process& process) override;
@@ -84,6 +85,8 @@ class FakeProcessRunner final : public ProcessRunner {
   const std::vector<Spawned>& spawned() const { return spawned_; }
   const std::vector<Signalled>& signals() const { return signals_; }
   const std::vector<Limited>& limits() const { return limits_; }
+  // The processes of which await_stop() has been called.
+  const std::vector<pid_t>& awaited_stops() const { return awaited_stops_; }
   std::vector<int> signals_of(pid_t pid) const;
   // What a process that is not yet reaped has got on its standard input since the last call.
   std::string take_input(pid_t pid);
@@ -107,6 +110,7 @@ class FakeProcessRunner final : public ProcessRunner {
   std::vector<Signalled> signals_;
   std::vector<Limited> limits_;
   std::vector<StoppedChild> stopped_;
+  std::vector<pid_t> awaited_stops_;
   bool foreground_ = true;
 };
 

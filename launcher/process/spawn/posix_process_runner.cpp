@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <optional>
 #include <set>
 #include <string>
@@ -33,9 +34,12 @@
 #include "launcher/process/process_runner.hpp"
 #include "launcher/process/spawn/program_search.hpp"
 #include "launcher/process/spawn/spawn_failure.hpp"
+#include "launcher/process/spawn/stopped_threads.hpp"
 
 namespace launch {
 namespace {
+
+constexpr std::chrono::seconds kLongestStop(1);
 
 [[noreturn]] void fail(const char* what) {
   throw std::system_error(errno, std::system_category(), what);
@@ -144,6 +148,11 @@ class PosixProcessRunner final : public ProcessRunner {
   std::optional<std::uint64_t> limit(const Process& process, int resource, std::uint64_t soft) override;
   std::vector<bool> groups_live(const std::vector<const Process*>& leaders) override;
   std::vector<StoppedChild> take_stopped() override;
+  void await_stop(const Process& process) override {
+    if (process.has_terminal) {
+      wait_until_stopped(fellows_in_our_group(process), kLongestStop);
+    }
+  }
   bool in_foreground() const override { return ::tcgetpgrp(STDIN_FILENO) == ::getpgrp(); }
   ProcessExit outcome(const Process& process) override { return wait(process, WNOWAIT); }
   ProcessExit reap(const Process& process) override { return wait(process, 0); }

@@ -88,6 +88,18 @@ TEST_F(TerminalInput, AProcessThatWaitsGoesOnInTheForeground) {
   EXPECT_EQ(runner.signals_of(pid_of_start(0)), std::vector<int>{SIGCONT});
 }
 
+TEST_F(TerminalInput, ASuspendedLaunchWaitsUntilNobodyReadsTheTerminal) {
+  runner.script("c", {{.lacks_terminal = true}});
+  for (const ProcessSpec& each : {spec("a"), with_terminal("b"), with_terminal("c")}) {
+    supervisor->start(each);
+  }
+  supervisor->suspend();
+  EXPECT_EQ(runner.awaited_stops(), std::vector<pid_t>{pid_of_start(1)});
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(runner.signals_of(pid_of_start(i)), std::vector<int>{SIGSTOP});
+  }
+}
+
 TEST_F(TerminalInput, MessagesSayWhatToDo) {
   supervisor->observe(process_messages(output));
   supervisor->watch_terminal();

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Contexts, nodes and topics on the real middleware.
 #include <algorithm>
+#include <atomic>
 #include <functional>
+#include <thread>
+#include <vector>
 
 #include "rcl_interfaces/msg/log.hpp"
 #include "rcl_test.hpp"
@@ -198,6 +201,38 @@ TEST_F(RclNode, PublishesWhatItLogsOnRosout) {
     EXPECT_EQ(log.function, "function");
     EXPECT_EQ(log.line, 42u);
   }
+  EXPECT_EQ(rcl_logging_fini(), RCL_RET_OK);
+}
+
+// A thread that logs uses the publishers of nodes that another thread makes and destroys.
+TEST_F(RclNode, ComesAndGoesWhileAnotherThreadLogsWithItsName) {
+  Context context;
+  const rcl_allocator_t allocator = rcl_get_default_allocator();
+  ASSERT_EQ(rcl_logging_configure(&context.handle.global_arguments, &allocator), RCL_RET_OK);
+  testing::internal::CaptureStderr();
+  std::atomic<bool> done = false;
+  std::atomic<int> logged = 0;
+  std::thread logger([&] {
+    const rcutils_log_location_t location{"function", "file.cpp", 42};
+    while (!done) {
+      rcutils_log(&location, RCUTILS_LOG_SEVERITY_WARN, "talker", "message");
+      ++logged;
+    }
+  });
+  std::vector<rcl_ret_t> results;
+  constexpr int kNodes = 20;
+  for (int i = 0; i < kNodes; ++i) {
+    const int before = logged;
+    Node node(context, "talker");
+    results.push_back(node.result);
+    while (logged < before + 2) {
+      std::this_thread::yield();
+    }
+  }
+  done = true;
+  logger.join();
+  testing::internal::GetCapturedStderr();
+  EXPECT_EQ(results, std::vector<rcl_ret_t>(kNodes, RCL_RET_OK));
   EXPECT_EQ(rcl_logging_fini(), RCL_RET_OK);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rcl/logging_rosout.h"
 
+#include <condition_variable>
 #include <cstdio>
 #include <map>
 #include <mutex>
@@ -18,12 +19,19 @@ constexpr const char* kTopic = "/rosout";
 
 struct Entry {
   rcl_node_t* node;
-  rcl_publisher_t publisher;
+  rcl_publisher_t publisher = rcl_get_zero_initialized_publisher();
+  bool is_ready = false;
+  // The threads that publish with it now.
+  int users = 0;
 };
 
 // Publishers by logger name. The entries keep their addresses, because publisher addresses are handles in traces.
+//
+// The mutex protects the map and the members of the entries. Nothing of the middleware is called while it is held: the
+// middleware may log with its own locks held, and a thread that logs takes this mutex.
 struct Publishers {
   std::mutex mutex;
+  std::condition_variable unused;
   std::map<std::string, Entry, std::less<>> by_logger;
 };
 
@@ -36,11 +44,11 @@ Publishers& publishers() {
 // A failing middleware can log while this thread publishes. Such messages must not be published.
 thread_local bool is_publishing = false;
 
-// The entry with the longest name that is `name` or an ancestor of it.
+// The entry with the longest name that is `name` or an ancestor of it. The mutex must be held.
 Entry* find_for(Publishers& all, std::string_view name) {
   while (!name.empty()) {
     const auto found = all.by_logger.find(name);
-    if (found != all.by_logger.end()) {
+    if (found != all.by_logger.end() && found->second.is_ready) {
       return &found->second;
     }
     const std::size_t separator = name.rfind(RCUTILS_LOGGING_SEPARATOR_CHAR);
@@ -68,18 +76,21 @@ rcl_ret_t rcl_logging_rosout_init_publisher_for_node(rcl_node_t* node) {
     return RCL_RET_NODE_INVALID;
   }
   Publishers& all = publishers();
-  std::lock_guard lock(all.mutex);
-  const auto [entry, is_new] =
-      all.by_logger.try_emplace(rcl_node_get_logger_name(node), Entry{node, rcl_get_zero_initialized_publisher()});
+  std::unique_lock lock(all.mutex);
+  const auto [entry, is_new] = all.by_logger.try_emplace(rcl_node_get_logger_name(node), Entry{node});
   if (!is_new) {
     return RCL_RET_OK;
   }
+  lock.unlock();
   rcl_publisher_options_t options = rcl_publisher_get_default_options();
   options.qos = rcl_node_get_options(node)->rosout_qos;
   const rcl_ret_t result = rcl_publisher_init(
       &entry->second.publisher, node,
       rosidl_typesupport_cpp::get_message_type_support_handle<rcl_interfaces::msg::Log>(), kTopic, &options);
-  if (result != RCL_RET_OK) {
+  lock.lock();
+  if (result == RCL_RET_OK) {
+    entry->second.is_ready = true;
+  } else {
     all.by_logger.erase(entry);
   }
   return result;
@@ -90,12 +101,16 @@ rcl_ret_t rcl_logging_rosout_fini_publisher_for_node(rcl_node_t* node) {
     return RCL_RET_NODE_INVALID;
   }
   Publishers& all = publishers();
-  std::lock_guard lock(all.mutex);
+  std::unique_lock lock(all.mutex);
   const auto entry = all.by_logger.find(std::string_view(rcl_node_get_logger_name(node)));
   if (entry == all.by_logger.end() || entry->second.node != node) {
     return RCL_RET_OK;
   }
+  entry->second.is_ready = false;
+  all.unused.wait(lock, [&] { return entry->second.users == 0; });
+  lock.unlock();
   const rcl_ret_t result = rcl_publisher_fini(&entry->second.publisher, node);
+  lock.lock();
   all.by_logger.erase(entry);
   return result;
 }
@@ -105,28 +120,35 @@ void rcl_logging_rosout_output_handler(const rcutils_log_location_t* location, i
   if (is_publishing) {
     return;
   }
+  Publishers& all = publishers();
+  std::unique_lock lock(all.mutex);
+  Entry* entry = find_for(all, name == nullptr ? "" : name);
+  // Logging continues after shutdown, publishing does not.
+  if (entry == nullptr || !rcl_context_is_valid(entry->node->context)) {
+    return;
+  }
+  ++entry->users;
+  lock.unlock();
+
   is_publishing = true;
-  {
-    Publishers& all = publishers();
-    std::lock_guard lock(all.mutex);
-    Entry* entry = find_for(all, name == nullptr ? "" : name);
-    // Logging continues after shutdown, publishing does not.
-    if (entry != nullptr && rcl_context_is_valid(entry->node->context)) {
-      rcl_interfaces::msg::Log message;
-      message.stamp.sec = static_cast<int32_t>(RCUTILS_NS_TO_S(timestamp));
-      message.stamp.nanosec = static_cast<uint32_t>(timestamp % RCUTILS_S_TO_NS(1));
-      message.level = static_cast<uint8_t>(severity);
-      message.name = name;
-      message.msg = formatted(format, args);
-      if (location != nullptr) {
-        message.file = location->file_name;
-        message.function = location->function_name;
-        message.line = static_cast<uint32_t>(location->line_number);
-      }
-      if (rcl_publish(&entry->publisher, &message, nullptr) != RCL_RET_OK) {
-        rcl_reset_error();
-      }
-    }
+  rcl_interfaces::msg::Log message;
+  message.stamp.sec = static_cast<int32_t>(RCUTILS_NS_TO_S(timestamp));
+  message.stamp.nanosec = static_cast<uint32_t>(timestamp % RCUTILS_S_TO_NS(1));
+  message.level = static_cast<uint8_t>(severity);
+  message.name = name;
+  message.msg = formatted(format, args);
+  if (location != nullptr) {
+    message.file = location->file_name;
+    message.function = location->function_name;
+    message.line = static_cast<uint32_t>(location->line_number);
+  }
+  if (rcl_publish(&entry->publisher, &message, nullptr) != RCL_RET_OK) {
+    rcl_reset_error();
   }
   is_publishing = false;
+
+  lock.lock();
+  if (--entry->users == 0) {
+    all.unused.notify_all();
+  }
 }
