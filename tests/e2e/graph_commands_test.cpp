@@ -65,7 +65,7 @@ TEST(LoglevelCommand, PrintsAndSetsTheLevelsOfNodes) {
   EXPECT_EQ(ask_until({"loglevel", "/left/worker", "debug"}, "debug").out, "/left/worker: debug\n");
   EXPECT_TRUE(worker.wait_for_output("[left.worker]: a detail", kPatience)) << worker.err();
   EXPECT_EQ(ask_until({"loglevel", "/left/*"}, "debug").out, "/left/worker: debug\n");
-  EXPECT_EQ(ask_until({"loglevel", "wor*", "error"}, "error").out, "/left/worker: error\n");
+  EXPECT_EQ(ask_until({"loglevel", "wor*", "error"}, "worker: error").out, "/left/worker: error\n");
   EXPECT_EQ(ask_until({"complete", "loglevel", "/left/"}, "worker").out, "/left/worker\n");
   EXPECT_EQ(launch_command({"complete", "loglevel", "/left/worker", "f"}).out, "fatal\n");
   worker.end_gently();

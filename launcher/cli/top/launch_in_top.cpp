@@ -173,6 +173,9 @@ int launch_in_top(std::vector<std::string> words, const Environment& environment
       show_top(pid, environment);
     }
     lines.show();
+    // Not in waitpid(2) alone, during which ThreadSanitizer keeps signals back.
+    while (!ends_within(pid, 1min)) {
+    }
     status = wait_for(pid);
   }
   return WIFEXITED(status) ? WEXITSTATUS(status) : kExitCodeOfEndedLaunch + WTERMSIG(status);
