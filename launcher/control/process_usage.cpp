@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <thread>
+#include <utility>
 
 #include "launcher/base/files/unique_fd.hpp"
 
@@ -20,8 +20,9 @@ namespace launch {
 namespace {
 
 // A thread takes as long to start as a dozen processes to be looked at.
-constexpr std::size_t kWorthAThread = 200;
+constexpr std::size_t kWorthThreads = 200;
 constexpr std::size_t kMostThreads = 4;
+constexpr std::size_t kBatch = 50;
 
 // As clock_getcpuclockid(3), which asks the kernel whether there is such a process: so does the reading of the clock.
 clockid_t clock_of(pid_t pid) {
@@ -56,23 +57,69 @@ std::optional<ProcessUsage> read_process_usage(pid_t pid) {
   return usage;
 }
 
-std::vector<std::optional<ProcessUsage>> read_process_usage(const std::vector<pid_t>& pids) {
-  std::vector<std::optional<ProcessUsage>> all(pids.size());
-  const std::size_t processors = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, kMostThreads);
-  const std::size_t threads = std::clamp<std::size_t>(pids.size() / kWorthAThread, 1, processors);
-  const std::size_t share = (pids.size() + threads - 1) / threads;
-  const auto read = [&](std::size_t thread) {
-    for (std::size_t i = thread * share; i < std::min((thread + 1) * share, pids.size()); ++i) {
-      all[i] = read_process_usage(pids[i]);
-    }
-  };
-  std::vector<std::jthread> others;
-  for (std::size_t thread = 1; thread < threads; ++thread) {
-    others.emplace_back(read, thread);
+UsageReader::~UsageReader() {
+  {
+    const std::lock_guard lock(mutex_);
+    complete_ = true;
+    begun_ = pids_.size();
   }
-  read(0);
-  others.clear();  // waits for them
-  return all;
+  more_.notify_all();
+}
+
+void UsageReader::add(pid_t pid) {
+  std::size_t size = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    pids_.push_back(pid);
+    size = pids_.size();
+  }
+  if (size == kWorthThreads) {
+    begin_threads();
+  } else if (size % kBatch == 0) {
+    more_.notify_one();
+  }
+}
+
+void UsageReader::begin_threads() {
+  const std::size_t processors = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, kMostThreads);
+  for (std::size_t thread = 1; thread < processors; ++thread) {
+    others_.emplace_back([this] { read(); });
+  }
+}
+
+std::vector<std::optional<ProcessUsage>> UsageReader::take() {
+  {
+    const std::lock_guard lock(mutex_);
+    complete_ = true;
+  }
+  more_.notify_all();
+  read();
+  others_.clear();  // waits for them
+  return std::move(usage_);
+}
+
+void UsageReader::read() {
+  std::vector<pid_t> batch;
+  std::vector<std::optional<ProcessUsage>> found;
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    more_.wait(lock, [this] { return complete_ || pids_.size() - begun_ >= kBatch; });
+    const std::size_t begin = begun_;
+    begun_ = std::min(begin + kBatch, pids_.size());
+    batch.assign(pids_.begin() + static_cast<std::ptrdiff_t>(begin),
+                 pids_.begin() + static_cast<std::ptrdiff_t>(begun_));
+    if (batch.empty()) {
+      return;
+    }
+    lock.unlock();
+    found.clear();
+    for (const pid_t pid : batch) {
+      found.push_back(read_process_usage(pid));
+    }
+    lock.lock();
+    usage_.resize(pids_.size());
+    std::copy(found.begin(), found.end(), usage_.begin() + static_cast<std::ptrdiff_t>(begin));
+  }
 }
 
 }  // namespace launch

@@ -4,8 +4,12 @@
 
 #include <sys/types.h>
 
+#include <condition_variable>
+#include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <optional>
+#include <thread>
 #include <vector>
 
 namespace launch {
@@ -17,7 +21,31 @@ struct ProcessUsage {
 
 // Nothing when the process has gone.
 std::optional<ProcessUsage> read_process_usage(pid_t pid);
-// Of several processes, in their order. Many are divided among threads, because the kernel takes microseconds for each.
-std::vector<std::optional<ProcessUsage>> read_process_usage(const std::vector<pid_t>& pids);
+
+// Reads the usage of many processes. The kernel takes microseconds for each, so other threads begin while the caller
+// still adds processes. For use by one thread.
+class UsageReader {
+ public:
+  UsageReader() = default;
+  ~UsageReader();
+  UsageReader(const UsageReader&) = delete;
+  UsageReader& operator=(const UsageReader&) = delete;
+
+  void add(pid_t pid);
+  // Waits for all. The order is that of add(). To be called once.
+  std::vector<std::optional<ProcessUsage>> take();
+
+ private:
+  void begin_threads();
+  void read();
+
+  std::mutex mutex_;
+  std::condition_variable more_;
+  std::vector<pid_t> pids_;
+  std::vector<std::optional<ProcessUsage>> usage_;
+  std::size_t begun_ = 0;  // so many of the processes are read or about to be
+  bool complete_ = false;
+  std::vector<std::jthread> others_;  // ends first, it uses the other members
+};
 
 }  // namespace launch

@@ -18,6 +18,8 @@ enum class Part { kNothing, kAnswer, kLaunch, kFiles, kProcesses, kProcess, kPla
 
 class PsReader final : public nlohmann::json_sax<Json> {
  public:
+  explicit PsReader(std::function<void(const ListedProcess&)> on_process) : on_process_(std::move(on_process)) {}
+
   bool ok = false;
   std::string error;
   std::string help;
@@ -66,12 +68,16 @@ class PsReader final : public nlohmann::json_sax<Json> {
     }
   }
   bool leave() {
+    if (part() == Part::kProcess && on_process_) {
+      on_process_(launch.processes.back());
+    }
     parts_.pop_back();
     return true;
   }
   Part object_part() const;
   bool number(double value);
 
+  std::function<void(const ListedProcess&)> on_process_;
   std::vector<Part> parts_;
   std::string key_;
 };
@@ -161,8 +167,8 @@ bool PsReader::number(double value) {
 
 }  // namespace
 
-ListedLaunch read_ps_answer(std::string_view line) {
-  PsReader reader;
+ListedLaunch read_ps_answer(std::string_view line, std::function<void(const ListedProcess&)> on_process) {
+  PsReader reader(std::move(on_process));
   if (!Json::sax_parse(line, &reader)) {
     throw ControlError("the launch speaks another language");
   }

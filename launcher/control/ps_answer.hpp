@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,7 +35,8 @@ struct ListedLaunch {
   std::vector<ListedProcess> processes;
 };
 
-// Reads the line. Throws ControlError: with the text of the launch if it refuses, or if this is no such answer.
-ListedLaunch read_ps_answer(std::string_view line);
+// Reads the line, and calls `on_process` after each process. Throws ControlError: with the text of the launch if it
+// refuses, or if this is no such answer.
+ListedLaunch read_ps_answer(std::string_view line, std::function<void(const ListedProcess&)> on_process = {});
 
 }  // namespace launch

@@ -14,11 +14,11 @@
 namespace launch {
 
 void add_usage(nlohmann::ordered_json& processes) {
-  std::vector<pid_t> pids;
+  UsageReader reader;
   for (const nlohmann::ordered_json& process : processes) {
-    pids.push_back(process.value("pid", -1));
+    reader.add(process.value("pid", -1));
   }
-  const std::vector<std::optional<ProcessUsage>> usage = read_process_usage(pids);
+  const std::vector<std::optional<ProcessUsage>> usage = reader.take();
   for (std::size_t i = 0; i < usage.size(); ++i) {
     if (usage[i]) {
       processes[i]["cpu"] = usage[i]->cpu;

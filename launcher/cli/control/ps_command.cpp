@@ -46,12 +46,7 @@ ProcessRow row_of(const ListedLaunch& launch, const ListedProcess& process, cons
           process.line == 0 ? "-" : place_text(launch.places[process.file], process.line)};
 }
 
-std::string table(const ListedLaunch& launch) {
-  std::vector<pid_t> pids;
-  for (const ListedProcess& process : launch.processes) {
-    pids.push_back(process.pid);
-  }
-  const std::vector<std::optional<ProcessUsage>> usage = read_process_usage(pids);
+std::string table(const ListedLaunch& launch, const std::vector<std::optional<ProcessUsage>>& usage) {
   std::vector<ProcessRow> rows{{"NAME", "STATE", "PID", "RESTARTS", "CPU", "MEMORY", "TIME", "PLACE"}};
   rows.reserve(launch.processes.size() + 1);
   for (std::size_t i = 0; i < launch.processes.size(); ++i) {
@@ -129,8 +124,10 @@ int ps_command(const std::string& name, const std::vector<std::string>& words, c
         answer.erase("version");
         answers.push_back(std::move(answer));
       } else {
-        const ListedLaunch listed = read_ps_answer(launch.ask_for_line(request));
-        tables.push_back(heading(listed) + table(listed));
+        UsageReader usage;
+        const ListedLaunch listed = read_ps_answer(launch.ask_for_line(request),
+                                                   [&usage](const ListedProcess& process) { usage.add(process.pid); });
+        tables.push_back(heading(listed) + table(listed, usage.take()));
       }
     } catch (const ControlError& error) {
       // Another launch may have a process of this name.

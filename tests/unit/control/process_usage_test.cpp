@@ -26,17 +26,38 @@ TEST(ProcessUsage, IsUnknownOfAProcessThatHasGone) {
   EXPECT_FALSE(read_process_usage(-1));
 }
 
-TEST(ProcessUsage, OfManyProcessesHasTheirOrder) {
+TEST(UsageReader, KeepsTheOrderOfManyProcesses) {
   std::vector<pid_t> pids(2003, -1);
   for (const std::size_t i : {0, 1000, 1001, 2002}) {
     pids[i] = ::getpid();
   }
-  const std::vector<std::optional<ProcessUsage>> usage = read_process_usage(pids);
+  UsageReader reader;
+  for (const pid_t pid : pids) {
+    reader.add(pid);
+  }
+  const std::vector<std::optional<ProcessUsage>> usage = reader.take();
   ASSERT_EQ(usage.size(), pids.size());
   for (std::size_t i = 0; i < pids.size(); ++i) {
     EXPECT_EQ(usage[i].has_value(), pids[i] > 0) << i;
   }
-  EXPECT_TRUE(read_process_usage(std::vector<pid_t>()).empty());
+}
+
+TEST(UsageReader, ReadsFewProcessesWithoutOtherThreads) {
+  UsageReader reader;
+  reader.add(::getpid());
+  reader.add(-1);
+  const std::vector<std::optional<ProcessUsage>> usage = reader.take();
+  ASSERT_EQ(usage.size(), 2U);
+  EXPECT_TRUE(usage[0]);
+  EXPECT_FALSE(usage[1]);
+}
+
+TEST(UsageReader, MayBeGivenUp) {
+  EXPECT_TRUE(UsageReader().take().empty());
+  UsageReader reader;
+  for (int i = 0; i < 1000; ++i) {
+    reader.add(::getpid());
+  }
 }
 
 }  // namespace

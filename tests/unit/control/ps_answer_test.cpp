@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <string>
+#include <vector>
 
 #include "launcher/control/control_client.hpp"
 
@@ -67,6 +68,13 @@ TEST(PsAnswer, SkipsWhatALaterLauncherAdds) {
   ASSERT_EQ(launch.processes.size(), 1U);
   EXPECT_EQ(launch.processes[0].name, "a");
   EXPECT_EQ(launch.processes[0].pid, 3);
+}
+
+TEST(PsAnswer, TellsOfEachProcessAsSoonAsItIsRead) {
+  std::vector<std::string> read;
+  read_ps_answer(R"({"ok":true,"processes":[{"name":"a","place":{"line":1}},{"name":"b","last_end":{"exit_code":0}}]})",
+                 [&](const ListedProcess& process) { read.push_back(process.name); });
+  EXPECT_THAT(read, ElementsAre("a", "b"));
 }
 
 TEST(PsAnswer, TellsARefusal) {
