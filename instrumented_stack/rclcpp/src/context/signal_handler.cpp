@@ -145,11 +145,9 @@ void SignalHandler::handle(int signal_number, siginfo_t* info, void* context) {
 }
 
 void SignalHandler::run() {
-  while (!stop_thread) {
-    uint64_t count = 0;
-    if (read(event_fd, &count, sizeof count) < 0) {
-      continue;  // EINTR: another signal arrived in this thread
-    }
+  while (true) {
+    // A signal that came before the end of this thread must not be left to the next one, whose contexts are others.
+    const bool is_last = stop_thread;
     if (const int signal_number = last_signal.exchange(0)) {
       RCLCPP_INFO(get_logger("rclcpp"), "signal_handler(signum=%d)", signal_number);
       for (const Context::SharedPtr& context : get_contexts()) {
@@ -158,6 +156,11 @@ void SignalHandler::run() {
         }
       }
     }
+    if (is_last) {
+      return;
+    }
+    uint64_t count = 0;
+    [[maybe_unused]] const ssize_t size = read(event_fd, &count, sizeof count);  // EINTR: a signal in this thread
   }
 }
 

@@ -44,6 +44,18 @@ TEST_F(Signals, EndAReadThatBlocks) {
 std::atomic<int> g_plain{0};
 std::atomic<int> g_with_info{0};
 
+// A signal that comes just before the shutdown ends the contexts of then, not those of the next init().
+TEST_F(Signals, EndNoLaterContext) {
+  for (int i = 0; i < 20; ++i) {
+    raise(SIGINT);
+    rclcpp::shutdown();
+    rclcpp::init(0, nullptr);
+    rclcpp::uninstall_signal_handlers();  // waits for the thread that would end the context
+    ASSERT_TRUE(rclcpp::ok()) << i;
+    rclcpp::install_signal_handlers();
+  }
+}
+
 TEST_F(Signals, CallTheEarlierHandlersOfBothKinds) {
   rclcpp::shutdown();
   struct sigaction plain {};
