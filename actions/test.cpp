@@ -7,6 +7,7 @@
 
 #include "actions/expectation_fields.hpp"
 #include "actions/expectations.hpp"
+#include "launcher/base/environment/test_run_variables.hpp"
 #include "launcher/language/fields.hpp"
 #include "launcher/visit/launch_context.hpp"
 
@@ -15,6 +16,20 @@ namespace launch {
 namespace {
 
 constexpr Duration kTimeout = std::chrono::seconds(60);
+
+// While it lives, the scope has the variables of a run.
+class RunEnvironment {
+ public:
+  explicit RunEnvironment(Scope& scope)
+      : scope_(scope), before_(std::exchange(scope.environment, with_variables_of_a_test_run(scope.environment))) {}
+  ~RunEnvironment() { scope_.environment = std::move(before_); }
+  RunEnvironment(const RunEnvironment&) = delete;
+  RunEnvironment& operator=(const RunEnvironment&) = delete;
+
+ private:
+  Scope& scope_;
+  Environment before_;
+};
 
 class Test : public Action {
  public:
@@ -55,6 +70,7 @@ class Test : public Action {
     if (context.explores()) {
       // Each test is a run of its own: its processes are not there together with those of the others.
       Requests others = std::exchange(context.requests(), Requests());
+      const RunEnvironment variables(context.scope());
       context.visit_test(actions_);
       request(context.scope(), context);
       context.requests() = std::move(others);

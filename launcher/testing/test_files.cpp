@@ -12,6 +12,7 @@
 #include "launcher/base/diagnostics/diagnostic.hpp"
 #include "launcher/base/environment/home_directory.hpp"
 #include "launcher/base/environment/own_prefix.hpp"
+#include "launcher/base/environment/test_run_variables.hpp"
 #include "launcher/cli/find_launch_file.hpp"
 #include "launcher/testing/checks/trace_check.hpp"
 #include "launcher/visit/launch_plan.hpp"
@@ -64,20 +65,10 @@ LaunchPlan plan_of(const LaunchDescription& description, const Registry& registr
   return plan_launch(context, description);
 }
 
-// Each run has these variables, with values of its own.
-Environment with_variables_of_a_run(Environment environment) {
-  environment.emplace("ROS_HOME", ros_home(environment));
-  environment.emplace("ROS_LOG_DIR", ros_log_directory(environment));
-  environment.emplace("ROS_TRACE_DIR", environment.at("ROS_HOME") + "/tracing");
-  environment.emplace("ROS_DOMAIN_ID", "0");
-  environment.emplace("LAUNCH_TEST_SEED", "1");
-  return environment;
-}
-
 // A launch file whose tests are looked for.
 struct TestFile {
   TestFile(const std::string& path, const Registry& with, const Environment& in, const LaunchArguments& given)
-      : file(path), registry(with), environment(with_variables_of_a_run(in)), arguments(given) {
+      : file(path), registry(with), environment(with_variables_of_a_test_run(in)), arguments(given) {
     Scope scope;
     scope.environment = environment;
     description = load_launch_files({file}, registry, scope);

@@ -222,13 +222,17 @@ TEST_F(WithoutRunning, CheckSummarisesManyFindingsOfAKind) {
   EXPECT_EQ(Json::parse(launch({"check", "--format", "json", path}).out).size(), 150u);
 }
 
-TEST_F(WithoutRunning, EveryExampleIsWithoutErrors) {
+// In the environment of a user, who has none of the variables that the sandbox sets.
+TEST_F(WithoutRunning, EveryExampleIsWithoutFindings) {
   for (const auto& entry : std::filesystem::directory_iterator(EXAMPLES_DIRECTORY)) {
     const std::string path = entry.path().string();
     if (path.ends_with(".launch.xml") || path.ends_with(".launch.yaml")) {
-      const CommandResult result = launch({"check", path});
+      const CommandResult result = run_command({"env", "-u", "ROS_HOME", "-u", "ROS_LOG_DIR", "-u", "ROS_TRACE_DIR",
+                                                "-u", "ROS_DOMAIN_ID", LAUNCH_PROGRAM, "check", path});
       EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
-      EXPECT_THAT(result.out, HasSubstr("1 file: 0 errors, ")) << path;
+      const bool has_argument = path.find("/13_") != std::string::npos;  // it must be given
+      EXPECT_THAT(result.out, HasSubstr(has_argument ? "1 file: 0 errors, 1 warning" : "1 file: 0 errors, 0 warnings"))
+          << path;
     }
   }
 }
