@@ -47,7 +47,7 @@ def try_trees(launch, first, count, directory):
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument('launch')
+    parser.add_argument('launch', type=lambda path: Path(path).resolve())
     parser.add_argument('--seconds', type=float, default=60)
     parser.add_argument('--trees', type=int, help='so many trees, however long it takes')
     parser.add_argument('--first', type=int, default=1)
