@@ -9,8 +9,8 @@ from launch.descriptions import Executable
 from launch.launch_context import LaunchContext
 from launch.substitution import Substitution
 from launch_ros._parameters import parameter_items
+from launch_ros._transitions import name_of_transition
 from launch_ros.descriptions import ComposableNode
-from launch_ros.events.lifecycle import name_of_transition
 
 _NODE_ARGUMENTS = ('package', 'executable', 'name', 'namespace', 'exec_name', 'parameters', 'remappings', 'ros_arguments',
                    'arguments')

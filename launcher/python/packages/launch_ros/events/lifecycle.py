@@ -8,18 +8,8 @@ from launch._places import Located, name_of_function
 from launch._values import LaunchFileError, function, text
 from launch.event import Event
 from launch.launch_context import LaunchContext
+from launch_ros._transitions import name_of_transition
 from lifecycle_msgs.msg import State, Transition
-
-NAMES = {Transition.TRANSITION_CONFIGURE: 'configure', Transition.TRANSITION_CLEANUP: 'cleanup',
-         Transition.TRANSITION_ACTIVATE: 'activate', Transition.TRANSITION_DEACTIVATE: 'deactivate',
-         Transition.TRANSITION_UNCONFIGURED_SHUTDOWN: 'shutdown', Transition.TRANSITION_INACTIVE_SHUTDOWN: 'shutdown',
-         Transition.TRANSITION_ACTIVE_SHUTDOWN: 'shutdown'}
-
-
-def name_of_transition(transition_id):
-    if transition_id not in NAMES:
-        raise LaunchFileError(f'a launch file can\'t ask for the transition {transition_id!r}')
-    return NAMES[transition_id]
 
 
 class _NodeMatcher:
