@@ -94,7 +94,7 @@ TEST_F(NetworkFaultTest, LosesAndDelaysPackets) {
 
 TEST_F(NetworkFaultTest, NoTestPassesWhereTheyAreNotPossible) {
   if (test_support::kThreadSanitized) {
-    GTEST_SKIP() << test_support::kHasAThreadMore;  // unshare(2) of a user namespace
+    GTEST_SKIP() << test_support::kHasOneMoreThread;  // unshare(2) of a user namespace
   }
   ASSERT_EQ(::mount("/dev/null", "/dev/net/tun", nullptr, MS_BIND, nullptr), 0);
   const std::string file = write(nodes(5) + R"xml(

@@ -106,7 +106,7 @@ TEST_F(ProcessFaults, ProcessesThatRunOutFailStartsAndNotTheLaunch) {
     GTEST_SKIP() << "skipped, because it needs a user of its own, whose processes are counted";
   }
   if (test_support::kThreadSanitized) {
-    GTEST_SKIP() << test_support::kHasAThreadMore;
+    GTEST_SKIP() << test_support::kHasOneMoreThread;
   }
   const std::string file = write(many(40, "cmd=\"sleep 1000\""));
   ASSERT_EQ(::chmod(sandbox_.directory().c_str(), 0777), 0);

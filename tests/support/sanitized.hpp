@@ -18,7 +18,7 @@ inline constexpr bool kThreadSanitized = false;
 #endif
 
 // Why a test is skipped that needs a process with one thread, or counts threads.
-inline constexpr const char* kHasAThreadMore = "skipped, because ThreadSanitizer gives each process a thread more";
+inline constexpr const char* kHasOneMoreThread = "skipped, because ThreadSanitizer gives each process one more thread";
 
 // Why a test is skipped that traces malloc(3) with LTTng's library, or one like it.
 inline constexpr const char* kMallocIsTaken = "skipped, because sanitizers and a preloaded malloc exclude each other";

@@ -173,9 +173,8 @@ int launch_in_top(std::vector<std::string> words, const Environment& environment
       show_top(pid, environment);
     }
     lines.show();
-    // Not in waitpid(2) alone, during which ThreadSanitizer keeps signals back.
-    while (!ends_within(pid, 1min)) {
-    }
+    // During waitpid(2) ThreadSanitizer keeps signals back.
+    ends_within(pid, 24h);
     status = wait_for(pid);
   }
   return WIFEXITED(status) ? WEXITSTATUS(status) : kExitCodeOfEndedLaunch + WTERMSIG(status);

@@ -20,7 +20,7 @@ constexpr const char* kTopic = "/rosout";
 struct Entry {
   rcl_node_t* node;
   rcl_publisher_t publisher = rcl_get_zero_initialized_publisher();
-  bool is_ready = false;
+  bool is_ready = false;  // false while the publisher is being made
   // The threads that publish with it now.
   int users = 0;
 };
@@ -106,13 +106,11 @@ rcl_ret_t rcl_logging_rosout_fini_publisher_for_node(rcl_node_t* node) {
   if (entry == all.by_logger.end() || entry->second.node != node) {
     return RCL_RET_OK;
   }
-  entry->second.is_ready = false;
-  all.unused.wait(lock, [&] { return entry->second.users == 0; });
+  // Nobody finds it any more, and another node of this name gets an entry of its own. It keeps its address.
+  auto ending = all.by_logger.extract(entry);
+  all.unused.wait(lock, [&] { return ending.mapped().users == 0; });
   lock.unlock();
-  const rcl_ret_t result = rcl_publisher_fini(&entry->second.publisher, node);
-  lock.lock();
-  all.by_logger.erase(entry);
-  return result;
+  return rcl_publisher_fini(&ending.mapped().publisher, node);
 }
 
 void rcl_logging_rosout_output_handler(const rcutils_log_location_t* location, int severity, const char* name,
