@@ -150,7 +150,7 @@ ActionType handler(std::string tag, std::string help, std::vector<AttributeSpec>
           .make = std::move(make)};
 }
 
-AttributeSpec process_attribute() {
+AttributeSpec any_process_attribute() {
   return {"process", AttributeType::kText, false, "every process", "name of the process or of its node"};
 }
 
@@ -162,7 +162,7 @@ AttributeSpec once_attribute() {
 
 ActionType on_process_start_action() {
   return handler("on_process_start", "Visits its actions each time a process has started.",
-                 {process_attribute(), once_attribute()}, [](const Fields& fields) {
+                 {any_process_attribute(), once_attribute()}, [](const Fields& fields) {
                    return std::make_shared<RegisterEventHandler>(fields,
                                                                  [](Scope&) -> Event { return OnProcessStart{}; });
                  });
@@ -172,7 +172,7 @@ ActionType on_process_exit_action() {
   return handler("on_process_exit",
                  "Visits its actions each time a process has ended; a process that can't be started counts as ended "
                  "with exit code 127.",
-                 {process_attribute(),
+                 {any_process_attribute(),
                   {"exit_code", AttributeType::kText, false, "any",
                    "any, nonzero, or codes and signals (-9 or SIGKILL) separated by commas"},
                   once_attribute()},
@@ -181,7 +181,7 @@ ActionType on_process_exit_action() {
 
 ActionType on_process_io_action() {
   return handler("on_process_io", "Visits its actions for each line that a process has written.",
-                 {process_attribute(),
+                 {any_process_attribute(),
                   {"pattern", AttributeType::kText, false, "every line", "regular expression to be found in the line"},
                   {"stream", AttributeType::kText, false, "both", "stdout, stderr or both"},
                   once_attribute()},

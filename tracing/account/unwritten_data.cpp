@@ -20,7 +20,10 @@ namespace {
 
 constexpr std::size_t kRoomLeftByAWorkingConsumer = 65536;  // bytes; it fills a file system to the last block
 constexpr const char* kRemedy = "make room there, or choose another base-path";
-constexpr double kNanosecondsPerSecond = 1e9;
+
+double to_seconds(std::uint64_t nanoseconds) {
+  return static_cast<double>(nanoseconds) / 1e9;
+}
 
 // The daemon counts more lost events than the last packets know of.
 bool ends_with_losses(const ChannelLoss& channel, const std::vector<Stream>& streams) {
@@ -97,9 +100,8 @@ std::string describe_damage(const LossAccount& account, const std::string& no_ro
     const std::string why =
         no_room.empty() ? fmt::format("data could not be written to {}", directory.string()) : no_room;
     if (end == 0) return fmt::format("{}: no event could be written; {}", why, kRemedy);
-    return fmt::format("{}: events after {:.3f} s of {:.3f} s are missing; {}", why,
-                       static_cast<double>(begin) / kNanosecondsPerSecond,
-                       static_cast<double>(end) / kNanosecondsPerSecond, kRemedy);
+    return fmt::format("{}: events after {:.3f} s of {:.3f} s are missing; {}", why, to_seconds(begin), to_seconds(end),
+                       kRemedy);
   }
   // As of a session that was paused: when it should have been written to is not known.
   if (no_room.empty()) return {};

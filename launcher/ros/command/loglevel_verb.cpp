@@ -100,10 +100,10 @@ class Loglevel final : public Verb {
  private:
   // Full names. Throws CommandError if there is none, or none that has the services.
   std::vector<std::string> find_nodes(GraphSession& session) const {
-    constexpr Seconds kPatience{3.0};  // the services of a node are found after its name
+    constexpr Seconds kPatienceForServices{3.0};  // the services of a node are found after its name
     if (!is_pattern(node_)) {
       const std::string node = require_node(session, node_, look_.time());
-      session.wait_until([&] { return has_service(session, node); }, look_.time().value_or(kPatience));
+      session.wait_until([&] { return has_service(session, node); }, look_.time().value_or(kPatienceForServices));
       if (!has_service(session, node)) {
         throw no_service(fmt::format("the node '{}' has no services for the levels of its loggers", node));
       }

@@ -51,17 +51,17 @@ TEST(DependsOn, MeansTheSameInYaml) {
   EXPECT_EQ(planned.plan.dependencies[0].timeout, std::chrono::milliseconds(1500));
 }
 
-std::string error_of(const std::string& attributes) {
+std::string error_of_dependency(const std::string& attributes) {
   return plan_actions("<executable cmd=\"a\"><depends_on " + attributes + "/></executable>").error;
 }
 
 TEST(DependsOn, NamesOneThing) {
-  EXPECT_EQ(error_of(""),
+  EXPECT_EQ(error_of_dependency(""),
             "/test/system.launch.xml:2:22: error: it is not said what is waited for\n"
             "    2 | <executable cmd=\"a\"><depends_on /></executable>\n"
             "      |                      ^~~~~~~~~~\n"
             "      = help: give process, node, topic or service");
-  EXPECT_EQ(error_of(R"(topic="t" process="p")"),
+  EXPECT_EQ(error_of_dependency(R"(topic="t" process="p")"),
             "/test/system.launch.xml:2:40: error: either a process or a topic is waited for\n"
             "    2 | <executable cmd=\"a\"><depends_on topic=\"t\" process=\"p\"/></executable>\n"
             "      |                                        ^\n"
@@ -69,26 +69,26 @@ TEST(DependsOn, NamesOneThing) {
 }
 
 TEST(DependsOn, ConditionsAreThoseOfTheirSubject) {
-  EXPECT_EQ(error_of(R"(topic="t" condition="mesage")"),
+  EXPECT_EQ(error_of_dependency(R"(topic="t" condition="mesage")"),
             "/test/system.launch.xml:2:54: error: condition can be present or message, got 'mesage'\n"
             "    2 | <executable cmd=\"a\"><depends_on topic=\"t\" condition=\"mesage\"/></executable>\n"
             "      |                                                      ^~~~~~\n"
             "      = help: did you mean 'message'?");
-  EXPECT_EQ(error_of(R"(service="s" condition="started")"),
+  EXPECT_EQ(error_of_dependency(R"(service="s" condition="started")"),
             "/test/system.launch.xml:2:56: error: condition can be present, got 'started'\n"
             "    2 | <executable cmd=\"a\"><depends_on service=\"s\" condition=\"started\"/></executable>\n"
             "      |                                                        ^~~~~~~");
-  EXPECT_EQ(error_of(R"(service="s" state="active")"),
+  EXPECT_EQ(error_of_dependency(R"(service="s" state="active")"),
             "/test/system.launch.xml:2:52: error: state goes with a node only\n"
             "    2 | <executable cmd=\"a\"><depends_on service=\"s\" state=\"active\"/></executable>\n"
             "      |                                                    ^~~~~~");
-  EXPECT_EQ(error_of(R"(node="n" state="activ")"),
+  EXPECT_EQ(error_of_dependency(R"(node="n" state="activ")"),
             "/test/system.launch.xml:2:49: error: state can be unconfigured, inactive, active or finalized, got "
             "'activ'\n"
             "    2 | <executable cmd=\"a\"><depends_on node=\"n\" state=\"activ\"/></executable>\n"
             "      |                                                 ^~~~~\n"
             "      = help: did you mean 'active'?");
-  EXPECT_EQ(error_of(R"(topic="a b")"),
+  EXPECT_EQ(error_of_dependency(R"(topic="a b")"),
             "/test/system.launch.xml:2:40: error: 'a b' is no valid name\n"
             "    2 | <executable cmd=\"a\"><depends_on topic=\"a b\"/></executable>\n"
             "      |                                        ^~~\n"

@@ -26,7 +26,7 @@ ProcessSpec process_of(const std::string& text) {
   return planned.plan.processes.empty() ? ProcessSpec() : planned.plan.processes.front();
 }
 
-std::string error_of(const std::string& attributes) {
+std::string error_of_executable(const std::string& attributes) {
   const std::string error = plan_actions("<executable cmd=\"a\" " + attributes + "/>").error;
   const std::size_t begin = error.find("error: ");
   const std::size_t end = error.find('\n', begin);
@@ -68,21 +68,24 @@ TEST(ResourceFields, AreNothingByDefault) {
 }
 
 TEST(ResourceFields, SayWhatIsWrong) {
-  EXPECT_EQ(error_of("nice=\"20\""), "nice is a number from -20 to 19, got 20");
-  EXPECT_EQ(error_of("sched_policy=\"fif\" sched_priority=\"1\""),
+  EXPECT_EQ(error_of_executable("nice=\"20\""), "nice is a number from -20 to 19, got 20");
+  EXPECT_EQ(error_of_executable("sched_policy=\"fif\" sched_priority=\"1\""),
             "'fif' is no scheduling policy, expected other, batch, idle, fifo or rr; did you mean 'fifo'?");
-  EXPECT_EQ(error_of("sched_policy=\"rr\""), "the policy rr needs a priority; add sched_priority, from 1 to 99");
-  EXPECT_EQ(error_of("sched_policy=\"rr\" sched_priority=\"0\""), "sched_priority is a number from 1 to 99, got 0");
-  EXPECT_EQ(error_of("sched_priority=\"7\""),
+  EXPECT_EQ(error_of_executable("sched_policy=\"rr\""),
+            "the policy rr needs a priority; add sched_priority, from 1 to 99");
+  EXPECT_EQ(error_of_executable("sched_policy=\"rr\" sched_priority=\"0\""),
+            "sched_priority is a number from 1 to 99, got 0");
+  EXPECT_EQ(error_of_executable("sched_priority=\"7\""),
             "sched_priority goes with the policies fifo and rr only; add sched_policy=\"fifo\", or use nice");
-  EXPECT_EQ(error_of("cpus=\"2-1\""), "'2-1' is no list of CPUs; write numbers and ranges, such as 0,2-3");
-  EXPECT_EQ(error_of("cpus=\"\""), "'' is no list of CPUs; write numbers and ranges, such as 0,2-3");
-  EXPECT_EQ(error_of("cpus=\"0,1024\""), "'0,1024' is no list of CPUs; write numbers and ranges, such as 0,2-3");
+  EXPECT_EQ(error_of_executable("cpus=\"2-1\""), "'2-1' is no list of CPUs; write numbers and ranges, such as 0,2-3");
+  EXPECT_EQ(error_of_executable("cpus=\"\""), "'' is no list of CPUs; write numbers and ranges, such as 0,2-3");
+  EXPECT_EQ(error_of_executable("cpus=\"0,1024\""),
+            "'0,1024' is no list of CPUs; write numbers and ranges, such as 0,2-3");
   for (const char* const amount : {"much", "0", "-1", "1T", "99999999999999999999", "18446744073709551615G"}) {
-    EXPECT_EQ(error_of(std::string("memory_limit=\"") + amount + "\""),
+    EXPECT_EQ(error_of_executable(std::string("memory_limit=\"") + amount + "\""),
               std::string("'") + amount + "' is no amount of memory; write bytes, or a number with K, M or G");
   }
-  EXPECT_EQ(error_of("open_files_limit=\"2\""), "open_files_limit is at least 3, got 2");
+  EXPECT_EQ(error_of_executable("open_files_limit=\"2\""), "open_files_limit is at least 3, got 2");
 }
 
 TEST(CleanEnvironment, HoldsOnlyWhatIsSaid) {
@@ -101,9 +104,9 @@ TEST(OutputTargets, MayBeSetForEachStream) {
 }
 
 TEST(OutputTargets, SayWhatIsWrong) {
-  EXPECT_EQ(error_of("stdout=\"scren\""),
+  EXPECT_EQ(error_of_executable("stdout=\"scren\""),
             "'scren' is no place for output, expected screen, log, own_log or none; did you mean 'screen'?");
-  EXPECT_EQ(error_of("stderr=\"screen log\""),
+  EXPECT_EQ(error_of_executable("stderr=\"screen log\""),
             "'screen log' is no place for output, expected screen, log, own_log or none; write several with commas: "
             "screen,log");
 }
