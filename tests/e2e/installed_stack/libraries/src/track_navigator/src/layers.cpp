@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <future>
 #include <mutex>
 #include <nav_msgs/msg/occupancy_grid.hpp>
 #include <pluginlib/class_list_macros.hpp>
@@ -31,9 +32,12 @@ class StaticLayer : public Layer {
     executor_.add_callback_group(group_, node->get_node_base_interface());
   }
   void activate() override {
-    thread_ = std::thread([this] { executor_.spin(); });
+    done_ = std::promise<void>();
+    thread_ = std::thread([this, done = done_.get_future()] { executor_.spin_until_future_complete(done); });
   }
   void deactivate() override {
+    // Without the promise, a cancel() before the thread has begun to spin would be lost.
+    done_.set_value();
     executor_.cancel();
     thread_.join();
   }
@@ -47,6 +51,7 @@ class StaticLayer : public Layer {
   std::shared_ptr<track_frames_ros::Buffer> frames_;
   rclcpp::CallbackGroup::SharedPtr group_;
   rclcpp::executors::SingleThreadedExecutor executor_;
+  std::promise<void> done_;
   std::thread thread_;
   std::mutex mutex_;
   Costs costs_;

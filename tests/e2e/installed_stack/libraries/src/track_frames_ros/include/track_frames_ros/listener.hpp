@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <future>
 #include <memory>
 #include <string>
 #include <thread>
@@ -43,6 +44,8 @@ class Listener {
     start(node->get_node_base_interface(), node->get_node_parameters_interface(), node->get_node_topics_interface());
   }
   ~Listener() {
+    // Without the promise, a cancel() before the thread has begun to spin would be lost.
+    done_.set_value();
     executor_->cancel();
     thread_.join();
   }
@@ -71,7 +74,8 @@ class Listener {
     fixed_ = subscribe("/tf_static", rclcpp::QoS(100).transient_local(), true);
     executor_ = rclcpp::executors::SingleThreadedExecutor::make_shared();
     executor_->add_callback_group(group_, base);
-    thread_ = std::thread([executor = executor_] { executor->spin(); });
+    thread_ = std::thread(
+        [executor = executor_, done = done_.get_future().share()] { executor->spin_until_future_complete(done); });
   }
   static int& count() {
     static int made = 0;
@@ -84,6 +88,7 @@ class Listener {
   rclcpp::Subscription<tf2_msgs::msg::TFMessage>::SharedPtr moving_;
   rclcpp::Subscription<tf2_msgs::msg::TFMessage>::SharedPtr fixed_;
   rclcpp::executors::SingleThreadedExecutor::SharedPtr executor_;
+  std::promise<void> done_;
   std::thread thread_;
 };
 
