@@ -6,6 +6,7 @@
 #include <ostream>
 #include <rcl_interfaces/msg/parameter.hpp>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -31,11 +32,18 @@ class Parameter {
   const ParameterValue& get_parameter_value() const { return value_; }
   rcl_interfaces::msg::ParameterValue get_value_message() const { return value_.to_value_msg(); }
 
-  // The value as a C++ type. Throws exceptions::InvalidParameterTypeException, which names the parameter.
+  // The value as a C++ type. Throws exceptions::InvalidParameterTypeException, which names the parameter. As a
+  // ParameterValue it is the value of any type, as a Parameter the parameter itself; both are valid as long as this.
   template <typename T>
-  auto get_value() const {
+  decltype(auto) get_value() const {
     try {
-      return value_.get<T>();
+      if constexpr (std::is_same_v<T, ParameterValue>) {
+        return (value_);
+      } else if constexpr (std::is_same_v<T, Parameter>) {
+        return (*this);
+      } else {
+        return value_.get<T>();
+      }
     } catch (const ParameterTypeException& error) {
       throw exceptions::InvalidParameterTypeException(name_, error.what());
     }

@@ -210,6 +210,10 @@ TEST_F(NodeParametersTest, ListsDescribesAndFindsByPrefix) {
   std::map<std::string, double> gains;
   EXPECT_TRUE(node.get_parameters("gain", gains));
   EXPECT_THAT(gains, ElementsAre(testing::Pair("deep.d", 3.0), testing::Pair("p", 1.0)));
+  std::map<std::string, rclcpp::Parameter> parameters;
+  EXPECT_TRUE(node.get_parameters("gain", parameters));
+  ASSERT_EQ(parameters.size(), gains.size());
+  EXPECT_EQ(parameters.begin()->second.as_double(), gains.begin()->second);
 }
 
 TEST_F(NodeParametersTest, ChangesArePublishedOnParameterEvents) {

@@ -48,6 +48,12 @@ TEST(Parameter, RefusesAnotherTypeWithItsName) {
   }
 }
 
+TEST(Parameter, IsGotWithoutKnowingItsType) {
+  const Parameter parameter("speed", 1.5);
+  EXPECT_EQ(&parameter.get_value<Parameter>(), &parameter);
+  EXPECT_EQ(&parameter.get_value<rclcpp::ParameterValue>(), &parameter.get_parameter_value());
+}
+
 TEST(Parameter, ConvertsToAMessageAndBack) {
   const Parameter parameter("name", std::vector<std::string>{"x"});
   EXPECT_EQ(Parameter::from_parameter_msg(parameter.to_parameter_msg()), parameter);
