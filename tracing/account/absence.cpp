@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "launcher/base/text/nearest_name.hpp"
+#include "tracing/account/seconds.hpp"
 #include "tracing/ctf/metadata_text.hpp"
 #include "tracing/ctf/trace_class.hpp"
 #include "tracing/plan/ros_events.hpp"
@@ -15,7 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kNanoseconds = 1e9;
 constexpr std::size_t kMostToldOf = 5;             // processes
 constexpr const char* kLaunchEvents = "launch:*";  // the launcher's own
 
@@ -29,7 +29,7 @@ std::string describe(const EventCounts& process) {
     return fmt::format("{} was never registered with the session daemon: {} that it fired {} missing", label,
                        some_events(process.missed), process.missed == 1 ? "is" : "are");
   }
-  const double seconds = static_cast<double>(process.reached - process.begin) / kNanoseconds;
+  const double seconds = to_seconds(process.reached - process.begin);
   return fmt::format("{} is recorded from {:.1f} s after its start on: {} that it fired before {} missing", label,
                      seconds, some_events(process.missed), process.missed == 1 ? "is" : "are");
 }

@@ -11,13 +11,13 @@
 #include "tracing/account/packet_losses.hpp"
 #include "tracing/account/process_account.hpp"
 #include "tracing/account/recorded_events.hpp"
+#include "tracing/account/seconds.hpp"
 #include "tracing/plan/trace_error.hpp"
 
 namespace tracing {
 namespace {
 
 constexpr const char* kCallbackEnd = "ros2:callback_end";
-constexpr double kNanosecondsPerSecond = 1e9;
 
 std::uint64_t userspace_losses(const LossAccount& account) {
   std::uint64_t sum = 0;
@@ -94,7 +94,7 @@ namespace {
 
 std::optional<double> seconds_until_reached(const EventCounts& process) {
   if (process.reached == 0) return std::nullopt;
-  return static_cast<double>(process.reached - process.begin) / kNanosecondsPerSecond;
+  return to_seconds(process.reached - process.begin);
 }
 
 }  // namespace
@@ -109,8 +109,8 @@ std::vector<ProcessAccount> account_processes(const std::vector<EventCounts>& co
     for (const auto& [event, count] : process.events) recorded += count * events.times(event);
     processes.push_back({.name = process.process,
                          .pid = process.pid,
-                         .seconds = static_cast<double>(end - process.begin) / kNanosecondsPerSecond,
-                         .cpu_seconds = static_cast<double>(process.cpu) / kNanosecondsPerSecond,
+                         .seconds = to_seconds(end - process.begin),
+                         .cpu_seconds = to_seconds(process.cpu),
                          .events = recorded,
                          .callbacks = callbacks != process.events.end() ? callbacks->second : 0,
                          .reached_after = seconds_until_reached(process),

@@ -14,16 +14,13 @@
 #include <limits>
 
 #include "tracing/account/loss_account.hpp"
+#include "tracing/account/seconds.hpp"
 
 namespace tracing {
 namespace {
 
 constexpr std::size_t kRoomLeftByAWorkingConsumer = 65536;  // bytes; it fills a file system to the last block
 constexpr const char* kRemedy = "make room there, or choose another base-path";
-
-double to_seconds(std::uint64_t nanoseconds) {
-  return static_cast<double>(nanoseconds) / 1e9;
-}
 
 // The daemon counts more lost events than the last packets know of.
 bool ends_with_losses(const ChannelLoss& channel, const std::vector<Stream>& streams) {

@@ -36,6 +36,34 @@ std::string error_of_executable(const std::string& attributes) {
                                           (help == std::string::npos ? "" : "; " + error.substr(help + 8));
 }
 
+// The calls of read(2) that this process has made until now.
+long number_of_reads() {
+  std::ifstream file("/proc/self/io");
+  std::string key;
+  long number = -1;
+  while (file >> key >> number && key != "syscr:") {
+  }
+  return number;
+}
+
+long reads_for(int executables) {
+  std::string text;
+  for (int i = 0; i < executables; ++i) {
+    text += "<executable cmd=\"a\" name=\"a" + std::to_string(i) + "\"/>";
+  }
+  const long before = number_of_reads();
+  EXPECT_EQ(plan_actions(text).error, "");
+  return number_of_reads() - before;
+}
+
+TEST(ResourceFields, ReadNoFileForEachProcess) {
+  if (number_of_reads() < 0) {
+    GTEST_SKIP() << "skipped, because /proc/self/io cannot be read here";
+  }
+  (void)reads_for(1);  // what is read once
+  EXPECT_EQ(reads_for(100), reads_for(1));
+}
+
 TEST(ResourceFields, AreTakenFromBothFormats) {
   const char* const xml = R"xml(<let name="cores" value="0,2-3"/>
     <executable cmd="a" nice="-5" sched_policy="fifo" sched_priority="80" cpus="$(var cores)" memory_limit="512M"
