@@ -8,6 +8,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <array>
@@ -87,6 +88,7 @@ TEST_F(Runner, ReportsADeathBySignalAsANegativeCode) {
 TEST_F(Runner, TellsWhetherAGroupLivesWhoseLeaderHasExited) {
   const Process with_child = runner->spawn(script("sleep 1000 & echo $!"));
   const pid_t child = std::stoi(read_line(with_child.out.get()));
+  const UniqueFd end_of_child(static_cast<int>(::syscall(SYS_pidfd_open, child, 0)));
   // Its first line comes when it has left.
   const Process with_daemon = runner->spawn(script("setsid -f sh -c 'echo $$; exec sleep 1000'"));
   const pid_t daemon = std::stoi(read_line(with_daemon.out.get()));
@@ -95,6 +97,8 @@ TEST_F(Runner, TellsWhetherAGroupLivesWhoseLeaderHasExited) {
   ::kill(daemon, SIGKILL);
   ::kill(child, SIGKILL);
   EXPECT_EQ(read_to_end(with_child.out.get()), "") << "the end of the child closes the pipe";
+  // A process closes its files some time before it counts as ended.
+  ASSERT_TRUE(wait_for(end_of_child.get()));
   EXPECT_EQ(runner->groups_live({&with_child}), (std::vector<bool>{false}));
   EXPECT_EQ(wait(with_child).code, 0);
   EXPECT_EQ(wait(with_daemon).code, 0);
