@@ -12,6 +12,14 @@ target_compile_options(project_options INTERFACE
   # A designated initialiser names the members that it sets; the others have their defaults.
   $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor -Woverloaded-virtual -Wno-missing-field-initializers>)
 
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # From this size (KiB) on GCC collects its garbage, which takes up to a seventh of the time for several joined sources. Its
+  # default is 128 MiB. A compiler takes at most 1.4 GiB with 512 MiB, and 1.2 GiB with the default.
+  add_compile_options("SHELL:--param ggc-min-heapsize=524288")
+  # ccache needs it to see which headers a precompiled header was made of.
+  add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-fpch-preprocess>)
+endif()
+
 if(SANITIZE)
   # Sanitized code must be whole: third-party calls into it otherwise give false reports.
   # GCC's analysis of uninitialised variables is wrong in sanitized code of the standard library.
