@@ -3,9 +3,9 @@
 //                 [--leave] [--exit CODE] [--end-by-sigterm] SCRIPT…
 //
 // Puts a guardian above itself, starts a shell for each script and waits for its first line. Prints the process numbers
-// of guardian, launcher and shells. Then it waits to be killed, or exits with CODE. The timeouts are milliseconds. A
-// clean-up is forgotten when it is taken back. With --leave, what the shells leave goes on. With --end-by-sigterm it
-// waits for SIGTERM and ends in order.
+// of guardian, launcher and shells. Then it waits to be killed. With --exit it exits with CODE at SIGUSR1, when the
+// test has seen the shells run. The timeouts are milliseconds. A clean-up is forgotten when it is taken back. With
+// --leave, what the shells leave goes on. With --end-by-sigterm it waits for SIGTERM and ends in order.
 #include <fmt/format.h>
 #include <signal.h>
 #include <unistd.h>
@@ -34,9 +34,8 @@ int main(int argc, char** argv) {
   spec.environment = {{"PATH", "/usr/bin:/bin"}};
   std::optional<int> exit_code;
   bool ends_by_sigterm = false;
-  sigset_t sigterm;
-  sigemptyset(&sigterm);
-  sigaddset(&sigterm, SIGTERM);
+  sigset_t awaited;
+  sigemptyset(&awaited);
   std::vector<std::string> scripts;
   for (int i = 2; i < argc; ++i) {
     const std::string word = argv[i];
@@ -53,13 +52,15 @@ int main(int argc, char** argv) {
       spec.environment.insert_or_assign(launch::kLeaveRunningVariable, "1");
     } else if (word == "--exit") {
       exit_code = std::atoi(argv[++i]);
+      sigaddset(&awaited, SIGUSR1);
     } else if (word == "--end-by-sigterm") {
       ends_by_sigterm = true;
-      ::sigprocmask(SIG_BLOCK, &sigterm, nullptr);
+      sigaddset(&awaited, SIGTERM);
     } else {
       scripts.push_back(word);
     }
   }
+  ::sigprocmask(SIG_BLOCK, &awaited, nullptr);
   const auto runner = launch::make_posix_process_runner();
   std::vector<launch::Process> processes;
   for (const std::string& script : scripts) {
@@ -72,12 +73,10 @@ int main(int argc, char** argv) {
     fmt::print("{}\n", processes.back().pid);
   }
   std::fflush(stdout);
-  if (exit_code) {
-    return *exit_code;
+  if (!exit_code && !ends_by_sigterm) {
+    ::pause();
   }
-  if (ends_by_sigterm) {
-    int signal = 0;
-    return ::sigwait(&sigterm, &signal);
-  }
-  ::pause();
+  int signal = 0;
+  ::sigwait(&awaited, &signal);
+  return exit_code.value_or(EXIT_SUCCESS);
 }

@@ -33,7 +33,7 @@ const std::string kSleeper = "echo ready; exec sleep 1000";
 // Leaves a process that has a session of its own, ignores SIGINT, and whose parent has died. The shell would let it
 // ignore SIGINT anyway, because it starts it in the background, but it may tell its number before.
 const std::string kDaemon =
-    "setsid sh -c 'trap \"\" INT; sleep 1000 >/dev/null 2>&1 </dev/null & echo $!' | { read pid; echo $pid; }; ";
+    "pid=$(setsid sh -c 'trap \"\" INT; sleep 1000 >/dev/null 2>&1 </dev/null & echo $!'); echo $pid; ";
 
 bool wait_for_end(const UniqueFd& fd) {
   pollfd descriptor{fd.get(), POLLIN, 0};
@@ -68,8 +68,10 @@ class GuardianTest : public testing::Test {
   GuardianTest() { ::prctl(PR_SET_CHILD_SUBREAPER, 1); }
   ~GuardianTest() override { ::prctl(PR_SET_CHILD_SUBREAPER, 0); }
 
-  // Starts a launcher and reads the numbers of guardian, launcher and the shell of each script.
+  // Starts a launcher and reads the numbers of guardian, launcher and the shell of each script. With --exit in its
+  // words the launcher exits after that.
   void start(std::vector<std::string> words, std::size_t shells) {
+    const bool exits = std::ranges::find(words, "--exit") != words.end();
     words.insert(words.begin(), {DOOMED_LAUNCHER, LAUNCH_GUARDIAN});
     ProcessSpec spec;
     spec.name = "test";
@@ -84,6 +86,9 @@ class GuardianTest : public testing::Test {
       shells_.push_back(open_process(shell_pids.back()));
       EXPECT_TRUE(shells_.back()) << "shell " << i;
     }
+    if (exits) {
+      ::kill(launcher, SIGUSR1);
+    }
   }
   std::string read_line() {
     std::string line;
@@ -93,10 +98,8 @@ class GuardianTest : public testing::Test {
     }
     return line;
   }
-  pid_t read_pid() {
-    const std::string line = read_line();
-    return line.empty() ? -1 : std::stoi(line);
-  }
+  // Throws std::invalid_argument if there is none: a signal to process -1 would go to all processes.
+  pid_t read_pid() { return std::stoi(read_line()); }
   // How the guardian ended. Everything else has ended then.
   int end() {
     EXPECT_TRUE(wait_for_end(run.pidfd));
@@ -251,6 +254,9 @@ TEST_F(GuardianTest, LeavesEarlierChildrenAlone) {
   spec.environment = {{"PATH", "/usr/bin:/bin"}};
   run = runner->spawn(spec);
   const pid_t earlier = read_pid();
+  guardian = read_pid();
+  launcher = read_pid();
+  ::kill(launcher, SIGUSR1);
   EXPECT_EQ(end(), 0);
   EXPECT_EQ(::kill(earlier, 0), 0);
   ::kill(earlier, SIGKILL);
