@@ -14,6 +14,7 @@ from typing import Dict, List, Mapping, Optional, Sequence, Set
 
 from .package_xml import Package
 from .prefixes import build_environment
+from .test_results import TestCounts, read_counts
 from .workspace import all_needed, built_before
 
 
@@ -37,6 +38,7 @@ class Result:
     seconds: float
     failed_step: str = ''  # '' if it is built
     log: Optional[Path] = None  # of the failed step
+    tests: Optional[TestCounts] = None  # if its tests ran
 
 
 class Observer:
@@ -123,7 +125,12 @@ class Builder:
         for step, command, folder in self._steps(package, tree):
             log = tree / f'launch_build_{step}.log'
             self.logs[package.name] = log
-            if await self._command(command, folder, own if step == 'test' else environment, log) != 0:
+            if step == 'test':
+                _test_results(package, tree).unlink(missing_ok=True)
+            code = await self._command(command, folder, own if step == 'test' else environment, log)
+            if step == 'test':
+                result.tests = read_counts(_test_results(package, tree))
+            if code != 0:
                 result.failed_step, result.log = step, log
                 break
             if step == 'configure':
@@ -170,7 +177,7 @@ class Builder:
         yield 'install', ['cmake', '--install', str(tree)], source
         if options.run_tests and options.tests:
             yield 'test', ['ctest', '--test-dir', str(tree), '--output-on-failure', '--output-junit',
-                           str(tree / 'test_results/ctest.xml'), '-j', processors], source
+                           str(_test_results(package, tree)), '-j', processors], source
 
     def _python_steps(self, package: Package, tree: Path):  # type: ignore[no-untyped-def]
         prefix = self.prefix(package)
@@ -181,4 +188,8 @@ class Builder:
                           '--record', str(tree / 'installed_files')], package.folder
         if self._options.run_tests and (package.folder / 'test').is_dir():
             yield 'test', [sys.executable, '-m', 'pytest', 'test', '-p', 'no:cacheprovider',
-                           f'--junit-xml={tree}/test_results/pytest.xml'], package.folder
+                           f'--junit-xml={_test_results(package, tree)}'], package.folder
+
+
+def _test_results(package: Package, tree: Path) -> Path:
+    return tree / 'test_results' / ('pytest.xml' if package.build_type == 'ament_python' else 'ctest.xml')

@@ -11,6 +11,7 @@ from typing import Dict, List, Optional
 from .jobs import Builder, Observer, Result
 from .log_errors import short_errors
 from .package_xml import Package
+from .test_results import TestCounts
 
 
 class Output(Observer):
@@ -30,7 +31,12 @@ class Output(Observer):
         self._ended += 1
         self._clear()
         width = len(str(self._number))
-        what = f' {result.seconds:.1f} s' if not result.failed_step else f': {FAILED[result.failed_step]}'
+        if not result.failed_step:
+            what = f' {result.seconds:.1f} s' + (f', {result.tests}' if result.tests else '')
+        elif result.tests and result.tests.failed:
+            what = f': {result.tests}'
+        else:
+            what = f': {FAILED[result.failed_step]}'
         print(f'[{self._ended:{width}}/{self._number}] {result.package.name}{what}', flush=True)
         if result.failed_step and result.log:
             for line in short_errors(result.log.read_text(errors='replace')):
@@ -65,6 +71,9 @@ class Output(Observer):
             print(f'launch build: interrupted, {self._ended} of {self._number} packages were built')
             return 130
         text = f'{_packages(built)} built in {seconds:.1f} s'
+        tests = [result.tests for result in results if result.tests]
+        if tests:
+            text += f', {sum(tests, TestCounts())}'
         if failed:
             text += f', failed: {", ".join(result.package.name for result in failed)}'
         if skipped:

@@ -55,8 +55,9 @@ class Workspace : public testing::Test {
 TEST_F(Workspace, IsBuiltTestedAndSourced) {
   const CommandResult built = build({"--test"});
   EXPECT_EQ(built.exit_code, 0) << built.out << built.err;
-  EXPECT_THAT(built.out, MatchesRegex("\\[1/2\\] arm_messages [0-9.]+ s\n\\[2/2\\] arm_reach [0-9.]+ s\n"
-                                      "2 packages built in [0-9.]+ s\n"));
+  EXPECT_THAT(built.out, MatchesRegex("\\[1/2\\] arm_messages [0-9.]+ s, 1 test passed\n"
+                                      "\\[2/2\\] arm_reach [0-9.]+ s, no tests\n"
+                                      "2 packages built in [0-9.]+ s, 1 test passed\n"));
   // What packages ask for when their tests are built is there, and says once that it does nothing.
   const std::string configured = test_support::read_file(workspace_ / "build/arm_messages/launch_build_configure.log");
   EXPECT_THAT(configured, HasSubstr("arm_messages: linters are left out where their programs, such as "));
@@ -96,7 +97,7 @@ TEST_F(Workspace, MayHoldLibrariesOnRclcpp) {
   fs::copy(LIBRARIES_SOURCES, workspace_ / "src", fs::copy_options::recursive);
   const CommandResult built = build({"--test", "--cmake-args", "-DCMAKE_BUILD_TYPE=None"});
   EXPECT_EQ(built.exit_code, 0) << built.out << built.err;
-  EXPECT_THAT(built.out, HasSubstr("\n7 packages built in "));
+  EXPECT_THAT(built.out, MatchesRegex(".*\n7 packages built in [0-9.]+ s, [0-9]+ tests passed\n"));
   for (const auto& [package, test] :
        {std::pair{"track_frames_ros", "test_listener"}, std::pair{"track_bond", "test_bond"},
         std::pair{"track_navigator", "test_navigator"}}) {

@@ -4,14 +4,17 @@
 import contextlib
 import io
 import os
+import re
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 from launch_build.__main__ import main
 from launch_build.log_errors import short_errors
 from launch_build.package_xml import PackageError, read_package
 from launch_build.prefixes import build_environment
+from launch_build.test_results import TestCounts, read_counts
 from launch_build.workspace import built_before, choose, find_packages, in_order
 
 
@@ -121,6 +124,39 @@ class CommandLine(InFolder):
         self.assertEqual(self.run_command(), (
             1, '', "launch build: error: package 'old' has the build type 'catkin'; there are ament_cmake, ament_python, cmake\n"
                    f'  {self.folder.resolve()}/src/old\n'))
+
+
+class Tests(InFolder):
+    def build(self, tests):
+        path = self.package('arm', '<export><build_type>cmake</build_type></export>')
+        (path / 'CMakeLists.txt').write_text(f'cmake_minimum_required(VERSION 3.16)\nproject(arm NONE)\nenable_testing()\n{tests}')
+        with unittest.mock.patch('launch_build.__main__.write_setup_files'):  # they are in an installation only
+            code, out, _ = self.run_command('--test')
+        return code, re.sub(r' [0-9]+[.][0-9] s\b', ' T s', out)
+
+    def test_are_counted(self):
+        self.assertEqual(self.build('add_test(a true)\nadd_test(b true)\n'
+                                    'add_test(c sh -c "exit 9")\nset_tests_properties(c PROPERTIES SKIP_RETURN_CODE 9)\n'),
+                         (0, '[1/1] arm T s, 2 tests passed, 1 skipped\n1 package built in T s, 2 tests passed, 1 skipped\n'))
+
+    def test_that_fail_are_counted(self):
+        code, out = self.build('add_test(a true)\nadd_test(b false)\n')
+        self.assertEqual(code, 1)
+        self.assertEqual(out.splitlines()[0], '[1/1] arm: 1 of 2 tests failed')
+        self.assertEqual(out.splitlines()[-1], '1 package built in T s, 1 of 2 tests failed, failed: arm')
+
+    def test_none(self):
+        self.assertEqual(self.build(''), (0, '[1/1] arm T s, no tests\n1 package built in T s, no tests\n'))
+
+    def test_results_of_pytest(self):
+        file = self.folder / 'pytest.xml'
+        file.write_text('<testsuites><testsuite name="pytest" errors="1" failures="1" skipped="1" tests="5"/></testsuites>')
+        self.assertEqual(str(read_counts(file)), '2 of 4 tests failed, 1 skipped')
+
+    def test_results_that_are_not_whole(self):
+        file = self.folder / 'ctest.xml'
+        file.write_text('<testsuite tests="5"')
+        self.assertEqual(read_counts(file), TestCounts())
 
 
 class Environment(InFolder):
