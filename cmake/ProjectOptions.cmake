@@ -13,10 +13,10 @@ target_compile_options(project_options INTERFACE
   $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor -Woverloaded-virtual -Wno-missing-field-initializers>)
 
 if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  # From this size (KiB) on GCC collects its garbage, which takes up to a seventh of the time for several joined sources. Its
-  # default is 128 MiB. A compiler takes at most 1.4 GiB with 512 MiB, and 1.2 GiB with the default.
+  # GCC collects its garbage when it uses more than this memory (KiB). With its default of 128 MiB, joined sources spend up to a
+  # seventh of their time on that. The largest one takes 1.4 GiB with 512 MiB, and 1.2 GiB with the default.
   add_compile_options("SHELL:--param ggc-min-heapsize=524288")
-  # ccache needs it to see which headers a precompiled header was made of.
+  # ccache asks for it where sources use precompiled headers, as the tests do.
   add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-fpch-preprocess>)
 endif()
 
