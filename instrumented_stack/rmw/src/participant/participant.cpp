@@ -97,9 +97,26 @@ void be_no_neighbour_of(const rtps::GuidPrefix_t& first, std::uint16_t number, r
   differ(kParticipant);
 }
 
+// The factory of Fast DDS waits 100 ms in its destructor, at the end of each process, and deletes the participants that
+// are left. If none is left, the process ends without it.
+class KeptFactory {
+ public:
+  ~KeptFactory() {
+    std::lock_guard lock(siblings().mutex);
+    if (siblings().prefixes.empty()) {
+      static const auto* const kept = new std::shared_ptr(std::move(factory_));
+      static_cast<void>(kept);
+    }
+  }
+
+ private:
+  std::shared_ptr<fdds::DomainParticipantFactory> factory_ = fdds::DomainParticipantFactory::get_shared_instance();
+};
+
 // Creates a participant that others do not see yet. Returns null on errors.
 fdds::DomainParticipant* create_disabled_participant(std::uint32_t domain_id, const fdds::DomainParticipantQos& qos,
                                                      fdds::DomainParticipantListener& listener) {
+  static const KeptFactory kept;  // made after the factory, so destroyed before it
   auto* factory = fdds::DomainParticipantFactory::get_instance();
   fdds::DomainParticipantFactoryQos before;
   factory->get_qos(before);
