@@ -17,6 +17,11 @@ void* lttng_address(const char* name) {
   return address;
 }
 
+std::unique_lock<std::mutex> lttng_lock() {
+  static std::mutex mutex;
+  return std::unique_lock(mutex);
+}
+
 lttng_endpoint* lttng_notification_endpoint() {
   return *static_cast<lttng_endpoint**>(lttng_address("lttng_session_daemon_notification_endpoint"));
 }

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <mutex>
+#include <string_view>
 
 namespace tracing {
 
@@ -21,12 +23,34 @@ struct LttngName {
   char text[size];
 };
 
-// Converts to the pointer to the function, and so it can be called and passed on. The conversion throws TraceError if
-// the library can't be loaded.
+// Held while the library uses its connection to the session daemon. The library keeps this connection in variables of
+// the process and protects it with nothing: two threads would share a connection, read each other's answers and close a
+// descriptor twice.
+std::unique_lock<std::mutex> lttng_lock();
+
+// These functions have connections of their own and wait for long.
+constexpr bool has_own_connection(std::string_view name) {
+  return name.starts_with("lttng_notification_channel_") || name.ends_with("_wait_for_completion");
+}
+
 template <LttngName name, typename Function>
-struct LttngFunction {
-  operator Function*() const {  // NOLINT: it stands for the function
-    static Function* const address = reinterpret_cast<Function*>(lttng_address(name.text));
+struct LttngFunction;
+
+// A call is for any thread. It waits while another thread is in a call. Converts to the pointer to the function, for an
+// owner that destroys an object. Both throw TraceError if the library can't be loaded.
+template <LttngName name, typename Result, typename... Arguments>
+struct LttngFunction<name, Result(Arguments...)> {
+  using Pointer = Result (*)(Arguments...);
+
+  Result operator()(Arguments... arguments) const {
+    const Pointer function = *this;
+    std::unique_lock<std::mutex> lock;
+    if constexpr (!has_own_connection(name.text)) lock = lttng_lock();
+    return function(arguments...);
+  }
+
+  operator Pointer() const {  // NOLINT: it stands for the function
+    static const auto address = reinterpret_cast<Pointer>(lttng_address(name.text));
     return address;
   }
 };

@@ -227,7 +227,8 @@ std::optional<LossAccount> LttngTracer::pause(const std::string& name) {
   const auto stopped = static_cast<std::uint64_t>(launch::monotonic_time());
   // Waits for the data, because a user who pauses wants to look at the trace.
   note_pause(CounterDirectory::of_session(name), name);
-  check_lttng(lttng_stop_tracing(name.c_str()), fmt::format("pause trace session '{}'", name));
+  check_lttng(lttng_stop_tracing_no_wait(name.c_str()), fmt::format("pause trace session '{}'", name));
+  wait_for_data(name, {});
   pause_kernel_recorder(recorder_directory(name));
   if (!session || !session->active || session->snapshot || !session->path.starts_with('/')) return std::nullopt;
   // So a trace that is looked at meanwhile has a verdict. The end of the session writes another one.

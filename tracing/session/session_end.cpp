@@ -49,18 +49,22 @@ void stop(const std::string& name) {
 
 }  // namespace
 
+bool wait_for_data(const std::string& name, const std::function<bool()>& give_up) {
+  const std::string doing = fmt::format("write the data of trace session '{}'", name);
+  for (Polling data; check_lttng(lttng_data_pending(name.c_str()), doing) > 0; data.pause()) {
+    if (give_up && give_up()) return false;
+  }
+  return true;
+}
+
 LossAccount stop_and_account(const std::string& name, const std::function<bool()>& give_up, StepTimer& timer) {
   try {
     stop(name);
     timer.finished("stop");
-    const std::string doing = fmt::format("write the data of trace session '{}'", name);
-    bool cut_short = false;
-    for (Polling data; check_lttng(lttng_data_pending(name.c_str()), doing) > 0 && !cut_short; data.pause()) {
-      cut_short = give_up && give_up();
-    }
+    const bool complete = wait_for_data(name, give_up);
     timer.finished("last data");
     LossAccount losses = read_losses(name);
-    losses.cut_short = cut_short;
+    losses.cut_short = !complete;
     return losses;
   } catch (const TraceError&) {
     lttng_destroy_session_no_wait(name.c_str());

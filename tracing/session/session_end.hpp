@@ -10,6 +10,10 @@
 
 namespace tracing {
 
+// Waits until the consumer daemon has written all that a stopped session has recorded. False if give_up said so first.
+// Throws TraceError.
+bool wait_for_data(const std::string& lttng_session_name, const std::function<bool()>& give_up);
+
 // Stops the session and reads its losses once they are final, or as they are when give_up says so. A session that fails
 // in this can't be used any more and is destroyed. Throws TraceError.
 LossAccount stop_and_account(const std::string& lttng_session_name, const std::function<bool()>& give_up,

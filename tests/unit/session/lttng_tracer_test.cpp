@@ -3,13 +3,17 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <cstdlib>
 #include <filesystem>
+#include <thread>
 
 #include "tests/support/command.hpp"
 #include "tests/unit/session/lttng_tracer_fixture.hpp"
 #include "tests/unit/session/trace_reading.hpp"
 #include "tracing/account/loss_account.hpp"
 #include "tracing/account/session_step.hpp"
+#include "tracing/lttng/lttng_ctl.hpp"
 #include "tracing/plan/trace_config.hpp"
 #include "tracing/plan/trace_error.hpp"
 #include "tracing/session/session_details.hpp"
@@ -69,6 +73,42 @@ TEST_F(LttngTracer, StartsADaemonOnDemandOnce) {
   tracer->finish(config_named("first"), never);
   tracer->finish(config_named("second"), never);
   EXPECT_EQ(listed_sessions(), "");
+}
+
+// LTTng's library has one connection for the whole process, which two threads must not use at once.
+TEST_F(LttngTracer, ThreadsThatAskTheSessionDaemonAtOnceGetTheirOwnAnswers) {
+  const TraceConfig config = config_named("run");
+  tracer->start(config);
+  constexpr int kQuestions = 500;
+  std::atomic<int> sessions = 0;
+  std::atomic<int> domains = 0;
+  const auto ask_often = [](std::atomic<int>& total, auto&& question) {
+    return [&total, question] {
+      for (int i = 0; i < kQuestions; ++i) total += question();
+    };
+  };
+  const auto ask_for_sessions = [] {
+    lttng_session* listed = nullptr;
+    const int count = tracing::lttng_list_sessions(&listed);
+    std::free(listed);
+    return count;
+  };
+  const auto ask_for_domains = [] {
+    lttng_domain* listed = nullptr;
+    const int count = tracing::lttng_list_domains("run", &listed);
+    std::free(listed);
+    return count;
+  };
+  testing::internal::CaptureStderr();
+  {
+    std::jthread first(ask_often(sessions, ask_for_sessions));
+    std::jthread second(ask_often(domains, ask_for_domains));
+    std::jthread third(ask_often(sessions, ask_for_sessions));
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(sessions, 2 * kQuestions);
+  EXPECT_EQ(domains, kQuestions);
+  tracer->finish(config, never);
 }
 
 TEST_F(LttngTracer, TraceIsCompleteOnDiskEveryTimeFinishReturns) {
