@@ -252,15 +252,14 @@ Participant::Participant(const rmw_init_options_t& options, GraphCache& graph)
 }
 
 Participant::~Participant() {
-  {
-    std::lock_guard lock(siblings().mutex);
-    std::erase(siblings().prefixes, participant_->guid().guidPrefix);
-  }
+  const rtps::GuidPrefix_t prefix = participant_->guid().guidPrefix;
   // No callback may run while, or after, the participant is taken apart.
   participant_->set_listener(nullptr);
   participant_->delete_publisher(publisher_);
   participant_->delete_subscriber(subscriber_);
   fdds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+  std::lock_guard lock(siblings().mutex);
+  std::erase(siblings().prefixes, prefix);
 }
 
 void Participant::introduce() {
