@@ -3,29 +3,37 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "launcher/base/text/ascii.hpp"
 
 namespace launch {
 
-std::size_t edit_distance(std::string_view from, std::string_view to) {
-  std::vector<std::size_t> before_last;
+std::size_t edit_distance(std::string_view from, std::string_view to, std::size_t limit) {
+  std::vector<std::size_t> before_last(to.size() + 1);
   std::vector<std::size_t> last(to.size() + 1);
-  std::iota(last.begin(), last.end(), std::size_t{0});
+  std::vector<std::size_t> row(to.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  std::size_t least = 0;
   for (std::size_t i = 1; i <= from.size(); ++i) {
-    std::vector<std::size_t> row(to.size() + 1);
+    std::swap(before_last, last);
+    std::swap(last, row);
     row[0] = i;
+    const std::size_t least_of_last = std::exchange(least, i);
     for (std::size_t j = 1; j <= to.size(); ++j) {
       const std::size_t replaced = last[j - 1] + (from[i - 1] == to[j - 1] ? 0 : 1);
-      row[j] = std::min({last[j] + 1, row[j - 1] + 1, replaced});
+      row[j] = std::min(std::min(last[j], row[j - 1]) + 1, replaced);
       if (i > 1 && j > 1 && from[i - 1] == to[j - 2] && from[i - 2] == to[j - 1]) {
         row[j] = std::min(row[j], before_last[j - 2] + 1);
       }
+      least = std::min(least, row[j]);
     }
-    before_last = std::move(last);
-    last = std::move(row);
+    // The next row comes from these two, with one more for what comes from the first.
+    if (least > limit && least_of_last >= limit) {
+      return least;
+    }
   }
-  return last.back();
+  return row.back();
 }
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
@@ -40,7 +48,7 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
     if (size_difference >= nearest_distance || candidate == name) {
       continue;
     }
-    const std::size_t distance = edit_distance(wanted, lower(candidate));
+    const std::size_t distance = edit_distance(wanted, lower(candidate), nearest_distance - 1);
     // A candidate that shares no character with a short name is no suggestion.
     if (distance < nearest_distance && distance < std::max(name.size(), candidate.size())) {
       nearest = &candidate;

@@ -10,8 +10,8 @@
 namespace launch {
 
 // Number of insertions, deletions, replacements and swaps of neighbours that lead from `from` to `to` (restricted
-// Damerau-Levenshtein distance).
-std::size_t edit_distance(std::string_view from, std::string_view to);
+// Damerau-Levenshtein distance). If it is more than `limit`, any number above `limit`.
+std::size_t edit_distance(std::string_view from, std::string_view to, std::size_t limit = std::string_view::npos);
 
 // The candidate with the fewest typing errors between it and `name`: letters that are wrong, missing, too many or
 // swapped with their neighbours. Capitals do not count. When several are equally near, the first one is returned. ""

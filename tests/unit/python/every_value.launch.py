@@ -8,6 +8,7 @@ that a case that ends the process is known. EVERY_VALUE_ONLY: the number of one 
 nothing else.
 """
 
+import functools
 import importlib
 import inspect
 import os
@@ -64,6 +65,7 @@ class NoText(Substitution):
         return 5
 
 
+@functools.cache
 def _nested(depth):
     value = 'true'
     from launch.substitutions import NotSubstitution
@@ -78,7 +80,7 @@ def _own_list():
     return value
 
 
-# Made anew for each case: a generator is used up by the first one.
+# Made anew for each case: a generator is used up by the first one. Only the nested one takes too long for that.
 VALUES = {
     'None': lambda: None, 'Ellipsis': lambda: ..., 'zero': lambda: 0, 'negative': lambda: -1, 'huge': lambda: 1 << 70,
     'float': lambda: 1.5, 'nan': lambda: float('nan'), 'infinite': lambda: float('inf'), 'complex': lambda: 1j,
