@@ -208,9 +208,14 @@ function(_stack_export target pkg)
 endfunction()
 
 # Writes the package's configuration and its version. The configuration also reads the exports of ament_package().
+#
+# The configuration is read once in a scope. Packages depend on each other in many ways, and each would be read once for
+# each of the ways: some ten thousand times in a package of Navigation 2.
 function(_stack_config pkg config)
   set_property(GLOBAL PROPERTY STACK_CONFIG_${pkg} TRUE)
-  string(APPEND config "include(\${CMAKE_CURRENT_LIST_DIR}/${pkg}Exports.cmake OPTIONAL)\n")
+  string(PREPEND config "if(_${pkg}_CONFIG_READ)\n  return()\nendif()\n")
+  string(APPEND config "include(\${CMAKE_CURRENT_LIST_DIR}/${pkg}Exports.cmake OPTIONAL)\n"
+    "if(NOT DEFINED ${pkg}_FOUND OR ${pkg}_FOUND)\n  set(_${pkg}_CONFIG_READ TRUE)\nendif()\n")
   set(config_file ${CMAKE_CURRENT_BINARY_DIR}/${pkg}Config.cmake)
   set(version_file ${CMAKE_CURRENT_BINARY_DIR}/${pkg}ConfigVersion.cmake)
   file(CONFIGURE OUTPUT ${config_file} CONTENT "${config}" @ONLY)

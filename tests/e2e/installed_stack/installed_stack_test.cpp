@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The stack as its users have it: installed, moved, and found by a project of their own.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <signal.h>
 
 #include <fstream>
@@ -15,6 +15,7 @@ using test_support::Command;
 using test_support::CommandResult;
 using test_support::run_command;
 using test_support::RunningCommand;
+using testing::HasSubstr;
 
 constexpr std::chrono::seconds kBuildTimeout{300};
 
@@ -112,6 +113,41 @@ TEST_F(InstalledStack, BuildsAmentPackagesUnchanged) {
                       prefix_.string() + ";" + driver.string());
   EXPECT_EQ(run({(monitor / "lib/arm_monitor/monitor").string()}).out, "5\n");
   EXPECT_TRUE(fs::exists(monitor / "share/arm_monitor/launch/monitor.launch.xml"));
+}
+
+// Most packages depend on most others in many ways.
+TEST_F(InstalledStack, ReadsTheConfigurationOfAPackageOnceInAScope) {
+  const fs::path project = sandbox_.directory() / "project";
+  test_support::write_file(project / "CMakeLists.txt", R"(cmake_minimum_required(VERSION 3.16)
+project(finder)
+function(find_in_a_function)
+  find_package(rclcpp_lifecycle REQUIRED)
+endfunction()
+find_in_a_function()
+message(STATUS "outside: '${builtin_interfaces_TARGETS}'")
+find_package(rclcpp_action REQUIRED)
+find_package(rclcpp REQUIRED)
+message(STATUS "found: '${builtin_interfaces_TARGETS}'")
+add_subdirectory(part)
+)");
+  test_support::write_file(project / "part/CMakeLists.txt", R"(
+find_package(builtin_interfaces REQUIRED)
+message(STATUS "in the folder: '${builtin_interfaces_TARGETS}', ${builtin_interfaces_FOUND}")
+)");
+  const CommandResult configured =
+      run({CMAKE, "-S", project.string(), "-B", (sandbox_.directory() / "build").string(), "-G", GENERATOR,
+           "-DCMAKE_PREFIX_PATH=" + prefix_.string(), "-DCMAKE_CXX_COMPILER=" COMPILER,
+           "--trace-source=builtin_interfacesTargets.cmake"});
+  const std::string targets =
+      "builtin_interfaces::builtin_interfaces;"
+      "builtin_interfaces::builtin_interfaces__rosidl_generator_c";
+  EXPECT_THAT(configured.out,
+              HasSubstr("-- outside: ''\n-- found: '" + targets + "'\n-- in the folder: '" + targets + "', 1\n"));
+  // One line of the file, once for the function and once for the rest.
+  const std::string line = "cmake_policy(PUSH )";
+  int reads = 0;
+  for (auto at = configured.err.find(line); at != std::string::npos; at = configured.err.find(line, at + 1)) ++reads;
+  EXPECT_EQ(reads, 2) << configured.err;
 }
 
 TEST_F(InstalledStack, FindsItsLibrariesWhereItWasMovedTo) {
