@@ -183,16 +183,17 @@ class Conductor(Action):
     # Results.
 
     def _tell_early_end(self):
+        lines = []
         if self._is_ready.is_set():
-            print('Processes under test stopped before tests completed', file=sys.stderr)
+            lines.append('Processes under test stopped before tests completed\n')
         for event in self.proc_info:
             if getattr(event, 'returncode', 0) == 0:
                 continue
-            print(f"Process '{event.process_name}' exited with {event.returncode}", file=sys.stderr)
-            print(f"##### '{event.process_name}' output #####", file=sys.stderr)
-            for line in self.proc_output[event.action]:
-                print(line.text.decode(errors='replace'), end='', file=sys.stderr)
-            print('#' * (len(event.process_name) + 21), file=sys.stderr)
+            lines.append(f"Process '{event.process_name}' exited with {event.returncode}\n")
+            lines.append(f"##### '{event.process_name}' output #####\n")
+            lines += (line.text.decode(errors='replace') for line in self.proc_output[event.action])
+            lines.append('#' * (len(event.process_name) + 21) + '\n')
+        sys.stderr.write(''.join(lines))  # in one piece: the thread of the tests writes, too
         self._tell()
 
     def _tell(self):
