@@ -209,8 +209,8 @@ endfunction()
 
 # Writes the package's configuration and its version. The configuration also reads the exports of ament_package().
 #
-# The configuration is read once in a scope. Packages depend on each other in many ways, and each would be read once for
-# each of the ways: some ten thousand times in a package of Navigation 2.
+# The configuration is read once in a scope. Otherwise CMake would read it once for each chain of dependencies that leads
+# to it. A package of the size of a Navigation 2 server has 18,000 of these.
 function(_stack_config pkg config)
   set_property(GLOBAL PROPERTY STACK_CONFIG_${pkg} TRUE)
   string(PREPEND config "if(_${pkg}_CONFIG_READ)\n  return()\nendif()\n")

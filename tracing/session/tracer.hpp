@@ -25,8 +25,8 @@ struct SetupReport {
   std::string notes = {};  // nothing that is wrong with the session
 };
 
-// All calls block, some for hundreds of milliseconds: call them from a thread of your own. Other threads may use LTTng
-// meanwhile (lttng_ctl.hpp), but not the same session.
+// All calls block, some for hundreds of milliseconds: call them from a thread of your own, one at a time. Other
+// threads may use LTTng's library meanwhile (lttng_ctl.hpp).
 class Tracer {
  public:
   virtual ~Tracer() = default;

@@ -28,7 +28,7 @@ std::size_t edit_distance(std::string_view from, std::string_view to, std::size_
       }
       least = std::min(least, row[j]);
     }
-    // The next row comes from these two, with one more for what comes from the first.
+    // No number of a later row is less than the least of this row, or than the least of the last row plus one.
     if (least > limit && least_of_last >= limit) {
       return least;
     }

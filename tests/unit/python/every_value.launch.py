@@ -80,7 +80,7 @@ def _own_list():
     return value
 
 
-# Made anew for each case: a generator is used up by the first one. Only the nested one takes too long for that.
+# Made anew for each case: a generator is used up by the first one. The nested substitution takes long, so it is made once.
 VALUES = {
     'None': lambda: None, 'Ellipsis': lambda: ..., 'zero': lambda: 0, 'negative': lambda: -1, 'huge': lambda: 1 << 70,
     'float': lambda: 1.5, 'nan': lambda: float('nan'), 'infinite': lambda: float('inf'), 'complex': lambda: 1j,

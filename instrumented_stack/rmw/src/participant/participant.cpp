@@ -258,6 +258,7 @@ Participant::~Participant() {
   participant_->delete_publisher(publisher_);
   participant_->delete_subscriber(subscriber_);
   fdds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+  // Not before: another thread may end the process meanwhile, and KeptFactory must see that a participant is left.
   std::lock_guard lock(siblings().mutex);
   std::erase(siblings().prefixes, prefix);
 }
