@@ -312,15 +312,18 @@ TEST_F(TestExpectations, WhatAProcessSaysAtItsEndIsExpectedOfTheShutdown) {
 }
 
 TEST_F(TestExpectations, AProcessThatIsLeftBehindFailsTheTest) {
-  // The daemon has left the group when it writes to the fifo, for which its parent waits.
+  // The daemon has left the group when it writes to the fifo, for which its parent waits. Then it waits for a line in
+  // another fifo, which nobody writes, so its name stays that of the shell.
   const std::string fifo = sandbox_.directory() / "fifo";
+  const std::string never = sandbox_.directory() / "never";
   ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
-  write_file(sandbox_.directory() / "daemon.sh", "echo > " + fifo + "; exec sleep 1000\n");
+  ASSERT_EQ(::mkfifo(never.c_str(), 0600), 0);
+  write_file(sandbox_.directory() / "daemon.sh", "echo > " + fifo + "; read x < " + never + "\n");
   const CommandResult result = run_file(R"xml(
   <executable name="parent" shell="true" cmd="setsid sh $(dirname)/daemon.sh &amp; read x &lt; $(dirname)/fifo; echo started"/>
   <test name="t"><output process="parent" text="started"/><exit process="parent"/></test>)xml");
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.out, HasSubstr("a.launch.xml:4:4: error: parent-1 left 1 process running: sleep ("));
+  EXPECT_THAT(result.out, HasSubstr("a.launch.xml:4:4: error: parent-1 left 1 process running: sh ("));
 }
 
 TEST_F(TestExpectations, AFailedTestLeavesPagesOfItsTracesAndBundlesOfItsCrashes) {
