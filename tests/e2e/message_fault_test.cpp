@@ -54,8 +54,8 @@ TEST_F(MessageFaultTest, EachKindHitsItsMessages) {
 
 // What the trace says: ping has published, and pong has not taken.
 TEST_F(MessageFaultTest, ADroppedMessageIsLostInTheTraceAndADelayedOneIsOld) {
-  // What is late must come before ping ends.
-  const std::string nodes = std::regex_replace(kNodes, std::regex("value=\"5\""), "value=\"40\"");
+  // What is late must come before ping ends. Nothing else may be so late, on a busy machine either.
+  const std::string nodes = std::regex_replace(kNodes, std::regex("value=\"5\""), "value=\"150\"");
   const std::string file = write(nodes + R"xml(
   <test name="lost">
     <fault topic="/ping" do="drop" count="2">
@@ -65,9 +65,9 @@ TEST_F(MessageFaultTest, ADroppedMessageIsLostInTheTraceAndADelayedOneIsOld) {
     <delivery topic="/ping" from="/ping" to="/pong" max_lost="0"/>
   </test>
   <test name="late">
-    <fault topic="/ping" do="delay" by="0.1" occurrence="2"/>
+    <fault topic="/ping" do="delay" by="1" occurrence="2"/>
     <exit process="ping"/>
-    <latency topic="/ping" max_ms="90"/>
+    <latency topic="/ping" max_ms="999"/>
   </test>)xml");
   const CommandResult result = run({file});
   EXPECT_EQ(result.exit_code, 1);

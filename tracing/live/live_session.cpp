@@ -23,12 +23,6 @@ bool attach(LiveReader& reader, const LiveAddress& address, LiveScreen& screen) 
   while (!is_attached && !screen.is_over_after(kRetryAttach)) is_attached = reader.attach();
   if (!is_attached) return false;
   screen.note(fmt::format("attached to the session '{}'", address.session));
-  if (reader.is_late()) {
-    screen.note(
-        "the session has begun before; objects that are older have no names until it is told of them: "
-        "lttng regenerate statedump --session=" +
-        address.session);
-  }
   return true;
 }
 
@@ -43,8 +37,16 @@ bool report_live_session(const std::string& session, const LiveOptions& options)
   LiveView view;
   Clock::time_point drawn = Clock::now();
   std::chrono::nanoseconds wait{0};
+  std::size_t late_attachments = 0;
   try {
     while (!screen.is_over_after(wait)) {
+      if (late_attachments != reader.late_attachments()) {
+        late_attachments = reader.late_attachments();
+        screen.note(
+            "the session has begun before; objects that are older have no names until it is told of them: "
+            "lttng regenerate statedump --session=" +
+            address.session);
+      }
       const LiveReader::State state = read_some(reader, view);
       if (state == LiveReader::State::kEnd) break;
       wait = state == LiveReader::State::kItem ? std::chrono::nanoseconds(0) : kRetry;

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <optional>
 #include <utility>
 
@@ -17,9 +18,12 @@ namespace tracing {
 namespace {
 
 using babeltrace::MessageGraph;
+using Clock = std::chrono::steady_clock;
 
 constexpr const char* kNoDaemonRemedy =
     "a live session goes to a relay daemon: start 'lttng-relayd', and give the session a live-timer";
+
+constexpr std::chrono::seconds kLongestFailing{10};  // the time that LTTng has for its description of a process
 
 std::string name_of_this_machine() {
   std::array<char, 256> name{};
@@ -87,19 +91,75 @@ LiveAddress live_address(const std::string& text) {
 }
 
 struct LiveReader::Implementation {
-  LiveAddress address;
-  MessageGraph graph{"lttng-live"};
-  MessageTranslator translator;  // its references must be released before the graph
-  std::string what;
-  std::size_t next_message = 0;
-  bool is_late = false;
-  bool is_at_end = false;
+  // One attachment to the session, with what it has read.
+  struct Connection {
+    MessageGraph graph{"lttng-live"};
+    MessageTranslator translator;  // its references must be released before the graph
+    std::size_t next_message = 0;
+  };
 
-  MessageGraph::Fetch fetch() {
-    next_message = 0;
-    return graph.fetch(what, "the relay daemon may have ended");
-  }
+  enum class Attach { kDone, kNoSession, kNotYet };
+
+  Attach attach();
+  std::optional<MessageGraph::Fetch> fetch();
+  bool may_attach_anew();
+
+  LiveAddress address;
+  std::string what;
+  std::unique_ptr<Connection> connection;  // null: to be made by attach()
+  std::size_t late_attachments = 0;
+  bool is_at_end = false;
+  bool has_given = false;  // an item, by next()
+  std::optional<Clock::time_point> first_failure;
+  Clock::time_point last_failure;
 };
+
+LiveReader::Implementation::Attach LiveReader::Implementation::attach() {
+  auto made = std::make_unique<Connection>();
+  const std::optional<KnownSession> known = ask_relay(made->graph.source_class(), address);
+  if (!known) return Attach::kNoSession;
+  if (known->viewers > 0) {
+    // The relay daemon may not know yet that the last attachment has ended.
+    if (first_failure && may_attach_anew()) return Attach::kNotYet;
+    throw TraceReadError(what + ": another viewer has attached to it",
+                         "the relay daemon has one viewer for a session; end the other one");
+  }
+  const babeltrace::Value parameters(bt_value_map_create());
+  bt_value* inputs = nullptr;
+  babeltrace::check(bt_value_map_insert_empty_array_entry(parameters.get(), "inputs", &inputs), "bt_value_map_insert");
+  babeltrace::check(bt_value_array_append_string_element(inputs, address.url().c_str()), "bt_value_array_append");
+  babeltrace::check(bt_value_map_insert_string_entry(parameters.get(), "session-not-found-action", "end"),
+                    "bt_value_map_insert");
+  made->graph.add_source("live", parameters.get(), what, kNoDaemonRemedy);
+  connection = std::move(made);
+  // The source attaches when it is asked for messages.
+  const std::optional<MessageGraph::Fetch> fetched = fetch();
+  if (!fetched) return Attach::kNotYet;
+  if (known->streams > 0) ++late_attachments;
+  is_at_end = *fetched == MessageGraph::Fetch::kEnd;
+  return Attach::kDone;
+}
+
+// nullopt: the attachment has failed, and another one may succeed.
+std::optional<MessageGraph::Fetch> LiveReader::Implementation::fetch() {
+  connection->next_message = 0;
+  try {
+    return connection->graph.fetch(what, "the relay daemon may have ended");
+  } catch (const TraceReadError&) {
+    if (has_given || !may_attach_anew()) throw;
+    connection.reset();
+    return std::nullopt;
+  }
+}
+
+// LTTng describes the events of the first process before the stream that has them. libbabeltrace2 fails for good if it
+// reads the one without the other, so the way out is to attach anew.
+bool LiveReader::Implementation::may_attach_anew() {
+  const Clock::time_point now = Clock::now();
+  if (!first_failure || now - last_failure > kLongestFailing) first_failure = now;
+  last_failure = now;
+  return now - *first_failure <= kLongestFailing;
+}
 
 LiveReader::LiveReader(LiveAddress address) : implementation_(std::make_unique<Implementation>()) {
   implementation_->what = fmt::format("cannot read the live session '{}'", address.url());
@@ -109,42 +169,34 @@ LiveReader::LiveReader(LiveAddress address) : implementation_(std::make_unique<I
 LiveReader::~LiveReader() = default;
 
 bool LiveReader::attach() {
-  Implementation& reader = *implementation_;
-  const std::optional<KnownSession> known = ask_relay(reader.graph.source_class(), reader.address);
-  if (!known) return false;
-  if (known->viewers > 0) {
-    throw TraceReadError(reader.what + ": another viewer has attached to it",
-                         "the relay daemon has one viewer for a session; end the other one");
-  }
-  reader.is_late = known->streams > 0;
-  const babeltrace::Value parameters(bt_value_map_create());
-  bt_value* inputs = nullptr;
-  babeltrace::check(bt_value_map_insert_empty_array_entry(parameters.get(), "inputs", &inputs), "bt_value_map_insert");
-  babeltrace::check(bt_value_array_append_string_element(inputs, reader.address.url().c_str()),
-                    "bt_value_array_append");
-  babeltrace::check(bt_value_map_insert_string_entry(parameters.get(), "session-not-found-action", "end"),
-                    "bt_value_map_insert");
-  reader.graph.add_source("live", parameters.get(), reader.what, kNoDaemonRemedy);
-  // The source attaches when it is asked for messages.
-  reader.is_at_end = reader.fetch() == MessageGraph::Fetch::kEnd;
-  return true;
+  return implementation_->attach() == Implementation::Attach::kDone;
 }
 
-bool LiveReader::is_late() const {
-  return implementation_->is_late;
+std::size_t LiveReader::late_attachments() const {
+  return implementation_->late_attachments;
 }
 
 LiveReader::State LiveReader::next(TraceItem& item) {
+  using Attach = Implementation::Attach;
   Implementation& reader = *implementation_;
   for (;;) {
-    while (reader.next_message < reader.graph.messages().size()) {
-      item = reader.translator.translate(reader.graph.messages()[reader.next_message++].get());
-      if (item) return State::kItem;
+    if (!reader.connection) {
+      const Attach attached = reader.attach();
+      if (attached == Attach::kNotYet) return State::kNothingYet;
+      if (attached == Attach::kNoSession) return State::kEnd;
+    }
+    Implementation::Connection& connection = *reader.connection;
+    while (connection.next_message < connection.graph.messages().size()) {
+      item = connection.translator.translate(connection.graph.messages()[connection.next_message++].get());
+      if (!item) continue;
+      reader.has_given = true;
+      return State::kItem;
     }
     if (reader.is_at_end) return State::kEnd;
-    const MessageGraph::Fetch fetched = reader.fetch();
-    if (fetched == MessageGraph::Fetch::kNothingYet) return State::kNothingYet;
-    reader.is_at_end = fetched == MessageGraph::Fetch::kEnd;
+    const std::optional<MessageGraph::Fetch> fetched = reader.fetch();
+    if (!fetched) continue;
+    if (*fetched == MessageGraph::Fetch::kNothingYet) return State::kNothingYet;
+    reader.is_at_end = *fetched == MessageGraph::Fetch::kEnd;
   }
 }
 

@@ -5,6 +5,7 @@
 // and the new packets of the others. It has one viewer for a session.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -35,8 +36,9 @@ class LiveReader {
   // To be called before anything else, until it returns true: false when the relay daemon does not have the session
   // yet. Throws TraceReadError when there is no relay daemon, or when another viewer has the session.
   bool attach();
-  // The session had streams already: what they hold so far is not read.
-  bool is_late() const;
+  // How often the session had streams already when this reader attached: what they held so far is not read. next()
+  // may attach anew, as long as it has given no item.
+  std::size_t late_attachments() const;
 
   enum class State {
     kItem,

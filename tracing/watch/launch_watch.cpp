@@ -75,7 +75,7 @@ class Watch {
  public:
   void run() {
     tracing::TracedNodes nodes;
-    watch(nodes.reader());
+    watch(nodes);
     nodes.end();
     read_rest(nodes.reader());
     const tracing::Report report{"what launch top has recorded", view_.finish(), ""};
@@ -86,12 +86,13 @@ class Watch {
   tracing::ReportOptions options() const { return {.width = input_.width()}; }
 
   // Until the input ends.
-  void watch(LiveReader& reader) {
+  void watch(tracing::TracedNodes& nodes) {
     tell("view", "no events yet\n");
     Clock::time_point drawn = Clock::now();
     milliseconds wait{0};
     while (input_.look(wait)) {
-      const LiveReader::State state = read_some(reader, view_);
+      const LiveReader::State state = read_some(nodes.reader(), view_);
+      nodes.catch_up();
       wait = state == LiveReader::State::kItem ? milliseconds(0) : kRetry;
       const Clock::duration since = Clock::now() - drawn;
       if (since < kInterval) continue;

@@ -60,7 +60,6 @@ void TracedNodes::start() {
   if (write(alive_.get(), "\n", 1) != 1) throw std::runtime_error("cannot start the session");
 }
 
-// What is recorded before a viewer attaches is not read, so nodes must tell of their objects again.
 void TracedNodes::attach() {
   const Clock::time_point give_up = Clock::now() + kLongestAttach;
   while (!reader_.attach()) {
@@ -71,7 +70,13 @@ void TracedNodes::attach() {
     }
     if (Clock::now() > give_up) throw std::runtime_error("the relay daemon does not get the session");
   }
-  if (!reader_.is_late()) return;
+  catch_up();
+}
+
+// What is recorded before a viewer attaches is not read.
+void TracedNodes::catch_up() {
+  if (caught_up_ == reader_.late_attachments()) return;
+  caught_up_ = reader_.late_attachments();
   launch::wait_for(launch::spawn(
       {.program = "lttng",
        .argv = {"lttng", "regenerate", "statedump", "--session=" + session_},

@@ -5,6 +5,7 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <cstddef>
 #include <string>
 
 #include "launcher/base/files/unique_fd.hpp"
@@ -23,8 +24,10 @@ class TracedNodes {
   TracedNodes(const TracedNodes&) = delete;
   TracedNodes& operator=(const TracedNodes&) = delete;
 
-  // Gives what is recorded. Nodes that are there already tell of their objects again.
+  // Gives what is recorded.
   LiveReader& reader() { return reader_; }
+  // Lets the nodes tell of their objects again if the reader has missed some. To be called now and then.
+  void catch_up();
   // Returns when all is recorded.
   void end();
 
@@ -39,6 +42,7 @@ class TracedNodes {
   launch::UniqueFd alive_;     // the recorder's input
   launch::UniqueFd problems_;  // its errors
   LiveReader reader_;
+  std::size_t caught_up_ = 0;  // late attachments of the reader
 };
 
 }  // namespace tracing
