@@ -103,6 +103,7 @@ struct LiveReader::Implementation {
   Attach attach();
   std::optional<MessageGraph::Fetch> fetch();
   bool may_attach_anew();
+  bool has_streams() const;
 
   LiveAddress address;
   std::string what;
@@ -135,9 +136,15 @@ LiveReader::Implementation::Attach LiveReader::Implementation::attach() {
   // The source attaches when it is asked for messages.
   const std::optional<MessageGraph::Fetch> fetched = fetch();
   if (!fetched) return Attach::kNotYet;
-  if (known->streams > 0) ++late_attachments;
+  // Streams may have begun between the question and the attachment.
+  if (known->streams > 0 || has_streams()) ++late_attachments;
   is_at_end = *fetched == MessageGraph::Fetch::kEnd;
   return Attach::kDone;
+}
+
+bool LiveReader::Implementation::has_streams() const {
+  const std::optional<KnownSession> known = ask_relay(connection->graph.source_class(), address);
+  return known && known->streams > 0;
 }
 
 // nullopt: the attachment has failed, and another one may succeed.
