@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """
 No files include one another in a circle, and no folders within a library. A header and the source of the same name count as one file.
+Nor do Python modules import one another in a circle.
 
 Within a library the compiler accepts such a circle as long as one of the includes stands in a source. It makes every file of
 the circle depend on all others: none can be read, tested or moved alone.
 """
 
+import ast
 import os
 import re
 import unittest
@@ -56,6 +58,32 @@ def stack_include_graph():
                         break
     for file, includes in graph.items():
         includes.discard(file)
+    return graph
+
+
+def import_graph():
+    """
+    Maps each Python module of the launcher to those that it imports when it is imported itself.
+
+    Imports within functions are not counted: actions, events and handlers make one another, as they do in ROS 2.
+    """
+    packages = SOURCE / 'launcher' / 'python' / 'packages'
+    modules = {}
+    for path in sorted(packages.rglob('*.py')):
+        parts = path.relative_to(packages).with_suffix('').parts
+        modules['.'.join(parts[:-1] if parts[-1] == '__init__' else parts)] = path
+    graph = {}
+    for module, path in modules.items():
+        imports = graph.setdefault(module, set())
+        for statement in ast.parse(path.read_text(encoding='utf-8')).body:
+            if isinstance(statement, ast.Import):
+                imports.update(name.name for name in statement.names)
+            elif isinstance(statement, ast.ImportFrom):
+                for name in statement.names:
+                    full = f'{statement.module}.{name.name}'
+                    imports.add(full if full in modules else statement.module)
+        own_packages = {module.rsplit('.', n)[0] for n in range(1, module.count('.') + 1)}  # Python imports these first anyway
+        imports &= modules.keys() - {module} - own_packages
     return graph
 
 
@@ -128,6 +156,12 @@ class IncludeCircles(unittest.TestCase):
         self.assertIn(Path('rmw/src/wait'), graph)
         circle = find_circle(graph)
         self.assertEqual(circle, [], 'a circle: ' + ' → '.join(str(folder) for folder in circle))
+
+    def test_no_python_modules_import_one_another_in_a_circle(self):
+        graph = import_graph()
+        self.assertIn('launch._values', graph['launch.actions._processes'])
+        circle = find_circle(graph)
+        self.assertEqual(circle, [], 'a circle: ' + ' → '.join(circle))
 
     def test_a_circle_is_found(self):
         a, b, c, d = (Path(name) for name in 'abcd')
