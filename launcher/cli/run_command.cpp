@@ -37,7 +37,7 @@
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/isolation/isolation.hpp"
 #include "launcher/process/process_messages.hpp"
-#include "launcher/python/python_places.hpp"
+#include "launcher/python/interpreter/python_module.hpp"
 #include "launcher/ros/ros_client_process.hpp"
 #include "launcher/run/launch_service.hpp"
 #include "launcher/run/user/status_line.hpp"

@@ -10,19 +10,6 @@
 
 namespace launch {
 
-namespace {
-
-bool& tracebacks() {
-  static bool shown = false;
-  return shown;
-}
-
-}  // namespace
-
-void show_python_tracebacks() {
-  tracebacks() = true;
-}
-
 SourceRange PythonPlaces::range(const python::Place& place) {
   std::shared_ptr<const SourceFile> file = file_;
   if (place.line != 0 && place.file != file_->path()) {
@@ -66,7 +53,7 @@ void PythonPlaces::fail(const python::Error& error) {
     }
   }
   std::string help = error.help;
-  if (tracebacks() && !error.traceback.empty()) {
+  if (!error.traceback.empty()) {
     help += (help.empty() ? "" : "\n") + error.traceback;
   }
   throw LaunchError(error.what(), range(error.where), std::move(help), Finding::kPython);

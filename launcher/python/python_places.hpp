@@ -27,7 +27,4 @@ class PythonPlaces {
   std::map<std::string, std::shared_ptr<const SourceFile>> modules_;
 };
 
-// From now on errors of Python carry its traceback.
-void show_python_tracebacks();
-
 }  // namespace launch

@@ -100,6 +100,8 @@ TEST(LaunchRunEnd, IsEndedWhenPatienceIsOver) {
   asked.events = {};
   asked.patience = 50ms;
   LaunchRun run(asked);
+  constexpr int kLongestStart = 1200;  // in times of the patience
+  for (int i = 0; i < kLongestStart && !run.wait_for_output("process started with pid"); ++i) continue;
   EXPECT_FALSE(run.wait_for_output("a text that never comes"));
   const RunResult result = run.wait();
   EXPECT_TRUE(result.timed_out);

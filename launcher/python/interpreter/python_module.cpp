@@ -19,6 +19,11 @@ std::string& module_path() {
   return path;
 }
 
+bool& shows_tracebacks() {
+  static bool shows = false;
+  return shows;
+}
+
 python::Runtime* load_module() {
   std::string path = module_path();
   std::error_code ignored;
@@ -44,8 +49,15 @@ void use_python_module(std::string path) {
   module_path() = std::move(path);
 }
 
+void show_python_tracebacks() {
+  shows_tracebacks() = true;
+}
+
 python::Runtime& python_runtime() {
   static python::Runtime* const runtime = load_module();
+  if (shows_tracebacks()) {
+    runtime->show_tracebacks();
+  }
   return *runtime;
 }
 

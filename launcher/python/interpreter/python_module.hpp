@@ -15,4 +15,7 @@ python::Runtime& python_runtime();
 // installed. It has an effect only before the first use of Python.
 void use_python_module(std::string path);
 
+// From now on errors of Python carry its traceback. Does not load the module.
+void show_python_tracebacks();
+
 }  // namespace launch

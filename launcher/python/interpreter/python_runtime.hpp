@@ -151,13 +151,15 @@ class __attribute__((visibility("default"))) Error : public std::runtime_error {
 
   Place where;
   std::string help;
-  std::string traceback;     // as Python prints it
+  std::string traceback;     // as Python prints it; empty unless show_tracebacks() was called
   std::exception_ptr cause;  // the exception of a call of the host, when Python passed it on
 };
 
 class Runtime {
  public:
   virtual ~Runtime() = default;
+  // From now on errors carry Python's traceback. To make one takes longer than all else of an error.
+  virtual void show_tracebacks() = 0;
   // str() of the value of an expression (launcher/python/interpreter/python_expression.hpp). Throws std::runtime_error.
   virtual std::string evaluate(const std::string& expression, const std::string& modules) = 0;
   // Runs a launch file. `text` is its content. Throws Error.

@@ -9,6 +9,11 @@ namespace py = pybind11;
 
 namespace launch::python {
 
+bool& shows_tracebacks() {
+  static bool shows = false;
+  return shows;
+}
+
 void throw_failure(py::error_already_set& error) {
   std::string message;
   std::string help;
@@ -17,7 +22,8 @@ void throw_failure(py::error_already_set& error) {
   std::exception_ptr cause;
   try {
     const py::object trace = error.trace() ? py::object(error.trace()) : py::none();
-    const py::tuple explained = py::module_::import("launch._explain").attr("explain")(error.value(), trace);
+    const py::tuple explained =
+        py::module_::import("launch._explain").attr("explain")(error.value(), trace, shows_tracebacks());
     message = explained[0].cast<std::string>();
     where = read_place(explained[1]);
     help = explained[2].cast<std::string>();

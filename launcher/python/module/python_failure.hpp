@@ -12,8 +12,10 @@
 
 namespace launch::python {
 
-// Throws Error for a Python exception.
+// Throws Error for a Python exception. It carries the traceback if `shows_tracebacks()` is set.
 [[noreturn]] void throw_failure(pybind11::error_already_set& error);
+
+bool& shows_tracebacks();
 
 // Runs a call of Python while it holds the interpreter's lock, with `host` as the launch that Python sees. Throws
 // Error.

@@ -77,6 +77,7 @@ std::string evaluate(const std::string& expression, const std::string& modules) 
 
 class CPython : public launch::python::Runtime {
  public:
+  void show_tracebacks() override { launch::python::shows_tracebacks() = true; }
   std::string evaluate(const std::string& expression, const std::string& modules) override {
     start();
     const py::gil_scoped_acquire lock;

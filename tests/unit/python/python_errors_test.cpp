@@ -9,7 +9,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "launcher/python/python_places.hpp"
+#include "launcher/python/interpreter/python_module.hpp"
 #include "tests/unit/python/python_plan.hpp"
 
 namespace {

@@ -70,9 +70,9 @@ def _unknown_name(error):
     return (module, name) if module and module.partition('.')[0] in _OWN else None
 
 
-def explain(error, trace):
+def explain(error, trace, with_traceback):
     """(message, place, help, traceback, number of the launcher's exception)."""
-    text = ''.join(traceback.format_exception(type(error), error, trace))
+    text = ''.join(traceback.format_exception(type(error), error, trace)) if with_traceback else ''
     number = getattr(error, '_number', None)
     place = getattr(error, 'of_element', None) or _place(trace) or getattr(error, 'place', None)
     if isinstance(error, LaunchFileError):
