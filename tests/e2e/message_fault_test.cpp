@@ -54,7 +54,7 @@ TEST_F(MessageFaultTest, EachKindHitsItsMessages) {
 
 // What the trace says: ping has published, and pong has not taken.
 TEST_F(MessageFaultTest, ADroppedMessageIsLostInTheTraceAndADelayedOneIsOld) {
-  // What is late must come before ping ends. Nothing else may be so late, on a busy machine either.
+  // The late message must come before ping ends. No other message may be as late, even on a busy machine.
   const std::string nodes = std::regex_replace(kNodes, std::regex("value=\"5\""), "value=\"150\"");
   const std::string file = write(nodes + R"xml(
   <test name="lost">

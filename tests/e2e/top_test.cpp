@@ -208,7 +208,7 @@ TEST_F(TopTest, ShowsWhatTheNodesDoAndSaysAtTheEndWhatTheTraceSays) {
   for (const int column : {2, 3, 4}) {  // sent, received, dropped
     EXPECT_EQ(figure_of(seen, "Topics", "/beats", column), figure_of(offline.out, "Topics", "/beats", column));
   }
-  // Not its times: each session has its own of an event, with the time between them if the process has to wait there.
+  // The times are not compared: the two sessions take the time of an event one after the other.
   EXPECT_EQ(figure_of(offline.out, "Callbacks", "/beat, timer 1 ms", 2), "120") << offline.out;
   // Nothing of the recording is left.
   EXPECT_EQ(run_command({"lttng", "list"}).out.find("launch-top"), std::string::npos);

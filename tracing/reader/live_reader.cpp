@@ -136,7 +136,7 @@ LiveReader::Implementation::Attach LiveReader::Implementation::attach() {
   // The source attaches when it is asked for messages.
   const std::optional<MessageGraph::Fetch> fetched = fetch();
   if (!fetched) return Attach::kNotYet;
-  // Streams may have begun between the question and the attachment.
+  // Streams may have begun after the first question.
   if (known->streams > 0 || has_streams()) ++late_attachments;
   is_at_end = *fetched == MessageGraph::Fetch::kEnd;
   return Attach::kDone;
@@ -159,8 +159,9 @@ std::optional<MessageGraph::Fetch> LiveReader::Implementation::fetch() {
   }
 }
 
-// LTTng describes the events of the first process before the stream that has them. libbabeltrace2 fails for good if it
-// reads the one without the other, so the way out is to attach anew.
+// LTTng describes the events of a process before their stream if the process runs before the session. libbabeltrace2
+// fails for good if it reads the events without the stream, so the reader must attach anew. Call this once for each
+// failure: it measures how long they go on.
 bool LiveReader::Implementation::may_attach_anew() {
   const Clock::time_point now = Clock::now();
   if (!first_failure || now - last_failure > kLongestFailing) first_failure = now;

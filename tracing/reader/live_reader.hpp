@@ -34,7 +34,8 @@ class LiveReader {
   LiveReader& operator=(const LiveReader&) = delete;
 
   // To be called before anything else, until it returns true: false when the relay daemon does not have the session
-  // yet. Throws TraceReadError when there is no relay daemon, or when another viewer has the session.
+  // yet, or when the session cannot be read yet. Throws TraceReadError when there is no relay daemon, when another
+  // viewer has the session, or when the session could not be read for 10 s.
   bool attach();
   // How often the session had streams already when this reader attached: what they held so far is not read. next()
   // may attach anew, as long as it has given no item.
