@@ -1,19 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Opens the probes when libtracetools.so is loaded. The probes are a separate library, so that a process that opts out
-/// (TRACETOOLS_RUNTIME_DISABLE=1) loads neither lttng-ust nor its two threads.
+/// Opens the probes when libtracetools.so is loaded, or when the first session daemon starts if that is later. The
+/// probes are a separate library. So a process without a session daemon, and one that opts out
+/// (TRACETOOLS_RUNTIME_DISABLE=1), load neither lttng-ust nor its two threads.
 #include "provider_loader.hpp"
 
 #include <dlfcn.h>
+#include <pthread.h>
+#include <signal.h>
+#include <unistd.h>
 
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "counters/event_counters.hpp"
 #include "deadline.hpp"
 #include "recording/recording.hpp"
+#include "registration/daemon_arrival.hpp"
 #include "registration/registration_watch.hpp"
 #include "registration/wake_memory.hpp"
 #include "state/object_state.hpp"
@@ -32,14 +39,14 @@ bool environment_says_yes(const char* variable) {
 std::string provider_path() {
   Dl_info self;
   std::string folder;
-  if (dladdr(reinterpret_cast<const void*>(&provider_is_loaded), &self) != 0) {
+  if (dladdr(reinterpret_cast<const void*>(&is_traceable), &self) != 0) {
     const std::string_view path = self.dli_fname;
     folder = path.substr(0, path.rfind('/') + 1);
   }
   return folder + "libtracetools_provider.so";
 }
 
-bool loaded = false;
+std::atomic<bool> traceable{false};
 
 bool is_verbose() {
   return environment_says_yes("TRACETOOLS_VERBOSE");
@@ -59,9 +66,57 @@ bool offer_state_dumps() {
   return offered;
 }
 
-// Runs when the library is loaded, before main and before the static objects of libraries that link it. The probes are
-// never closed: threads may fire events until the very end of the process, and closing would remove the code under
-// them.
+// The probes are never closed: threads may fire events until the very end of the process, and closing would remove the
+// code under them.
+bool load_provider() {
+  // RTLD_GLOBAL, because the tracepoints of this library look up the symbols of the probes.
+  void* const provider = dlopen(provider_path().c_str(), RTLD_NOW | RTLD_GLOBAL);
+  if (provider == nullptr) {
+    std::fprintf(stderr, "tracetools: tracing is disabled, the provider cannot be loaded: %s\n", dlerror());
+    return false;
+  }
+  for (const char* const name : {"tracetools_probes_of_ros2", "tracetools_probes_of_ros2_ext"}) {
+    add_generated_probes(*reinterpret_cast<const lttng_ust_probe_desc* (*)()>(dlsym(provider, name))());
+  }
+  return true;
+}
+
+void* load_provider_after(void* arrival) {
+  if (static_cast<const DaemonArrival*>(arrival)->wait()) load_provider();
+  return nullptr;
+}
+
+// In a thread that gets no signals. It keeps the name of the process, which LTTng takes from it for the process.
+bool load_provider_later(const DaemonArrival& arrival) {
+  static DaemonArrival awaited = arrival;
+  sigset_t all;
+  sigset_t before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  pthread_t thread;
+  const bool started = pthread_create(&thread, nullptr, &load_provider_after, &awaited) == 0;
+  if (started) pthread_detach(thread);
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  return started;
+}
+
+bool load_provider_now() {
+  const RegistrationWatch watch;
+  return load_provider();
+}
+
+// Whether a library that the program was linked with, or that is preloaded, has brought lttng-ust. Then its threads are
+// there.
+bool lttng_is_loaded() {
+  return dlsym(RTLD_DEFAULT, "lttng_ust_probe_register") != nullptr;
+}
+
+// A provider that is missing is told at once.
+bool can_load_later() {
+  return !lttng_is_loaded() && access(provider_path().c_str(), R_OK) == 0;
+}
+
+// Runs when the library is loaded, before main and before the static objects of libraries that link it.
 [[gnu::constructor]] void open_provider() {
   if (environment_says_yes("TRACETOOLS_RUNTIME_DISABLE")) {
     if (is_verbose()) {
@@ -75,28 +130,17 @@ bool offer_state_dumps() {
   }
   begin_counting();
   if (!offer_state_dumps()) session_reaches_process();  // it is unknown when a session does
-  void* provider = nullptr;
-  {
-    const RegistrationWatch watch;
-    // RTLD_GLOBAL, because the tracepoints of this library look up the symbols of the probes.
-    provider = dlopen(provider_path().c_str(), RTLD_NOW | RTLD_GLOBAL);
-  }
-  if (provider == nullptr) {
-    std::fprintf(stderr, "tracetools: tracing is disabled, the provider cannot be loaded: %s\n", dlerror());
-    return;
-  }
-  for (const char* const name : {"tracetools_probes_of_ros2", "tracetools_probes_of_ros2_ext"}) {
-    add_generated_probes(*reinterpret_cast<const lttng_ust_probe_desc* (*)()>(dlsym(provider, name))());
-  }
-  loaded = true;
+  const std::optional<DaemonArrival> arrival = can_load_later() ? DaemonArrival::awaited() : std::nullopt;
+  traceable = (arrival && load_provider_later(*arrival)) || load_provider_now();
+  if (!traceable) return;
   count_missed_events();
   read_deadlines();
 }
 
 }  // namespace
 
-bool provider_is_loaded() noexcept {
-  return loaded;
+bool is_traceable() noexcept {
+  return traceable;
 }
 
 }  // namespace tracetools

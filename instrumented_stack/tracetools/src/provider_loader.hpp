@@ -4,8 +4,8 @@
 
 namespace tracetools {
 
-/// Whether libtracetools_provider.so was opened when this library was loaded.
-bool provider_is_loaded() noexcept;
+/// Whether a session can record this process, now or later. False if tracing was turned off, or is impossible.
+bool is_traceable() noexcept;
 
 }  // namespace tracetools
 

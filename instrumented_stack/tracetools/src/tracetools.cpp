@@ -43,12 +43,12 @@ bool ros_trace_runtime_status(void) {
 
 // For sessions that start late. Does nothing if no session can start.
 #define KEEP(provider, name, ...)                                                                                     \
-  if (tracetools::provider_is_loaded()) {                                                                             \
+  if (tracetools::is_traceable()) {                                                                             \
     tracetools::keep<tracetools::event::name>(#name, TRACETOOLS_RECORDER(provider, name) __VA_OPT__(, ) __VA_ARGS__); \
   }
 #define NOTE(name, ...)                                                                                           \
   if constexpr (tracetools::is_noted<tracetools::event::name>) {                                                  \
-    if (tracetools::provider_is_loaded()) {                                                                       \
+    if (tracetools::is_traceable()) {                                                                       \
       tracetools::note<tracetools::event::name>(TRACETOOLS_RECORDER(ros2_ext, rcl_lifecycle_state) __VA_OPT__(, ) \
                                                     __VA_ARGS__);                                                 \
     }                                                                                                             \
@@ -108,7 +108,7 @@ inline void fetch_followers<tracetools::event::rclcpp_executor_get_next_ready>()
 }  // namespace
 
 #define IS_WANTED(name, enabled) \
-  (enabled) || (tracetools::is_init_event<tracetools::event::name> && tracetools::provider_is_loaded())
+  (enabled) || (tracetools::is_init_event<tracetools::event::name> && tracetools::is_traceable())
 
 // Usually no session records, and the code of these functions is no longer in the processor's caches when a message
 // comes. So the check takes a few instructions in each, side by side, and the recording code is kept apart
@@ -154,7 +154,7 @@ bool ros_trace_compile_status(void) {
   return true;
 }
 bool ros_trace_runtime_status(void) {
-  return tracetools::provider_is_loaded();
+  return tracetools::is_traceable();
 }
 
 #endif

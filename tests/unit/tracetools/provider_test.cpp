@@ -30,7 +30,9 @@ TEST(Provider, IsNotLoadedWhenTracingIsDisabled) {
 }
 
 // The program prints how many threads it has: one, and the threads of sanitizers and of lttng-ust.
-TEST(Provider, BringsTwoThreadsUnlessTracingIsDisabled) {
+TEST(Provider, BringsTwoThreadsToAProcessThatCanBeTraced) {
+  const test_support::Sandbox sandbox;
+  ASSERT_EQ(run_command({"lttng-sessiond", "--daemonize"}).exit_code, 0);
   const CommandResult traced = run_command({FIRE_ALL_EVENTS});
   const CommandResult untraced = run_command(Command{{FIRE_ALL_EVENTS}, {{"TRACETOOLS_RUNTIME_DISABLE", "1"}}});
   ASSERT_EQ(traced.exit_code, 0) << traced.err;

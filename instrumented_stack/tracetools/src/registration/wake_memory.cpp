@@ -18,12 +18,13 @@ bool has_memory(const char* path) {
 
 }  // namespace
 
+WakeFiles::WakeFiles() noexcept {
+  std::snprintf(of_user, sizeof of_user, "%s-%u", of_root, getuid());
+}
+
 bool wake_memory_can_be_had() noexcept {
-  // The names are those of lttng-ust 2.13: for the session daemon of root, and for that of the user.
-  constexpr const char* kOfRoot = "/dev/shm/lttng-ust-wait-8";
-  char of_user[64];
-  std::snprintf(of_user, sizeof of_user, "%s-%u", kOfRoot, getuid());
-  const unsigned missing = (has_memory(kOfRoot) ? 0U : 1U) + (has_memory(of_user) ? 0U : 1U);
+  const WakeFiles files;
+  const unsigned missing = (has_memory(files.of_root) ? 0U : 1U) + (has_memory(files.of_user) ? 0U : 1U);
   struct statvfs room {};
   // A file system without a limit has no number of blocks.
   if (missing == 0 || statvfs("/dev/shm", &room) != 0 || room.f_blocks == 0) return true;

@@ -4,6 +4,14 @@
 
 namespace tracetools {
 
+/// The files of the daemon of root, and of the daemon of this process's user. The names are those of lttng-ust 2.13.
+struct WakeFiles {
+  const char* of_root = "/dev/shm/lttng-ust-wait-8";
+  char of_user[64];
+
+  WakeFiles() noexcept;
+};
+
 /// False when this memory is not there and can't be had, because /dev/shm is full. lttng-ust makes a file of one page
 /// and reads it; if the page gets no memory, the read ends the process by SIGBUS.
 bool wake_memory_can_be_had() noexcept;

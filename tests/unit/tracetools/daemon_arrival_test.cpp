@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// A process without a session daemon does not load lttng-ust until one starts.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/support/command.hpp"
+#include "tests/support/sandbox.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using test_support::CommandResult;
+using test_support::run_command;
+using test_support::RunningCommand;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr const char* kFileOfRoot = "/dev/shm/lttng-ust-wait-8";
+
+std::string file_of_user() {
+  return std::string(kFileOfRoot) + "-" + std::to_string(getuid());
+}
+
+class DaemonArrival : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (geteuid() != 0) GTEST_SKIP() << "skipped, because without root /dev/shm and /run are not the test's own";
+  }
+
+  static std::string output_of(const std::vector<std::string>& argv) {
+    const CommandResult result = run_command(argv);
+    EXPECT_EQ(result.exit_code, 0) << testing::PrintToString(argv) << result.out << result.err;
+    return result.out;
+  }
+  static void tell(RunningCommand& process, const std::string& line) {
+    process.write(line + "\n");
+    ASSERT_TRUE(process.wait_for_output(line + "\n")) << process.err();
+  }
+  // The files that the process has mapped, once it has reached its main().
+  static std::string maps_of_started(RunningCommand& process) {
+    tell(process, "make 1");
+    std::ifstream maps("/proc/" + std::to_string(process.pid()) + "/maps");
+    return {std::istreambuf_iterator<char>(maps), {}};
+  }
+  // `lttng list` tells of the processes that the daemon has registered.
+  static bool is_registered(const RunningCommand& process) {
+    const std::string wanted = "PID: " + std::to_string(process.pid()) + " ";
+    const auto end = std::chrono::steady_clock::now() + test_support::kCommandTimeout;
+    while (std::chrono::steady_clock::now() < end) {
+      if (output_of({"lttng", "list", "--userspace"}).find(wanted) != std::string::npos) return true;
+    }
+    return false;
+  }
+  // Once the process has told its objects to the session, so the next event is recorded.
+  std::string recorded_after(RunningCommand& process) {
+    const std::string traces = sandbox_.trace_directory() / "run";
+    output_of({"lttng", "create", "run", "--output", traces});
+    output_of({"lttng", "enable-event", "--userspace", "ros2:*"});
+    output_of({"lttng", "start"});
+    output_of({"lttng", "list", "--userspace"});
+    tell(process, "take 1");
+    output_of({"lttng", "destroy"});
+    return output_of({"babeltrace2", traces});
+  }
+
+  test_support::Sandbox sandbox_;
+};
+
+TEST_F(DaemonArrival, IsAwaitedWithoutLttng) {
+  RunningCommand process({.argv = {OBJECTS_ON_COMMAND}});
+  EXPECT_THAT(maps_of_started(process), Not(HasSubstr("/liblttng-ust.so")));
+  process.close_input();
+  const CommandResult ended = process.wait();
+  EXPECT_EQ(ended.exit_code, 0);
+  EXPECT_EQ(ended.err, "");
+}
+
+TEST_F(DaemonArrival, MakesTheProcessTraceable) {
+  RunningCommand process({.argv = {OBJECTS_ON_COMMAND}});
+  ASSERT_THAT(maps_of_started(process), Not(HasSubstr("/liblttng-ust.so")));
+  output_of({"lttng-sessiond", "--daemonize"});
+  ASSERT_TRUE(is_registered(process));
+  const std::string events = recorded_after(process);
+  EXPECT_THAT(events, HasSubstr("ros2:rcl_timer_init: { cpu_id ="));
+  EXPECT_THAT(events, HasSubstr("ros2:rcl_take: { cpu_id ="));
+  process.close_input();
+  EXPECT_EQ(process.wait().exit_code, 0);
+}
+
+TEST_F(DaemonArrival, IsSeenByEachOfManyProcesses) {
+  constexpr int kProcesses = 20;
+  std::vector<std::unique_ptr<RunningCommand>> processes;
+  for (int i = 0; i < kProcesses; ++i) {
+    processes.push_back(std::make_unique<RunningCommand>(test_support::Command{.argv = {OBJECTS_ON_COMMAND}}));
+  }
+  for (const auto& process : processes) {
+    ASSERT_THAT(maps_of_started(*process), Not(HasSubstr("/liblttng-ust.so")));
+  }
+  output_of({"lttng-sessiond", "--daemonize"});
+  for (const auto& process : processes) EXPECT_TRUE(is_registered(*process));
+}
+
+// The first process may be a node or a program that uses lttng-ust itself. Both make the files in one way.
+TEST_F(DaemonArrival, IsToldInFilesAsLttngMakesThem) {
+  const mode_t before = umask(077);
+  RunningCommand process({.argv = {OBJECTS_ON_COMMAND}});
+  tell(process, "make 1");
+  umask(before);
+  struct stat of_root {};
+  struct stat of_user {};
+  ASSERT_EQ(stat(kFileOfRoot, &of_root), 0);
+  ASSERT_EQ(stat(file_of_user().c_str(), &of_user), 0);
+  EXPECT_EQ(of_root.st_mode, S_IFREG | 0666u);
+  EXPECT_EQ(of_user.st_mode, S_IFREG | 0640u);
+  EXPECT_EQ(of_root.st_size, sysconf(_SC_PAGESIZE));
+  EXPECT_EQ(of_user.st_size, sysconf(_SC_PAGESIZE));
+}
+
+TEST_F(DaemonArrival, IsNotAwaitedWhenADaemonRuns) {
+  output_of({"lttng-sessiond", "--daemonize"});
+  RunningCommand process({.argv = {OBJECTS_ON_COMMAND}});
+  EXPECT_THAT(maps_of_started(process), HasSubstr("/liblttng-ust.so"));
+}
+
+// The file in /dev/shm is one for all daemons of a user, and the first that ends writes 0 into it.
+TEST_F(DaemonArrival, IsNotAwaitedWhenThereIsASocketOfADaemon) {
+  const fs::path folder = fs::path(std::getenv("LTTNG_HOME")) / ".lttng";
+  fs::create_directories(folder);
+  std::ofstream(folder / "lttng-ust-sock-8");
+  RunningCommand process({.argv = {OBJECTS_ON_COMMAND}});
+  EXPECT_THAT(maps_of_started(process), HasSubstr("/liblttng-ust.so"));
+}
+
+// As a daemon that was killed leaves it.
+TEST_F(DaemonArrival, IsNotAwaitedWhenTheFileSaysThatADaemonRuns) {
+  constexpr std::int32_t kRuns = 1;
+  std::ofstream(file_of_user(), std::ios::binary).write(reinterpret_cast<const char*>(&kRuns), sizeof kRuns);
+  RunningCommand process({.argv = {OBJECTS_ON_COMMAND}});
+  EXPECT_THAT(maps_of_started(process), HasSubstr("/liblttng-ust.so"));
+}
+
+TEST_F(DaemonArrival, IsLeftToLttngInAProgramThatUsesIt) {
+  RunningCommand process({.argv = {OBJECTS_ON_COMMAND}, .environment = {{"LD_PRELOAD", "liblttng-ust.so.1"}}});
+  tell(process, "make 1");
+  EXPECT_EQ(std::distance(fs::directory_iterator("/proc/" + std::to_string(process.pid()) + "/task"), {}), 3)
+      << "the main thread, and two of lttng-ust";
+}
+
+}  // namespace
