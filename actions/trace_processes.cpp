@@ -10,6 +10,7 @@
 #include "tracing/account/event_counters.hpp"
 #include "tracing/lttng/session_daemon.hpp"
 #include "tracing/plan/buffer_estimate.hpp"
+#include "tracing/plan/load_addresses.hpp"
 #include "tracing/plan/preload.hpp"
 #include "tracing/plan/trace_config.hpp"
 
@@ -85,6 +86,12 @@ void TraceScope::prepare(ProcessSpec& spec) const {
   if (!preload_.empty()) {
     std::string& variable = spec.environment["LD_PRELOAD"];
     variable = tracing::append_preload(variable, preload_);
+  }
+  if (tracing::records_load_addresses(config_.all_events_ust())) {
+    spec.tells_load_addresses = true;
+    spec.environment.erase(tracing::kWithoutLoadAddresses);
+  } else if (!spec.tells_load_addresses) {
+    spec.environment.emplace(tracing::kWithoutLoadAddresses, "1");
   }
   if (counters_) {
     spec.environment.emplace(tracing::kEventCountersVariable, counters_->path().string());

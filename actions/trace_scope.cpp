@@ -82,7 +82,7 @@ TraceScope::TraceScope(tracing::TraceConfig config, std::unique_ptr<tracing::Tra
       config_.further_events_ust.emplace_back(event);
     }
   }
-  tracing::PreloadPlan plan = tracing::plan_preload(config_.events_ust);
+  tracing::PreloadPlan plan = tracing::plan_preload(config_.all_events_ust());
   preload_ = std::move(plan.libraries);
   setup_.warnings = std::move(plan.warnings);
 }

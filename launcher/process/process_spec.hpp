@@ -90,9 +90,10 @@ struct ProcessSpec {
   Duration sigterm_timeout = std::chrono::seconds(5);  // from SIGINT to SIGTERM
   Duration sigkill_timeout = std::chrono::seconds(5);  // from SIGTERM to SIGKILL
   std::vector<GeneratedFile> files;
-  bool traced = true;  // for RunScopes: may be recorded
-  std::string mark;    // tells the guardian about it (Guardian::mark); the supervisor sets it
-  SourceRange origin;  // the launch-file line that asked for it
+  bool traced = true;                 // for RunScopes: may be recorded
+  bool tells_load_addresses = false;  // for RunScopes: one of them records where the files of the process are loaded
+  std::string mark;                   // tells the guardian about it (Guardian::mark); the supervisor sets it
+  SourceRange origin;                 // the launch-file line that asked for it
 };
 
 // Invocation: one running process. The group of the process has the number `pid`, unless the process has the terminal:

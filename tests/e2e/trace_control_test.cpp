@@ -180,6 +180,17 @@ TEST_F(TraceControl, ForkedProcessesAreTracedAsTheirOwn) {
   EXPECT_THAT(processes, SizeIs(5));
 }
 
+// A trace that asks for them gets them also beside one that does not.
+TEST_F(TraceControl, TellsWhereTheFilesOfAProcessAreLoaded) {
+  const std::string file = write("system.launch.xml", R"xml(
+<trace session-name="plain" events-ust="ros2:*"/>
+<trace session-name="run" events-ust="ros2:* lttng_ust_statedump:bin_info"/>
+<executable cmd="sh -c ')xml" TRACED_APP R"xml( 1 1 &lt;/dev/null'"/>)xml");
+  EXPECT_EQ(run_command({LAUNCH_PROGRAM, file}).exit_code, 0);
+  EXPECT_THAT(events(sandbox_.trace_directory() / "run", "lttng_ust_statedump:bin_info"),
+              testing::Contains(HasSubstr("path = \"" TRACED_APP "\"")));
+}
+
 TEST_F(TraceControl, NodesThatNothingIsCalledAreWarnedOf) {
   const std::string file = write("system.launch.xml", R"xml(<trace session-name="run" nodes="talkr"/>
 <executable name="talker" cmd="true"/>)xml");

@@ -36,6 +36,15 @@ std::string TraceConfig::trace_directory() const {
   return directory.string();
 }
 
+std::vector<std::string> TraceConfig::all_events_ust() const {
+  std::vector<std::string> all = events_ust;
+  all.insert(all.end(), further_events_ust.begin(), further_events_ust.end());
+  for (const ChannelConfig& channel : channels) {
+    all.insert(all.end(), channel.events_ust.begin(), channel.events_ust.end());
+  }
+  return all;
+}
+
 std::string TraceConfig::destination() const {
   if (!over_network()) return trace_directory();
   return url.empty() ? kLocalRelayDaemon : url;

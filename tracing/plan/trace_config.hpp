@@ -92,6 +92,8 @@ struct TraceConfig {
 
   // base_path/session_name; for the halves of a dual session …/snapshot and …/runtime below it.
   std::string trace_directory() const;
+  // The entries of all channels.
+  std::vector<std::string> all_events_ust() const;
   // Where the trace goes, for people: trace_directory(), or the relay daemon's address.
   std::string destination() const;
 

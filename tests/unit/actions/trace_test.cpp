@@ -181,6 +181,31 @@ TEST(Trace, NodesNamesThoseThatAloneAreTraced) {
   EXPECT_NE(preload_of(planned.plan.processes.at(2)), "");
 }
 
+TEST(Trace, PreloadsForTheEventsOfItsChannels) {
+  const Planned planned = plan_actions(R"xml(
+    <trace session-name="run"><channel name="memory" events-ust="lttng_ust_libc:malloc"/></trace>
+    <executable cmd="talker"/>)xml");
+  ASSERT_EQ(planned.error, "");
+  EXPECT_THAT(preload_of(planned.plan.processes.at(0)), HasSubstr("/liblttng-ust-libc-wrapper.so"));
+}
+
+TEST(Trace, LttngCollectsLoadAddressesOnlyWhereATraceRecordsThem) {
+  const auto collects = [](const std::string& traces) {
+    const Planned planned = plan_actions(traces + R"xml(<executable cmd="talker"/>)xml");
+    EXPECT_EQ(planned.error, "");
+    return !planned.plan.processes.at(0).environment.contains("LTTNG_UST_WITHOUT_BADDR_STATEDUMP");
+  };
+  const std::string without = R"xml(<trace session-name="plain"/>)xml";
+  const std::string with = R"xml(<trace session-name="addresses" events-ust="lttng_ust_statedump:*"/>)xml";
+  EXPECT_TRUE(collects(""));
+  EXPECT_FALSE(collects(without));
+  EXPECT_TRUE(collects(with));
+  EXPECT_TRUE(collects(with + without));
+  EXPECT_TRUE(collects(without + with));
+  EXPECT_TRUE(
+      collects(R"xml(<trace session-name="run"><channel name="lib" events-ust="lttng_ust_lib:load"/></trace>)xml"));
+}
+
 TEST(Trace, BlockingIsPermittedToProcesses) {
   const Planned planned = plan_actions(R"xml(
     <trace session-name="run" blocking-timeout-ust="100"/><executable cmd="talker"/>)xml");
