@@ -10,9 +10,11 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -81,21 +83,25 @@ bool load_provider() {
   return true;
 }
 
-void* load_provider_after(void* arrival) {
-  if (static_cast<const DaemonArrival*>(arrival)->wait()) load_provider();
+void* load_provider_after(void* number) {
+  static std::once_flag loaded;
+  if (wait_for_daemon(static_cast<const std::int32_t*>(number))) std::call_once(loaded, load_provider);
   return nullptr;
 }
 
-// In a thread that gets no signals. It keeps the name of the process, which LTTng takes from it for the process.
-bool load_provider_later(const DaemonArrival& arrival) {
-  static DaemonArrival awaited = arrival;
+// In threads that get no signals. They keep the name of the process, which LTTng takes from them for the process.
+bool load_provider_later(const AwaitedDaemons& daemons) {
   sigset_t all;
   sigset_t before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
-  pthread_t thread;
-  const bool started = pthread_create(&thread, nullptr, &load_provider_after, &awaited) == 0;
-  if (started) pthread_detach(thread);
+  bool started = true;
+  for (const std::int32_t* const number : daemons) {
+    pthread_t thread;
+    if (number == nullptr) continue;
+    started &= pthread_create(&thread, nullptr, &load_provider_after, const_cast<std::int32_t*>(number)) == 0;
+    if (started) pthread_detach(thread);
+  }
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
   return started;
 }
@@ -130,8 +136,8 @@ bool can_load_later() {
   }
   begin_counting();
   if (!offer_state_dumps()) session_reaches_process();  // it is unknown when a session does
-  const std::optional<DaemonArrival> arrival = can_load_later() ? DaemonArrival::awaited() : std::nullopt;
-  traceable = (arrival && load_provider_later(*arrival)) || load_provider_now();
+  const std::optional<AwaitedDaemons> daemons = can_load_later() ? awaited_daemons() : std::nullopt;
+  traceable = (daemons && load_provider_later(*daemons)) || load_provider_now();
   if (!traceable) return;
   count_missed_events();
   read_deadlines();

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -29,10 +30,6 @@ using testing::Not;
 
 constexpr const char* kFileOfRoot = "/dev/shm/lttng-ust-wait-8";
 
-std::string file_of_user() {
-  return std::string(kFileOfRoot) + "-" + std::to_string(getuid());
-}
-
 class DaemonArrival : public testing::Test {
  protected:
   void SetUp() override {
@@ -55,11 +52,12 @@ class DaemonArrival : public testing::Test {
     return {std::istreambuf_iterator<char>(maps), {}};
   }
   // `lttng list` tells of the processes that the daemon has registered.
-  static bool is_registered(const RunningCommand& process) {
+  static bool is_registered(const RunningCommand& process,
+                            const std::vector<std::string>& list = {"lttng", "list", "--userspace"}) {
     const std::string wanted = "PID: " + std::to_string(process.pid()) + " ";
     const auto end = std::chrono::steady_clock::now() + test_support::kCommandTimeout;
     while (std::chrono::steady_clock::now() < end) {
-      if (output_of({"lttng", "list", "--userspace"}).find(wanted) != std::string::npos) return true;
+      if (output_of(list).find(wanted) != std::string::npos) return true;
     }
     return false;
   }
@@ -112,20 +110,44 @@ TEST_F(DaemonArrival, IsSeenByEachOfManyProcesses) {
   for (const auto& process : processes) EXPECT_TRUE(is_registered(*process));
 }
 
-// The first process may be a node or a program that uses lttng-ust itself. Both make the files in one way.
-TEST_F(DaemonArrival, IsToldInFilesAsLttngMakesThem) {
+// Two daemons may trace the process of a user: root's, and that of the user.
+TEST_F(DaemonArrival, OfEitherDaemonIsAwaitedByAnotherUser) {
+  const std::vector<std::string> as_user = {"setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"};
+  const auto with = [&](std::vector<std::string> argv) {
+    argv.insert(argv.begin(), as_user.begin(), as_user.end());
+    return argv;
+  };
+  if (run_command(with({"test", "-x", OBJECTS_ON_COMMAND})).exit_code != 0) {
+    GTEST_SKIP() << "skipped, because another user cannot run " OBJECTS_ON_COMMAND;
+  }
+  const fs::path home = sandbox_.directory() / "user";
+  fs::create_directories(home);
+  fs::permissions(sandbox_.directory(), fs::perms::others_exec, fs::perm_options::add);
+  fs::permissions(home, fs::perms::all);
+  for (const bool of_root : {false, true}) {
+    RunningCommand process({.argv = with({OBJECTS_ON_COMMAND}), .environment = {{"LTTNG_HOME", home}}});
+    ASSERT_THAT(maps_of_started(process), Not(HasSubstr("/liblttng-ust.so"))) << of_root;
+    const std::vector<std::string> daemon = {"lttng-sessiond", "--daemonize", "--pidfile=" + (home / "pid").string()};
+    const std::vector<std::string> list = {"env", "LTTNG_HOME=" + home.string(), "lttng", "list", "--userspace"};
+    output_of(of_root ? daemon : with({"env", "LTTNG_HOME=" + home.string(), daemon[0], daemon[1], daemon[2]}));
+    EXPECT_TRUE(is_registered(process, of_root ? list : with(list))) << of_root;
+    std::string pid;
+    std::ifstream(home / "pid") >> pid;
+    ASSERT_EQ(kill(std::stoi(pid), SIGTERM), 0);
+    while (kill(std::stoi(pid), 0) == 0 || fs::exists(home / "pid")) waitpid(std::stoi(pid), nullptr, 0);
+  }
+}
+
+// The first process may be a node or a program that uses lttng-ust itself. Both make the file in one way.
+TEST_F(DaemonArrival, IsToldInAFileAsLttngMakesIt) {
   const mode_t before = umask(077);
   RunningCommand process({.argv = {OBJECTS_ON_COMMAND}});
   tell(process, "make 1");
   umask(before);
-  struct stat of_root {};
-  struct stat of_user {};
-  ASSERT_EQ(stat(kFileOfRoot, &of_root), 0);
-  ASSERT_EQ(stat(file_of_user().c_str(), &of_user), 0);
-  EXPECT_EQ(of_root.st_mode, S_IFREG | 0666u);
-  EXPECT_EQ(of_user.st_mode, S_IFREG | 0640u);
-  EXPECT_EQ(of_root.st_size, sysconf(_SC_PAGESIZE));
-  EXPECT_EQ(of_user.st_size, sysconf(_SC_PAGESIZE));
+  struct stat status {};
+  ASSERT_EQ(stat(kFileOfRoot, &status), 0);
+  EXPECT_EQ(status.st_mode, S_IFREG | 0666u);
+  EXPECT_EQ(status.st_size, sysconf(_SC_PAGESIZE));
 }
 
 TEST_F(DaemonArrival, IsNotAwaitedWhenADaemonRuns) {
@@ -146,7 +168,7 @@ TEST_F(DaemonArrival, IsNotAwaitedWhenThereIsASocketOfADaemon) {
 // As a daemon that was killed leaves it.
 TEST_F(DaemonArrival, IsNotAwaitedWhenTheFileSaysThatADaemonRuns) {
   constexpr std::int32_t kRuns = 1;
-  std::ofstream(file_of_user(), std::ios::binary).write(reinterpret_cast<const char*>(&kRuns), sizeof kRuns);
+  std::ofstream(kFileOfRoot, std::ios::binary).write(reinterpret_cast<const char*>(&kRuns), sizeof kRuns);
   RunningCommand process({.argv = {OBJECTS_ON_COMMAND}});
   EXPECT_THAT(maps_of_started(process), HasSubstr("/liblttng-ust.so"));
 }

@@ -68,15 +68,21 @@ GraphChannel::GraphChannel(rmw_context_t& context, Participant& participant, Gra
   pthread_sigmask(SIG_SETMASK, &all, &before);
   thread_ = std::thread([this] { listen(); });
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  ended_with_process_.emplace([this] { stop(); });
 }
 
 GraphChannel::~GraphChannel() {
-  (void)rmw_trigger_guard_condition(stop_);
-  thread_.join();
+  ended_with_process_.reset();
+  if (thread_.joinable()) stop();
   (void)rmw_destroy_guard_condition(stop_);
   (void)rmw_destroy_wait_set(wait_set_);
   destroy_subscription(subscription_);
   destroy_publisher(publisher_);
+}
+
+void GraphChannel::stop() {
+  (void)rmw_trigger_guard_condition(stop_);
+  thread_.join();
 }
 
 void GraphChannel::announce(GraphCache::EntitiesInfo info) {

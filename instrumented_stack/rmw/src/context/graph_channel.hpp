@@ -13,6 +13,7 @@
 #include "context/introduction.hpp"
 #include "graph/graph_cache.hpp"
 #include "participant/participant.hpp"
+#include "process/end_of_process.hpp"
 #include "rmw/rmw.h"
 #include "wait/waitable.hpp"
 
@@ -34,6 +35,7 @@ class GraphChannel {
  private:
   using Clock = std::chrono::steady_clock;
 
+  void stop();
   void listen();
   // Empty if nothing is to be done at a certain time.
   std::optional<Clock::time_point> next_time() const;
@@ -54,6 +56,7 @@ class GraphChannel {
   std::optional<GraphCache::EntitiesInfo> unpublished_;
   bool ended_ = false;
   std::thread thread_;
+  std::optional<EndedWithProcess> ended_with_process_;
 };
 
 }  // namespace rmw_fastrtps

@@ -11,6 +11,7 @@
 #include "context/context_impl.hpp"
 #include "endpoint/endpoint.hpp"
 #include "names/topic_name.hpp"
+#include "process/end_of_process.hpp"
 #include "qos/best_available.hpp"
 #include "rmw/error_handling.h"
 #include "rmw/rmw.h"
@@ -68,6 +69,12 @@ std::vector<GraphCache::OwnedEndpoint> other_side(const rmw_context_impl_t& cont
 }
 
 void close_participant(rmw_context_impl_t& context) {
+  if (rmw_fastrtps::process_ends()) {
+    // They have been ended. In the child of a fork they have not, and their threads are missing.
+    (void)context.channel.release();
+    (void)context.participant.release();
+    return;
+  }
   const rmw_fastrtps::Gid gid = context.participant->gid();
   context.channel.reset();
   context.participant.reset();

@@ -30,8 +30,7 @@ void replace_reader(Subscription& subscription, eprosima::fastdds::dds::ContentF
     throw std::runtime_error("the content filter cannot change while messages are on loan");
   }
   auto* const old_filtered_topic = std::exchange(subscription.filtered_topic, filtered_topic);
-  subscription.reader->set_listener(nullptr);
-  subscription.participant->subscriber().delete_datareader(subscription.reader);
+  subscription.participant->delete_reader(*subscription.reader);
   try {
     rmw_fastrtps::create_reader(subscription);
   } catch (...) {

@@ -7,6 +7,7 @@
 #include <fastdds/dds/topic/Topic.hpp>
 #include <stdexcept>
 
+#include "process/end_of_process.hpp"
 #include "types/dds_type_object.hpp"
 
 namespace fdds = eprosima::fastdds::dds;
@@ -52,7 +53,7 @@ fdds::ContentFilteredTopic& create_filtered_topic(fdds::Topic& topic, const mess
 }
 
 void delete_filtered_topic(fdds::ContentFilteredTopic& topic) {
-  topic.get_participant()->delete_contentfilteredtopic(&topic);
+  if (!process_ends()) topic.get_participant()->delete_contentfilteredtopic(&topic);
 }
 
 void change_filter(fdds::ContentFilteredTopic& topic, const ContentFilter& filter) {

@@ -16,6 +16,7 @@
 #include "faults/publish_faults.hpp"
 #include "names/topic_name.hpp"
 #include "participant/participant.hpp"
+#include "process/end_of_process.hpp"
 #include "qos/qos.hpp"
 #include "qos/traced_qos.hpp"
 #include "rmw/error_handling.h"
@@ -69,6 +70,8 @@ Publisher& publisher_of(const rmw_publisher_t& handle) {
   TRACETOOLS_TRACEPOINT(rmw_publish, static_cast<const void*>(publisher), traced_message,
                         now.tv_sec * std::int64_t{1'000'000'000} + now.tv_nsec);
   const Publisher& owner = publisher_of(*publisher);
+  if (rmw_fastrtps::process_ends()) [[unlikely]]
+    return RMW_RET_OK;  // others have been told that this participant is gone
   bool is_written = false;
   if (owner.faults == nullptr) [[likely]] {
     is_written = owner.writer->write(data, params);
@@ -123,8 +126,7 @@ void destroy_publisher(rmw_publisher_t* handle) {
   TRACETOOLS_EXT_TRACEPOINT(rmw_publisher_fini, static_cast<const void*>(handle));
   const std::unique_ptr<Publisher> publisher(&publisher_of(*handle));
   publisher->faults.reset();
-  publisher->writer->set_listener(nullptr);
-  publisher->participant->publisher().delete_datawriter(publisher->writer);
+  publisher->participant->delete_writer(*publisher->writer);
   publisher->participant->release_topic(*publisher->topic);
 }
 

@@ -14,6 +14,7 @@
 #include "endpoint/network_flow.hpp"
 #include "names/topic_name.hpp"
 #include "participant/participant.hpp"
+#include "process/end_of_process.hpp"
 #include "qos/qos.hpp"
 #include "qos/traced_qos.hpp"
 #include "rmw/error_handling.h"
@@ -180,11 +181,12 @@ void destroy_subscription(rmw_subscription_t* handle) {
   TRACETOOLS_EXT_TRACEPOINT(rmw_subscription_fini, static_cast<const void*>(handle));
   const std::unique_ptr<Subscription> subscription(&subscription_of(*handle));
   subscription->faults.reset();
-  for (const auto& [message, loan] : subscription->loans) {
-    subscription->reader->return_loan(loan->samples, loan->infos);
+  if (!process_ends()) {
+    for (const auto& [message, loan] : subscription->loans) {
+      subscription->reader->return_loan(loan->samples, loan->infos);
+    }
   }
-  subscription->reader->set_listener(nullptr);
-  subscription->participant->subscriber().delete_datareader(subscription->reader);
+  subscription->participant->delete_reader(*subscription->reader);
   release_topics(*subscription);
 }
 

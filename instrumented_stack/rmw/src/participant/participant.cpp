@@ -10,13 +10,16 @@
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/domain/DomainParticipantListener.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 #include <mutex>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "participant/default_transports.hpp"
@@ -24,6 +27,7 @@
 #include "participant/discovery_traffic.hpp"
 #include "participant/shared_memory_ports.hpp"
 #include "participant/user_data.hpp"
+#include "process/end_of_process.hpp"
 #include "qos/qos.hpp"
 #include "rcutils/logging.h"
 #include "types/dds_gid.hpp"
@@ -101,16 +105,10 @@ void be_no_neighbour_of(const rtps::GuidPrefix_t& first, std::uint16_t number, r
 // leak checker looks for it here.
 [[gnu::used]] std::shared_ptr<fdds::DomainParticipantFactory>* left_factory = nullptr;
 
-// The factory of Fast DDS waits 100 ms in its destructor, at the end of each process, and deletes the participants that
-// are left. If none is left, the process ends without it.
+// The factory of Fast DDS waits 100 ms in its destructor, at the end of each process. The process ends without it.
 class KeptFactory {
  public:
-  ~KeptFactory() {
-    std::lock_guard lock(siblings().mutex);
-    if (siblings().prefixes.empty()) {
-      left_factory = new std::shared_ptr(std::move(factory_));
-    }
-  }
+  ~KeptFactory() { left_factory = new std::shared_ptr(std::move(factory_)); }
 
  private:
   std::shared_ptr<fdds::DomainParticipantFactory> factory_ = fdds::DomainParticipantFactory::get_shared_instance();
@@ -252,16 +250,21 @@ Participant::Participant(const rmw_init_options_t& options, GraphCache& graph)
   gid_ = to_gid(participant_->guid());
   graph.add_participant(gid_, enclave);
   siblings().prefixes.push_back(participant_->guid().guidPrefix);
+  ended_with_process_.emplace([this] { end(); });
+  prepare_end_of_process();
 }
 
 Participant::~Participant() {
+  ended_with_process_.reset();
+  if (participant_ != nullptr) end();
+}
+
+void Participant::end() {
   const rtps::GuidPrefix_t prefix = participant_->guid().guidPrefix;
   // No callback may run while, or after, the participant is taken apart.
   participant_->set_listener(nullptr);
-  participant_->delete_publisher(publisher_);
-  participant_->delete_subscriber(subscriber_);
-  fdds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
-  // Not before: another thread may end the process meanwhile, and KeptFactory must see that a participant is left.
+  participant_->delete_contained_entities();
+  fdds::DomainParticipantFactory::get_instance()->delete_participant(std::exchange(participant_, nullptr));
   std::lock_guard lock(siblings().mutex);
   std::erase(siblings().prefixes, prefix);
 }
@@ -270,6 +273,7 @@ void Participant::introduce() {
   if (!traffic_->is_introduced()) {
     traffic_->introduce(participant_->guid().guidPrefix);
     announce();
+    prepare_end_of_process();
   }
 }
 
@@ -304,6 +308,9 @@ void Participant::announce() {
 
 fdds::Topic& Participant::acquire_topic(const std::string& dds_name,
                                         const message_type_support_callbacks_t& callbacks) {
+  if (process_ends()) {
+    throw std::runtime_error("nothing can be created at the end of the process");
+  }
   const std::string type_name = dds_type_name(callbacks);
   if (const auto found = topics_.find(dds_name); found != topics_.end()) {
     if (found->second.topic->get_type_name() != type_name) {
@@ -328,7 +335,20 @@ fdds::Topic& Participant::acquire_topic(const std::string& dds_name,
   return *topic;
 }
 
+void Participant::delete_writer(fdds::DataWriter& writer) {
+  if (process_ends()) return;
+  writer.set_listener(nullptr);
+  publisher_->delete_datawriter(&writer);
+}
+
+void Participant::delete_reader(fdds::DataReader& reader) {
+  if (process_ends()) return;
+  reader.set_listener(nullptr);
+  subscriber_->delete_datareader(&reader);
+}
+
 void Participant::release_topic(fdds::Topic& topic) {
+  if (process_ends()) return;
   const auto found = topics_.find(topic.get_name());
   if (--found->second.users != 0) {
     return;

@@ -4,17 +4,21 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "graph/graph_cache.hpp"
 #include "participant/unanswered_participants.hpp"
+#include "process/end_of_process.hpp"
 #include "rmw/init_options.h"
 #include "rosidl_typesupport_fastrtps_cpp/message_type_support.h"
 #include "types/gid.hpp"
 
 namespace eprosima::fastdds::dds {
+class DataReader;
 class DataReaderQos;
+class DataWriter;
 class DataWriterQos;
 class DomainParticipant;
 class Publisher;
@@ -59,6 +63,9 @@ class Participant {
   eprosima::fastdds::dds::Topic& acquire_topic(const std::string& dds_name,
                                                const message_type_support_callbacks_t& callbacks);
   void release_topic(eprosima::fastdds::dds::Topic& topic);
+  // The listener is told of nothing any more.
+  void delete_writer(eprosima::fastdds::dds::DataWriter& writer);
+  void delete_reader(eprosima::fastdds::dds::DataReader& reader);
 
   // The QoS for creating an endpoint, before the ROS profile is applied.
   eprosima::fastdds::dds::DataWriterQos writer_qos(const std::string& topic_name,
@@ -70,6 +77,7 @@ class Participant {
   class DiscoveryListener;
 
   void announce();
+  void end();
 
   struct SharedTopic {
     eprosima::fastdds::dds::Topic* topic;
@@ -88,6 +96,7 @@ class Participant {
   Gid gid_{};
   bool qos_from_xml_ = false;
   bool uses_discovery_server_ = false;
+  std::optional<EndedWithProcess> ended_with_process_;
 };
 
 }  // namespace rmw_fastrtps

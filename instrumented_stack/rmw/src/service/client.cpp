@@ -7,6 +7,7 @@
 #include "context/context_impl.hpp"
 #include "context/node.hpp"
 #include "participant/participant.hpp"
+#include "process/end_of_process.hpp"
 #include "rmw/error_handling.h"
 #include "service/service_channel.hpp"
 #include "tracetools/tracetools.h"
@@ -87,6 +88,10 @@ rmw_ret_t rmw_send_request(const rmw_client_t* client, const void* ros_request, 
   RMW_CHECK_HANDLE(client, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(ros_request, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(sequence_id, RMW_RET_INVALID_ARGUMENT);
+  if (rmw_fastrtps::process_ends()) {
+    RMW_SET_ERROR_MSG("no request can be sent at the end of the process");
+    return RMW_RET_ERROR;
+  }
   Client& owned = client_of(*client);
   rtps::WriteParams params;
   params.related_sample_identity().writer_guid() = owned.reader->guid();

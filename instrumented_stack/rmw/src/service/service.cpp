@@ -10,6 +10,7 @@
 #include "context/node.hpp"
 #include "faults/publish_faults.hpp"
 #include "faults/take_faults.hpp"
+#include "process/end_of_process.hpp"
 #include "rmw/error_handling.h"
 #include "service/service_channel.hpp"
 #include "service/service_clients.hpp"
@@ -84,6 +85,7 @@ void set_faults(Service& service, const rmw_node_t* node) {
 }
 
 bool write(Service& service, OutgoingMessage outgoing, rtps::WriteParams params) {
+  if (rmw_fastrtps::process_ends()) return true;  // the client has been told that this participant is gone
   return service.response_faults == nullptr ? service.writer->write(&outgoing, params)
                                             : service.response_faults->write(outgoing, params);
 }

@@ -13,6 +13,7 @@
 #include "context/node.hpp"
 #include "names/topic_name.hpp"
 #include "participant/participant.hpp"
+#include "process/end_of_process.hpp"
 #include "qos/best_available.hpp"
 #include "qos/qos.hpp"
 #include "rmw/error_handling.h"
@@ -60,6 +61,7 @@ void ServiceChannel::open(End end, const rmw_node_t* node, const rosidl_service_
 }
 
 void ServiceChannel::wait_until_received() const {
+  if (process_ends()) return;
   (void)writer->wait_for_acknowledgments(to_dds(rmw_time_from_nsec(kPatienceAtEnd.count())));
 }
 
@@ -123,8 +125,7 @@ void ServiceChannel::open_writer(const std::string& topic_name, const message_ty
 
 void ServiceChannel::close_endpoints() {
   if (reader != nullptr) {
-    reader->set_listener(nullptr);
-    participant_->subscriber().delete_datareader(reader);
+    participant_->delete_reader(*reader);
     reader = nullptr;
   }
   if (reader_topic_ != nullptr) {
@@ -132,8 +133,7 @@ void ServiceChannel::close_endpoints() {
     reader_topic_ = nullptr;
   }
   if (writer != nullptr) {
-    writer->set_listener(nullptr);
-    participant_->publisher().delete_datawriter(writer);
+    participant_->delete_writer(*writer);
     writer = nullptr;
   }
   if (writer_topic_ != nullptr) {

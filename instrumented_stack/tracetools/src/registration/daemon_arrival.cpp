@@ -9,7 +9,6 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 
@@ -57,7 +56,7 @@ int open_file(const char* path) {
 }
 
 // Null if the daemon runs, or if this file can't tell.
-const void* map_number(const char* path, bool of_root) {
+const std::int32_t* map_number(const char* path, bool of_root) {
   int descriptor = open_file(path);
   if (descriptor < 0 && errno == ENOENT) {
     make_file(path, of_root);
@@ -66,50 +65,38 @@ const void* map_number(const char* path, bool of_root) {
   if (descriptor < 0) return nullptr;
   struct stat status {};
   std::int32_t number = 1;
-  const void* mapped = nullptr;
+  const std::int32_t* mapped = nullptr;
   // A file of another user is not the one that this user's daemon writes to.
   if (fstat(descriptor, &status) == 0 && (of_root || status.st_uid == getuid()) &&
       pread(descriptor, &number, sizeof number, 0) == sizeof number && number == 0) {
     void* const memory =
         mmap(nullptr, static_cast<std::size_t>(sysconf(_SC_PAGESIZE)), PROT_READ, MAP_SHARED, descriptor, 0);
-    if (memory != MAP_FAILED) mapped = memory;
+    if (memory != MAP_FAILED) mapped = static_cast<const std::int32_t*>(memory);
   }
   close(descriptor);
   return mapped;
 }
 
-long wait_for_change(futex_waitv* numbers, unsigned int count) {
-  return syscall(SYS_futex_waitv, numbers, count, 0, nullptr, 0);
-}
-
-// Linux 5.16 and later.
-bool can_wait_for_two() {
-  return wait_for_change(nullptr, 0) != 0 && errno == EINVAL;
-}
-
 }  // namespace
 
-std::optional<DaemonArrival> DaemonArrival::awaited() noexcept {
+std::optional<AwaitedDaemons> awaited_daemons() noexcept {
   // LTTng does not trace programs with the rights of another user by that user's daemon.
-  if (daemon_may_be_there() || getuid() != geteuid() || !can_wait_for_two()) return std::nullopt;
+  if (daemon_may_be_there() || getuid() != geteuid()) return std::nullopt;
   const WakeFiles files;
-  const std::array numbers = {map_number(files.of_root, true), map_number(files.of_user, false)};
-  if (numbers[0] == nullptr || numbers[1] == nullptr) return std::nullopt;
-  return DaemonArrival(numbers);
+  const bool is_root = getuid() == 0;
+  const AwaitedDaemons daemons = {map_number(files.of_root, true),
+                                  is_root ? nullptr : map_number(files.of_user, false)};
+  if (daemons[0] == nullptr || (daemons[1] == nullptr && !is_root)) return std::nullopt;
+  return daemons;
 }
 
-bool DaemonArrival::wait() const noexcept {
-  std::array<futex_waitv, 2> numbers{};
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    numbers[i].uaddr = reinterpret_cast<std::uintptr_t>(numbers_[i]);
-    numbers[i].flags = FUTEX_32;
+// The kernel reads the number: here it would raise SIGBUS if /dev/shm is full.
+bool wait_for_daemon(const std::int32_t* number) noexcept {
+  while (syscall(SYS_futex, number, FUTEX_WAIT, 0, nullptr, nullptr, 0) != 0) {
+    if (errno == EAGAIN) return true;  // it is not 0
+    if (errno != EINTR) return false;
   }
-  // Each number is compared with 0 first. The call fails with EAGAIN if a daemon has written 1.
-  long woken = 0;
-  do {
-    woken = wait_for_change(numbers.data(), numbers.size());
-  } while (woken < 0 && errno == EINTR);
-  return woken >= 0 || errno == EAGAIN;
+  return true;
 }
 
 }  // namespace tracetools

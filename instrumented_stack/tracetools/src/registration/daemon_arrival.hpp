@@ -1,27 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Waits for a session daemon, so that a process that nobody can trace does without lttng-ust: it starts 3 ms sooner,
-/// and saves two threads and a megabyte.
+/// and saves a thread and a megabyte.
+///
+/// LTTng's session daemons wake the processes that have started before them through files in /dev/shm, one for the
+/// daemon of root and one for that of each user. The first number in the file is 1 while the daemon runs. A daemon that
+/// starts wakes all who wait for the number to change (futex(2)).
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 
 namespace tracetools {
 
-/// What LTTng's session daemons wake processes with: that of root, and that of the user. Each has a file in /dev/shm.
-/// Its first number is 1 while the daemon runs, and a daemon that starts wakes all who wait for the number to change.
-class DaemonArrival {
- public:
-  /// Nothing if a session daemon may be there already, or if this machine has no way to wait for one.
-  static std::optional<DaemonArrival> awaited() noexcept;
+/// The numbers that this process waits for. For root the second is null, because there is one daemon. They are mapped
+/// for the life of the process.
+using AwaitedDaemons = std::array<const std::int32_t*, 2>;
 
-  /// Returns true when a session daemon has started, and false if it is impossible to wait, because /dev/shm is full.
-  bool wait() const noexcept;
+/// Nothing if a session daemon may be there already, or if it is impossible to wait for one.
+std::optional<AwaitedDaemons> awaited_daemons() noexcept;
 
- private:
-  explicit DaemonArrival(const std::array<const void*, 2>& numbers) : numbers_(numbers) {}
-
-  std::array<const void*, 2> numbers_;  // mapped for the life of the process
-};
+/// Returns true when the daemon has started, and false if it is impossible to wait, because /dev/shm is full.
+bool wait_for_daemon(const std::int32_t* number) noexcept;
 
 }  // namespace tracetools
