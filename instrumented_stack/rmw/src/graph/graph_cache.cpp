@@ -17,6 +17,10 @@ auto find_node(Nodes& nodes, const std::string& namespace_, const std::string& n
                       [&](const auto& node) { return node.node_namespace == namespace_ && node.node_name == name; });
 }
 
+GraphCache::Kind opposite(GraphCache::Kind kind) {
+  return kind == GraphCache::Kind::kWriter ? GraphCache::Kind::kReader : GraphCache::Kind::kWriter;
+}
+
 Gid gid_in(const rmw_dds_common::msg::Gid& message) {
   Gid gid;
   std::copy(message.data.begin(), message.data.end(), gid.begin());
@@ -100,10 +104,13 @@ void GraphCache::remove_endpoint(const Gid& gid) {
 
 std::vector<const GraphCache::Endpoint*> GraphCache::incompatible_with(const Endpoint& endpoint) const {
   std::vector<const Endpoint*> incompatible;
-  const auto [begin, end] = endpoints_by_topic_.equal_range(endpoint.topic);
-  for (auto entry = begin; entry != end; ++entry) {
-    if (entry->second->kind != endpoint.kind && entry->second->type != endpoint.type) {
-      incompatible.push_back(entry->second);
+  const auto topic = endpoints_by_topic_.find(endpoint.topic);
+  if (topic == endpoints_by_topic_.end()) {
+    return incompatible;
+  }
+  for (const auto& [type, others] : topic->second.of(opposite(endpoint.kind))) {
+    if (type != endpoint.type) {
+      incompatible.insert(incompatible.end(), others.begin(), others.end());
     }
   }
   return incompatible;
@@ -114,12 +121,20 @@ void GraphCache::enter_topic(const Endpoint& endpoint) {
     tell_incompatible(*other, 1);
     tell_incompatible(endpoint, 1);
   }
-  endpoints_by_topic_.emplace(endpoint.topic, &endpoint);
+  endpoints_by_topic_[endpoint.topic].of(endpoint.kind)[endpoint.type].insert(&endpoint);
 }
 
 void GraphCache::leave_topic(const Endpoint& endpoint) {
-  const auto [begin, end] = endpoints_by_topic_.equal_range(endpoint.topic);
-  endpoints_by_topic_.erase(std::find_if(begin, end, [&](const auto& entry) { return entry.second == &endpoint; }));
+  const auto topic = endpoints_by_topic_.find(endpoint.topic);
+  auto& by_type = topic->second.of(endpoint.kind);
+  const auto of_type = by_type.find(endpoint.type);
+  of_type->second.erase(&endpoint);
+  if (of_type->second.empty()) {
+    by_type.erase(of_type);
+  }
+  if (topic->second.empty()) {
+    endpoints_by_topic_.erase(topic);
+  }
 }
 
 void GraphCache::update_nodes(const EntitiesInfo& info) {
@@ -197,9 +212,13 @@ GraphCache::EntitiesInfo GraphCache::remove_node_endpoint(const Gid& participant
 
 std::size_t GraphCache::count(Kind kind, std::string_view topic) const {
   std::lock_guard lock(mutex_);
-  const auto [begin, end] = endpoints_by_topic_.equal_range(topic);
-  return static_cast<std::size_t>(
-      std::count_if(begin, end, [&](const auto& entry) { return entry.second->kind == kind; }));
+  std::size_t count = 0;
+  if (const auto found = endpoints_by_topic_.find(topic); found != endpoints_by_topic_.end()) {
+    for (const auto& [type, endpoints] : found->second.of(kind)) {
+      count += endpoints.size();
+    }
+  }
+  return count;
 }
 
 std::vector<GraphCache::Node> GraphCache::nodes() const {

@@ -14,7 +14,7 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "event/status_event.hpp"
@@ -98,6 +98,17 @@ class GraphCache {
     std::vector<NodeInfo> nodes;
   };
 
+  // The writers and the readers of a topic, each by their types, of which there is usually one. Points into endpoints_.
+  struct EndpointsOfTopic {
+    using ByType = std::map<std::string, std::unordered_set<const Endpoint*>>;
+    ByType writers;
+    ByType readers;
+
+    ByType& of(Kind kind) { return kind == Kind::kWriter ? writers : readers; }
+    const ByType& of(Kind kind) const { return kind == Kind::kWriter ? writers : readers; }
+    bool empty() const { return writers.empty() && readers.empty(); }
+  };
+
   // Null if no node is known to have the endpoint. The lock must be held.
   const NodeInfo* owner_of(const Gid& endpoint, Kind kind) const;
 
@@ -115,7 +126,7 @@ class GraphCache {
   std::map<Gid, Participant> participants_;
   std::deque<Gid> gone_;  // the last participants that were removed
   std::map<Gid, Endpoint> endpoints_;
-  std::unordered_multimap<std::string_view, const Endpoint*> endpoints_by_topic_;  // points into endpoints_
+  std::map<std::string, EndpointsOfTopic, std::less<>> endpoints_by_topic_;
 };
 
 }  // namespace rmw_fastrtps
