@@ -273,7 +273,6 @@ void Participant::introduce() {
   if (!traffic_->is_introduced()) {
     traffic_->introduce(participant_->guid().guidPrefix);
     announce();
-    prepare_end_of_process();
   }
 }
 

@@ -23,7 +23,7 @@ inline bool process_ends() noexcept {
   return detail::process_ends.load(std::memory_order_relaxed);
 }
 
-// Call it when Fast DDS has done something for the first time, so that its static objects exist: their end comes later.
+// Call it when a participant has been made. Fast DDS has made its static objects by then, so they are destroyed later.
 void prepare_end_of_process();
 
 // What is ended with the process unless it is destroyed before. The newest is ended first.
