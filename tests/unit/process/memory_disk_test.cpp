@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <sys/mount.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -59,10 +60,8 @@ class MemoryDiskTest : public testing::Test {
   }
   void TearDown() override {
     disk_.reset();
-    // The disk stays mounted until this process ends.
-    for (const fs::directory_entry& entry : fs::directory_iterator(below())) {
-      fs::remove_all(entry.path());
-    }
+    (void)::umount2(directory_.c_str(), MNT_DETACH);  // the disk stays mounted until this process ends
+    fs::remove_all(directory_);
   }
 
   MemoryDisk& mount() { return disk_.emplace(directory_.string()); }
