@@ -18,6 +18,7 @@
 
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace {
 
@@ -174,6 +175,7 @@ TEST_F(DaemonArrival, IsNotAwaitedWhenTheFileSaysThatADaemonRuns) {
 }
 
 TEST_F(DaemonArrival, IsLeftToLttngInAProgramThatUsesIt) {
+  if (test_support::kThreadSanitized) GTEST_SKIP() << test_support::kHasOneMoreThread;
   RunningCommand process({.argv = {OBJECTS_ON_COMMAND}, .environment = {{"LD_PRELOAD", "liblttng-ust.so.1"}}});
   tell(process, "make 1");
   EXPECT_EQ(std::distance(fs::directory_iterator("/proc/" + std::to_string(process.pid()) + "/task"), {}), 3)

@@ -235,21 +235,23 @@ Participant::Participant(const rmw_init_options_t& options, GraphCache& graph)
   if (uses_discovery_server_ || !leaves_buffers_to_us) {
     traffic_->introduce({});  // announced at once, as Fast DDS does
   }
-  std::lock_guard lock(siblings().mutex);
-  if (!siblings().prefixes.empty()) {
-    be_no_neighbour_of(siblings().prefixes.front(), ++siblings().created, qos.wire_protocol().prefix);
+  {
+    std::lock_guard lock(siblings().mutex);
+    if (!siblings().prefixes.empty()) {
+      be_no_neighbour_of(siblings().prefixes.front(), ++siblings().created, qos.wire_protocol().prefix);
+    }
+    const bool is_on_udp_alone = qos.transport().user_transports.size() == 1;
+    participant_ = create_participant(domain_id, qos, may_choose_ports && !is_on_udp_alone, *listener_);
+    if (participant_ == nullptr) {
+      throw std::runtime_error("Fast DDS cannot create a participant in domain " + std::to_string(domain_id) +
+                               ", see its own messages above");
+    }
+    publisher_ = participant_->create_publisher(participant_->get_default_publisher_qos());
+    subscriber_ = participant_->create_subscriber(participant_->get_default_subscriber_qos());
+    gid_ = to_gid(participant_->guid());
+    graph.add_participant(gid_, enclave);
+    siblings().prefixes.push_back(participant_->guid().guidPrefix);
   }
-  const bool is_on_udp_alone = qos.transport().user_transports.size() == 1;
-  participant_ = create_participant(domain_id, qos, may_choose_ports && !is_on_udp_alone, *listener_);
-  if (participant_ == nullptr) {
-    throw std::runtime_error("Fast DDS cannot create a participant in domain " + std::to_string(domain_id) +
-                             ", see its own messages above");
-  }
-  publisher_ = participant_->create_publisher(participant_->get_default_publisher_qos());
-  subscriber_ = participant_->create_subscriber(participant_->get_default_subscriber_qos());
-  gid_ = to_gid(participant_->guid());
-  graph.add_participant(gid_, enclave);
-  siblings().prefixes.push_back(participant_->guid().guidPrefix);
   ended_with_process_.emplace([this] { end(); });
   prepare_end_of_process();
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tests/support/command.hpp"
+#include "tests/support/sanitized.hpp"
 #include "tests/unit/rclcpp/ros_test.hpp"
 
 namespace {
@@ -18,6 +19,9 @@ using test_support::RunningCommand;
 class EndOfProcess : public RosTest, public testing::WithParamInterface<const char*> {};
 
 TEST_P(EndOfProcess, WithANodeIsToldToOthersAndIsNoCrash) {
+  if (test_support::kSanitized && std::string(GetParam()) == "fork") {
+    GTEST_SKIP() << "skipped, because sanitizers miss the threads that the child of a fork does not have";
+  }
   std::string heard;
   const auto listener = std::make_shared<rclcpp::Node>("listener");
   rclcpp::executors::SingleThreadedExecutor executor;

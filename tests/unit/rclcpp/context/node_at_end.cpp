@@ -41,6 +41,8 @@ class Speaker : public rclcpp::Node {
 
 std::shared_ptr<Speaker> node;
 std::unique_ptr<rclcpp::Executor> executor;
+std::shared_ptr<Speaker>* never_destroyed_node = nullptr;
+rclcpp::Executor* never_destroyed_executor = nullptr;
 
 void wait_for_listener() {
   while (node->publisher->get_subscription_count() == 0) {
@@ -72,9 +74,9 @@ int main(int argc, char** argv) {
   wait_for_listener();
   if (how == "shutdown") rclcpp::shutdown();
   if (how == "leaked" || how == "thread") {
-    new std::shared_ptr<Speaker>(node);
-    rclcpp::Executor* const leaked = executor.release();
-    if (how == "thread") std::thread([leaked] { leaked->spin(); }).detach();
+    never_destroyed_node = new std::shared_ptr<Speaker>(node);
+    never_destroyed_executor = executor.release();
+    if (how == "thread") std::thread([] { never_destroyed_executor->spin(); }).detach();
   }
   if (how == "callback") {
     node->timer = node->create_wall_timer(std::chrono::milliseconds(1), [] { std::exit(kExitCode); });
