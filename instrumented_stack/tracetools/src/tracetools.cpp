@@ -43,12 +43,12 @@ bool ros_trace_runtime_status(void) {
 
 // For sessions that start late. Does nothing if no session can start.
 #define KEEP(provider, name, ...)                                                                                     \
-  if (tracetools::is_traceable()) {                                                                             \
+  if (tracetools::is_traceable()) {                                                                                   \
     tracetools::keep<tracetools::event::name>(#name, TRACETOOLS_RECORDER(provider, name) __VA_OPT__(, ) __VA_ARGS__); \
   }
 #define NOTE(name, ...)                                                                                           \
   if constexpr (tracetools::is_noted<tracetools::event::name>) {                                                  \
-    if (tracetools::is_traceable()) {                                                                       \
+    if (tracetools::is_traceable()) {                                                                             \
       tracetools::note<tracetools::event::name>(TRACETOOLS_RECORDER(ros2_ext, rcl_lifecycle_state) __VA_OPT__(, ) \
                                                     __VA_ARGS__);                                                 \
     }                                                                                                             \

@@ -3,9 +3,9 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <mutex>
-#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -26,7 +26,8 @@ Living& living() {
 void end_all() {
   const std::lock_guard lock(living().mutex);
   if (detail::process_ends.exchange(true)) return;
-  for (const EndedWithProcess* const object : std::views::reverse(living().objects)) object->end();
+  const auto& objects = living().objects;
+  std::for_each(objects.rbegin(), objects.rend(), [](const EndedWithProcess* object) { object->end(); });
 }
 
 }  // namespace
