@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <linux/futex.h>
+#include <lttng/ust-ctl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
@@ -17,12 +18,13 @@
 namespace tracetools {
 namespace {
 
-constexpr const char* kSocketName = "lttng-ust-sock-8";  // of lttng-ust 2.13
+constexpr bool kWakesAsKnown = LTTNG_UST_ABI_MAJOR_VERSION_OLDEST_COMPATIBLE == 8;  // lttng-ust 2.13
 constexpr const char* kFolderOfRoot = "/var/run/lttng";
 
 bool socket_exists(const char* folder, const char* subfolder) {
   char path[4096];
-  return std::snprintf(path, sizeof path, "%s%s/%s", folder, subfolder, kSocketName) >= static_cast<int>(sizeof path) ||
+  return std::snprintf(path, sizeof path, "%s%s/%s", folder, subfolder, LTTNG_UST_SOCK_FILENAME) >=
+             static_cast<int>(sizeof path) ||
          access(path, F_OK) == 0;
 }
 
@@ -81,7 +83,7 @@ const std::int32_t* map_number(const char* path, bool of_root) {
 
 std::optional<AwaitedDaemons> awaited_daemons() noexcept {
   // LTTng does not trace programs with the rights of another user by that user's daemon.
-  if (daemon_may_be_there() || getuid() != geteuid()) return std::nullopt;
+  if (!kWakesAsKnown || daemon_may_be_there() || getuid() != geteuid()) return std::nullopt;
   const WakeFiles files;
   const bool is_root = getuid() == 0;
   const AwaitedDaemons daemons = {map_number(files.of_root, true),

@@ -17,7 +17,8 @@ namespace tracetools {
 /// for the life of the process.
 using AwaitedDaemons = std::array<const std::int32_t*, 2>;
 
-/// Nothing if a session daemon may be there already, or if it is impossible to wait for one.
+/// Nothing if a session daemon may be there already, or if it is impossible to wait for one: only the daemons of
+/// LTTng 2.13 are known to wake in this way.
 std::optional<AwaitedDaemons> awaited_daemons() noexcept;
 
 /// Returns true when the daemon has started, and false if it is impossible to wait, because /dev/shm is full.

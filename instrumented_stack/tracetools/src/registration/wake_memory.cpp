@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "registration/wake_memory.hpp"
 
+#include <lttng/ust-ctl.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
@@ -18,7 +19,7 @@ bool has_memory(const char* path) {
 
 }  // namespace
 
-WakeFiles::WakeFiles() noexcept {
+WakeFiles::WakeFiles() noexcept : of_root("/dev/shm/" LTTNG_UST_WAIT_FILENAME) {
   std::snprintf(of_user, sizeof of_user, "%s-%u", of_root, getuid());
 }
 

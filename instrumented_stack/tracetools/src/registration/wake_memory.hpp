@@ -4,9 +4,9 @@
 
 namespace tracetools {
 
-/// The files of the daemon of root, and of the daemon of this process's user. The names are those of lttng-ust 2.13.
+/// The files of the daemon of root, and of the daemon of this process's user.
 struct WakeFiles {
-  const char* of_root = "/dev/shm/lttng-ust-wait-8";
+  const char* of_root;
   char of_user[64];
 
   WakeFiles() noexcept;

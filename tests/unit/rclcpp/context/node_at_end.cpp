@@ -6,7 +6,7 @@
 //   thread       the same, while another thread spins
 //   callback     exit() within a callback
 //   fork         the child of a fork calls exit()
-// It publishes "here" on the topic `ends`, waits until somebody listens, and ends with exit code 7.
+// It waits until somebody listens on the topic `ends`, publishes "here" there, and ends with exit code 7.
 #include <sys/wait.h>
 #include <unistd.h>
 
