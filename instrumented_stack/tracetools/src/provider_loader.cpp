@@ -85,7 +85,10 @@ bool load_provider() {
 
 void* load_provider_after(void* number) {
   static std::once_flag loaded;
-  if (wait_for_daemon(static_cast<const std::int32_t*>(number))) std::call_once(loaded, load_provider);
+  if (!wait_for_daemon(static_cast<const std::int32_t*>(number))) return nullptr;
+  std::call_once(loaded, [] {
+    if (load_provider()) begin_state_dumps();
+  });
   return nullptr;
 }
 
@@ -106,7 +109,9 @@ bool load_provider_later(const AwaitedDaemons& daemons) {
   return started;
 }
 
+// There are no objects yet.
 bool load_provider_now() {
+  begin_state_dumps();
   const RegistrationWatch watch;
   return load_provider();
 }

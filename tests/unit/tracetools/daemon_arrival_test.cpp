@@ -98,6 +98,30 @@ TEST_F(DaemonArrival, MakesTheProcessTraceable) {
   EXPECT_EQ(process.wait().exit_code, 0);
 }
 
+// LTTng asks for the objects of a process when it registers the process, before it knows the events of the provider.
+TEST_F(DaemonArrival, MakesTheProcessTellItsObjectsToASessionThatRunsBeforeItIsRegistered) {
+  RunningCommand process({.argv = {OBJECTS_ON_COMMAND}});
+  ASSERT_THAT(maps_of_started(process), Not(HasSubstr("/liblttng-ust.so")));
+  ASSERT_EQ(kill(process.pid(), SIGSTOP), 0);
+  output_of({"lttng-sessiond", "--daemonize"});
+  const std::string traces = sandbox_.trace_directory() / "run";
+  output_of({"lttng", "create", "run", "--output", traces});
+  output_of({"lttng", "enable-event", "--userspace", "ros2*"});
+  output_of({"lttng", "start"});
+  ASSERT_EQ(kill(process.pid(), SIGCONT), 0);
+  ASSERT_TRUE(is_registered(process));
+  std::string events;
+  const auto end = std::chrono::steady_clock::now() + test_support::kCommandTimeout;
+  while (events.find("state_dump_end") == std::string::npos && std::chrono::steady_clock::now() < end) {
+    output_of({"lttng", "rotate"});
+    events = output_of({"babeltrace2", traces});
+  }
+  EXPECT_THAT(events, HasSubstr("ros2:rcl_timer_init: { cpu_id ="));
+  EXPECT_THAT(events, HasSubstr("ros2_ext:state_dump_end: { cpu_id ="));
+  process.close_input();
+  EXPECT_EQ(process.wait().exit_code, 0);
+}
+
 TEST_F(DaemonArrival, IsSeenByEachOfManyProcesses) {
   constexpr int kProcesses = 20;
   std::vector<std::unique_ptr<RunningCommand>> processes;

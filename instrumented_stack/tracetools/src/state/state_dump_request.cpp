@@ -6,6 +6,8 @@
 #include "state/state_dump_request.hpp"
 
 #include <atomic>
+#include <mutex>
+#include <vector>
 
 #include "probes/lttng_functions.hpp"
 
@@ -14,11 +16,42 @@ namespace {
 
 std::atomic<void (*)(Session*)> dump_state{nullptr};
 
+// The sessions that have asked before LTTng knew the events of the provider. Never destroyed, because LTTng's thread
+// runs to the end of the process.
+struct Early {
+  std::mutex mutex;
+  bool may_dump = false;
+  std::vector<Session*> sessions;
+};
+
+Early& early() {
+  static auto* early = new Early;
+  return *early;
+}
+
 void on_lttng_ust_statedump_start(void* /*data*/, Session* session) {
+  {
+    const std::lock_guard lock(early().mutex);
+    if (!early().may_dump) {
+      early().sessions.push_back(session);
+      return;
+    }
+  }
   dump_state.load()(session);
 }
 
 }  // namespace
+
+void begin_state_dumps() {
+  std::vector<Session*> sessions;
+  {
+    const std::lock_guard lock(early().mutex);
+    early().may_dump = true;
+    sessions.swap(early().sessions);
+  }
+  // A session that has ended meanwhile has no probes, so nothing is done for it.
+  for (Session* const session : sessions) dump_state.load()(session);
+}
 
 bool on_state_dump(void (*dump)(Session* session)) {
   if (!lttng_functions().exist()) return false;

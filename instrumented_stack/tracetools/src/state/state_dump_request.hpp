@@ -13,6 +13,11 @@ namespace tracetools {
 /// While `dump` runs, the tracer's control of this process waits. `dump` may record events.
 bool on_state_dump(void (*dump)(Session* session));
 
+/// Until this is called, sessions that ask are put off; it calls `dump` for them. Call it when LTTng knows the events
+/// of the provider, if there may be objects by then: a session that starts while lttng-ust is loaded asks before that,
+/// and would get nothing.
+void begin_state_dumps();
+
 }  // namespace tracetools
 
 #endif  // TRACETOOLS__STATE_DUMP_REQUEST_HPP_
