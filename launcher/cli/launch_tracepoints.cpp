@@ -94,7 +94,9 @@ void LaunchTracepoints::wait_until_enabled(std::unique_lock<std::mutex>& lock, l
   bool ends = false;
   while (enabled() == 0 && steady_clock::now() < until) {
     ending_.wait_for(lock, kBetweenLooks);
-    if (!std::exchange(ends, end_) && ends) until = steady_clock::now() + kLongestWaitAtEnd;
+    if (!std::exchange(ends, end_) && ends) {
+      until = steady_clock::now() + kLongestWaitAtEnd;
+    }
   }
 }
 

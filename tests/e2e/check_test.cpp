@@ -466,8 +466,12 @@ TEST_F(WithoutRunning, SchemasAcceptTheExamplesAndRefuseErrors) {
   Command yaml{{"/usr/bin/python3", validate, json}};
   for (const auto& entry : std::filesystem::directory_iterator(EXAMPLES_DIRECTORY)) {
     const std::string path = entry.path().string();
-    if (path.ends_with(".launch.xml")) xml.argv.push_back(path);
-    if (path.ends_with(".launch.yaml")) yaml.argv.push_back(path);
+    if (path.ends_with(".launch.xml")) {
+      xml.argv.push_back(path);
+    }
+    if (path.ends_with(".launch.yaml")) {
+      yaml.argv.push_back(path);
+    }
   }
   for (const Command& all : {xml, yaml}) {
     EXPECT_GT(all.argv.size(), 20u);

@@ -67,12 +67,16 @@ void expect_reported(const std::filesystem::path& directory) {
 
   std::map<std::string, int> callbacks;
   for (const nlohmann::json& callback : report["callbacks"]) {
-    if (callback.value("service", "") == "/add_two_ints") callbacks[callback["owner"]] = callback["duration"]["count"];
+    if (callback.value("service", "") == "/add_two_ints") {
+      callbacks[callback["owner"]] = callback["duration"]["count"];
+    }
   }
   EXPECT_THAT(callbacks, ElementsAre(testing::Pair("client", 3), testing::Pair("service", 3)));
   std::map<std::string, int> served;
   for (const nlohmann::json& execution : report["executions"]) {
-    if (execution.value("service", "") == "/add_two_ints") served[execution["kind"]] = execution["duration"]["count"];
+    if (execution.value("service", "") == "/add_two_ints") {
+      served[execution["kind"]] = execution["duration"]["count"];
+    }
   }
   EXPECT_THAT(served, ElementsAre(testing::Pair("client", 3), testing::Pair("service", 3)));
 
@@ -103,7 +107,9 @@ TEST(ExtEvents, TellTheEndOfEveryObjectAndWhatServicesAndClientsDo) {
         EXPECT_EQ(living[event.vpid()].erase(event.handle(life.field)), 1U) << "ends without having begun";
       }
     }
-    for (const auto& [vpid, handles] : living) EXPECT_THAT(handles, IsEmpty()) << "of process " << vpid;
+    for (const auto& [vpid, handles] : living) {
+      EXPECT_THAT(handles, IsEmpty()) << "of process " << vpid;
+    }
   }
 
   ASSERT_THAT(trace, HasEvent(event("ros2:rcl_client_init")));
@@ -123,7 +129,9 @@ TEST(ExtEvents, TellTheEndOfEveryObjectAndWhatServicesAndClientsDo) {
     const std::vector<const Event*> made = event("ros2:rmw_" + kind + "_init").select(trace);
     const std::vector<const Event*> qos = event("ros2_ext:rmw_" + kind + "_qos").select(trace);
     ASSERT_EQ(qos.size(), made.size()) << kind;
-    for (std::size_t i = 0; i < made.size(); ++i) EXPECT_EQ(qos[i]->handle(handle), made[i]->handle(handle));
+    for (std::size_t i = 0; i < made.size(); ++i) {
+      EXPECT_EQ(qos[i]->handle(handle), made[i]->handle(handle));
+    }
     EXPECT_THAT(trace, EachEvent(event("ros2_ext:rmw_" + kind + "_qos"), event("").with("reliable", 1)));
   }
   // No object existed before the session, so there is no state dump.

@@ -17,7 +17,9 @@ constexpr std::uint32_t kChannel = 1;
 constexpr std::size_t kChannelSize = 48;
 
 bool describes_channel(const msghdr& message) {
-  if (message.msg_iovlen != 1 || message.msg_iov->iov_len != kChannelSize) return false;
+  if (message.msg_iovlen != 1 || message.msg_iov->iov_len != kChannelSize) {
+    return false;
+  }
   std::uint32_t number = 0;
   std::memcpy(&number, message.msg_iov->iov_base, sizeof number);
   return number == kChannel;
@@ -27,6 +29,8 @@ bool describes_channel(const msghdr& message) {
 
 extern "C" ssize_t sendmsg(int socket, const msghdr* message, int flags) {  // NOLINT: the parameters are named in libc
   const char* const fifo = std::getenv("HELD_CHANNEL");
-  if (fifo != nullptr && describes_channel(*message)) close(open(fifo, O_RDONLY | O_CLOEXEC));
+  if (fifo != nullptr && describes_channel(*message)) {
+    close(open(fifo, O_RDONLY | O_CLOEXEC));
+  }
   return syscall(SYS_sendmsg, socket, message, flags);
 }

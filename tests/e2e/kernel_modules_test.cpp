@@ -75,8 +75,12 @@ TEST_F(KernelModules, SchedSwitchesAndEventsOfNodesStandInOneOrderWithTheRightTh
       running[event.cpu_id] = static_cast<std::int64_t>(event.number("next_tid"));
     } else if (event.name.starts_with("ros2:") && running.contains(event.cpu_id)) {
       ++checked;
-      if (running[event.cpu_id] != event.vtid) ++elsewhere;
-      if (event.name == "ros2:rcl_node_init") nodes.insert(event.text("node_name"));
+      if (running[event.cpu_id] != event.vtid) {
+        ++elsewhere;
+      }
+      if (event.name == "ros2:rcl_node_init") {
+        nodes.insert(event.text("node_name"));
+      }
     }
   }
   EXPECT_EQ(nodes, (std::set<std::string>{"ping", "pong"}));

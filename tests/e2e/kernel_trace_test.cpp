@@ -27,7 +27,9 @@ constexpr const char* kSeeTracefs =
 class KernelTrace : public testing::Test {
  protected:
   void SetUp() override {
-    if (geteuid() != 0) GTEST_SKIP() << "skipped, because the kernel is traced by root alone";
+    if (geteuid() != 0) {
+      GTEST_SKIP() << "skipped, because the kernel is traced by root alone";
+    }
     if (run_command({"unshare", "-m", "sh", "-c", kSeeTracefs}).exit_code != 0) {
       GTEST_SKIP() << "skipped, because tracefs can't be mounted here";
     }
@@ -44,7 +46,9 @@ class KernelTrace : public testing::Test {
     EXPECT_EQ(read.exit_code, 0) << read.err;
     std::vector<std::string> lines;
     std::istringstream out(read.out);
-    for (std::string line; std::getline(out, line);) lines.push_back(line);
+    for (std::string line; std::getline(out, line);) {
+      lines.push_back(line);
+    }
     return lines;
   }
 
@@ -83,7 +87,9 @@ class KernelTrace : public testing::Test {
   std::vector<fs::path> snapshots_of(const std::string& session) const {
     std::vector<fs::path> snapshots;
     for (const auto& entry : fs::directory_iterator(sandbox_.trace_directory() / session)) {
-      if (entry.path().filename().string().starts_with("snapshot-")) snapshots.push_back(entry.path());
+      if (entry.path().filename().string().starts_with("snapshot-")) {
+        snapshots.push_back(entry.path());
+      }
     }
     std::sort(snapshots.begin(), snapshots.end());
     return snapshots;
@@ -273,11 +279,15 @@ TEST_F(KernelTrace, WhoIsNotRootIsToldWhatToDo) {
   const std::vector<std::string> as_nobody = {"setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"};
   std::vector<std::string> reach = as_nobody;
   reach.insert(reach.end(), {"test", "-x", LAUNCH_PROGRAM});
-  if (run_command({reach}).exit_code != 0) GTEST_SKIP() << "skipped, because other users can't reach the build";
+  if (run_command({reach}).exit_code != 0) {
+    GTEST_SKIP() << "skipped, because other users can't reach the build";
+  }
   const fs::path path = sandbox_.directory() / "system.launch.xml";
   write_file(path, "<launch>\n<trace session-name=\"run\" events-kernel=\"sched_switch\"/>\n</launch>\n");
   fs::permissions(sandbox_.directory(), fs::perms::all);
-  for (const auto& entry : fs::directory_iterator(sandbox_.directory())) fs::permissions(entry.path(), fs::perms::all);
+  for (const auto& entry : fs::directory_iterator(sandbox_.directory())) {
+    fs::permissions(entry.path(), fs::perms::all);
+  }
   std::vector<std::string> run = as_nobody;
   run.insert(run.end(), {LAUNCH_PROGRAM, path.string()});
   const CommandResult result = run_command({run});
@@ -319,7 +329,9 @@ TEST_F(KernelTrace, ThePublishedLaunchFileOfTheReferenceSystemRuns) {
   EXPECT_THAT(result.out, HasSubstr("sched_migrate'"));
   fs::path directory;
   for (const auto& entry : fs::directory_iterator(sandbox_.directory())) {
-    if (entry.path().filename().string().starts_with("system-")) directory = entry.path();
+    if (entry.path().filename().string().starts_with("system-")) {
+      directory = entry.path();
+    }
   }
   const std::vector<std::string> lines = lines_of(directory);
   std::size_t found = 0;
@@ -381,10 +393,14 @@ TEST_F(KernelTrace, WhatTheRecorderAndTheConsumerDoIsNotRecorded) {
   for (const std::string& line : lines_of(sandbox_.trace_directory() / session_)) {
     switched_to_recorder =
         switched_to_recorder || line.find("next_tid = " + std::to_string(recorder) + ",") != std::string::npos;
-    if (line.find("syscall_entry_") == std::string::npos) continue;
+    if (line.find("syscall_entry_") == std::string::npos) {
+      continue;
+    }
     ++system_calls;
     EXPECT_FALSE(made_by(line, recorder)) << line;
-    for (const long consumer : consumers) EXPECT_FALSE(made_by(line, consumer)) << line;
+    for (const long consumer : consumers) {
+      EXPECT_FALSE(made_by(line, consumer)) << line;
+    }
   }
   EXPECT_GT(system_calls, 0U);
   EXPECT_TRUE(switched_to_recorder) << "the scheduler's events have no gap";

@@ -24,7 +24,9 @@ json report_on(const Sandbox& sandbox) {
 // The owner and the name of a callback.
 std::string description(const json& callback) {
   std::string owner = callback["owner"];
-  if (callback.contains("topic")) owner += " " + callback["topic"].get<std::string>();
+  if (callback.contains("topic")) {
+    owner += " " + callback["topic"].get<std::string>();
+  }
   return callback["node"].get<std::string>() + ", " + owner + ": " + callback["symbol"].get<std::string>();
 }
 
@@ -56,14 +58,18 @@ class LateTrace : public testing::Test {
 
   void expect_readable(const json& report) {
     std::vector<std::string> callbacks;
-    for (const json& callback : report["callbacks"]) callbacks.push_back(description(callback));
+    for (const json& callback : report["callbacks"]) {
+      callbacks.push_back(description(callback));
+    }
     EXPECT_THAT(callbacks,
                 UnorderedElementsAre(
                     "/talker, timer: demo_nodes_cpp::Talker::Talker(rclcpp::NodeOptions const&)::{lambda()#1}",
                     "/listener, subscription /chatter: demo_nodes_cpp::(anonymous namespace)::listen(rclcpp::Node&, "
                     "rclcpp::QoS const&)::{lambda(std_msgs::msg::String const&)#1}"));
     for (const json& topic : report["topics"]) {
-      if (topic["name"] != "/chatter") continue;
+      if (topic["name"] != "/chatter") {
+        continue;
+      }
       EXPECT_EQ(topic["publishers"], 1);
       EXPECT_EQ(topic["subscriptions"], 1);
       EXPECT_GE(topic["latency"]["count"].get<int>(), 2);
@@ -73,7 +79,9 @@ class LateTrace : public testing::Test {
 
   int count(const json& report, const std::string& event) {
     for (const json& counted : report["event_counts"]) {
-      if (counted["name"] == event) return counted["total"];
+      if (counted["name"] == event) {
+        return counted["total"];
+      }
     }
     return 0;
   }

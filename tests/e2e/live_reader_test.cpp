@@ -36,10 +36,14 @@ class LiveReaderTest : public ::testing::Test {
   // Whether the relay daemon has got a description with this text.
   bool is_described(const std::string& text) const {
     for (const auto& entry : fs::recursive_directory_iterator(relayed_)) {
-      if (entry.path().filename() != "metadata") continue;
+      if (entry.path().filename() != "metadata") {
+        continue;
+      }
       std::ostringstream all;
       all << std::ifstream(entry.path()).rdbuf();
-      if (all.str().find(text) != std::string::npos) return true;
+      if (all.str().find(text) != std::string::npos) {
+        return true;
+      }
     }
     return false;
   }
@@ -69,7 +73,9 @@ TEST_F(LiveReaderTest, WaitsForTheStreamOfTheEvents) {
   const auto read = [&] {
     is_attached = is_attached || reader.attach();
     const LiveReader::State state = is_attached ? reader.next(item) : LiveReader::State::kNothingYet;
-    if (state == LiveReader::State::kNothingYet) ::poll(nullptr, 0, kPollMs);
+    if (state == LiveReader::State::kNothingYet) {
+      ::poll(nullptr, 0, kPollMs);
+    }
     return state;
   };
   const Clock::time_point give_up = Clock::now() + kPatience;
@@ -78,7 +84,9 @@ TEST_F(LiveReaderTest, WaitsForTheStreamOfTheEvents) {
     ASSERT_LT(Clock::now(), give_up) << "the events are not described";
   }
   EXPECT_FALSE(is_described("stream {"));
-  for (int i = 0; i < 5; ++i) ASSERT_EQ(read(), LiveReader::State::kNothingYet);
+  for (int i = 0; i < 5; ++i) {
+    ASSERT_EQ(read(), LiveReader::State::kNothingYet);
+  }
 
   ::close(::open(fifo.c_str(), O_WRONLY | O_CLOEXEC));
   EXPECT_EQ(start.wait().exit_code, 0) << start.err();
@@ -94,7 +102,9 @@ TEST_F(LiveReaderTest, WaitsForTheStreamOfTheEvents) {
   worker.close_input();
   EXPECT_EQ(worker.wait().exit_code, 0);
   run({"lttng", "destroy", "seen"});
-  while ((state = reader.next(item)) != LiveReader::State::kEnd) ASSERT_LT(Clock::now(), give_up) << "no end is read";
+  while ((state = reader.next(item)) != LiveReader::State::kEnd) {
+    ASSERT_LT(Clock::now(), give_up) << "no end is read";
+  }
 }
 
 }  // namespace

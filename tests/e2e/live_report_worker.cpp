@@ -73,7 +73,9 @@ void beat() {
 int main() {
   make_node();
   for (int beats = 0; std::scanf("%d", &beats) == 1;) {
-    for (int i = 0; i < beats; ++i) beat();
+    for (int i = 0; i < beats; ++i) {
+      beat();
+    }
     std::puts("done");
     std::fflush(stdout);
   }

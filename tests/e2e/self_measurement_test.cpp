@@ -26,15 +26,21 @@ std::map<std::string, std::int64_t> read_measurement(const std::filesystem::path
   std::map<std::string, std::int64_t> values;
   std::ifstream file(path);
   std::string name;
-  for (std::int64_t value = 0; file >> name >> value;) values[name] = value;
+  for (std::int64_t value = 0; file >> name >> value;) {
+    values[name] = value;
+  }
   return values;
 }
 
 const nlohmann::json& entry(const nlohmann::json& list, const std::map<std::string, std::string>& members) {
   for (const nlohmann::json& candidate : list) {
     bool fits = true;
-    for (const auto& [key, value] : members) fits = fits && candidate.value(key, "") == value;
-    if (fits) return candidate;
+    for (const auto& [key, value] : members) {
+      fits = fits && candidate.value(key, "") == value;
+    }
+    if (fits) {
+      return candidate;
+    }
   }
   static const nlohmann::json none;
   ADD_FAILURE() << "no entry in " << list;
@@ -47,7 +53,9 @@ using Table = std::vector<std::map<std::string, std::string>>;  // rows, by the 
 Table read_table(const std::filesystem::path& path) {
   const auto cells_of = [](const std::string& line) {
     std::vector<std::string> cells(1);
-    for (const char c : line) c == ',' ? cells.emplace_back() : cells.back() += c;
+    for (const char c : line) {
+      c == ',' ? cells.emplace_back() : cells.back() += c;
+    }
     return cells;
   };
   std::ifstream file(path);
@@ -57,7 +65,9 @@ Table read_table(const std::filesystem::path& path) {
   Table table;
   while (std::getline(file, line)) {
     const std::vector<std::string> cells = cells_of(line);
-    for (std::size_t i = 0; i < names.size(); ++i) (i == 0 ? table.emplace_back() : table.back())[names[i]] = cells[i];
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      (i == 0 ? table.emplace_back() : table.back())[names[i]] = cells[i];
+    }
   }
   return table;
 }
@@ -72,7 +82,9 @@ std::vector<Span> read_spans(const std::filesystem::path& path, const std::strin
   std::ifstream file(path.string() + ".spans");
   std::string name;
   for (Span span; file >> name >> span.begin_ns >> span.end_ns;) {
-    if (name == of) spans.push_back(span);
+    if (name == of) {
+      spans.push_back(span);
+    }
   }
   return spans;
 }
@@ -203,9 +215,13 @@ TEST_F(SelfMeasurement, EqualsTheReport) {
 TEST_F(SelfMeasurement, EachSpanIsWhereTheTraceHasIt) {
   report_of({"listen", "talk"});
   std::map<std::string, std::string> nodes;
-  for (auto& row : read_table(tables() / "nodes.csv")) nodes[row["id"]] = row["name"];
+  for (auto& row : read_table(tables() / "nodes.csv")) {
+    nodes[row["id"]] = row["name"];
+  }
   std::map<std::string, std::string> topics;
-  for (auto& row : read_table(tables() / "topics.csv")) topics[row["id"]] = row["name"];
+  for (auto& row : read_table(tables() / "topics.csv")) {
+    topics[row["id"]] = row["name"];
+  }
   std::map<std::string, std::string> callbacks;
   for (auto& row : read_table(tables() / "callbacks.csv")) {
     callbacks[row["id"]] = nodes[row["node"]] + " " + row["kind"] + topics[row["topic"]];
@@ -216,7 +232,9 @@ TEST_F(SelfMeasurement, EachSpanIsWhereTheTraceHasIt) {
     traced[callbacks[row["callback"]]].push_back({start, start + std::stoll(row["duration_ns"])});
   }
   for (auto& row : read_table(tables() / "messages.csv")) {
-    if (row["repeated"] == "1") continue;
+    if (row["repeated"] == "1") {
+      continue;
+    }
     traced["publications of " + topics[row["topic"]]].push_back(
         {std::stoll(row["called_ns"]), std::stoll(row["published_ns"])});
   }

@@ -44,7 +44,9 @@ struct Measured {
 
   std::int64_t sum() const {
     std::int64_t total = 0;
-    for (const std::int64_t value : values) total += value;
+    for (const std::int64_t value : values) {
+      total += value;
+    }
     return total;
   }
   // By nearest rank, and the value so many places above it.
@@ -92,15 +94,25 @@ void talk(const std::string& path) {
   const auto timer = node->create_wall_timer(kPeriod, [&] {
     constexpr std::int64_t kPeriodNs = std::chrono::nanoseconds(kPeriod).count();
     const std::int64_t begin = now_ns();
-    if (last != 0) intervals.values.push_back(begin - last);
-    if (last != 0 && begin - last > kPeriodNs * 3 / 2) missed += (begin - last + kPeriodNs / 2) / kPeriodNs - 1;
+    if (last != 0) {
+      intervals.values.push_back(begin - last);
+    }
+    if (last != 0 && begin - last > kPeriodNs * 3 / 2) {
+      missed += (begin - last + kPeriodNs / 2) / kPeriodNs - 1;
+    }
     last = begin;
-    if (intervals.values.size() == kTicks / 4) work(kLateWork);
+    if (intervals.values.size() == kTicks / 4) {
+      work(kLateWork);
+    }
     const bool is_last = intervals.values.size() + 1 == kTicks;
-    if (is_last) executor.cancel();
+    if (is_last) {
+      executor.cancel();
+    }
     // Long before the end: the listener leaves as soon as it gets the end.
     if (intervals.values.size() == kTicks / 2) {
-      for (int i = 0; i < kBurst; ++i) burst->publish(UInt64());
+      for (int i = 0; i < kBurst; ++i) {
+        burst->publish(UInt64());
+      }
     }
     UInt64 message;
     message.data = is_last ? 0 : static_cast<std::uint64_t>(now_ns());  // 0: the end
@@ -109,12 +121,16 @@ void talk(const std::string& path) {
     const std::int64_t end = now_ns();
     spans.add("publication", called, end);
     durations.values.push_back(end - begin);
-    if (end - begin > kPeriodNs) ++overruns;
+    if (end - begin > kPeriodNs) {
+      ++overruns;
+    }
     spans.add("timer", begin, end);
   });
   executor.spin();
   // The listener leaves when it has got the end.
-  while (publisher->get_subscription_count() != 0) node->wait_for_graph_change(change, std::chrono::seconds(1));
+  while (publisher->get_subscription_count() != 0) {
+    node->wait_for_graph_change(change, std::chrono::seconds(1));
+  }
   std::ofstream file(path);
   write(file, "duration", durations);
   write(file, "interval", intervals);
@@ -173,7 +189,9 @@ void call(const std::string& path) {
     const std::int64_t begin = now_ns();
     client->async_send_request(std::make_shared<Trigger::Request>(), [&, begin](rclcpp::Client<Trigger>::SharedFuture) {
       round_trips.values.push_back(now_ns() - begin);
-      if (round_trips.values.size() == kCalls) return executor.cancel();
+      if (round_trips.values.size() == kCalls) {
+        return executor.cancel();
+      }
       ask();
     });
   };
@@ -193,7 +211,9 @@ void burst_inside(const std::string& path) {
   int got = 0;
   const auto subscription = node->create_subscription<UInt64>("inner", 3, [&](const UInt64& message) {
     ++got;
-    if (message.data == kBurst) executor.cancel();
+    if (message.data == kBurst) {
+      executor.cancel();
+    }
   });
   rclcpp::TimerBase::SharedPtr timer;
   timer = node->create_wall_timer(std::chrono::milliseconds(1), [&] {
@@ -226,8 +246,12 @@ void allocate(const std::string& path) {
       ++calls;
       bytes += size;
     }
-    for (void* const block : blocks) std::free(block);
-    if (++runs == kRuns) executor.cancel();
+    for (void* const block : blocks) {
+      std::free(block);
+    }
+    if (++runs == kRuns) {
+      executor.cancel();
+    }
   });
   executor.spin();
   std::ofstream(path) << "runs " << runs << "\ncalls " << calls << "\nbytes " << bytes << "\n";
@@ -237,7 +261,9 @@ void allocate(const std::string& path) {
 
 int main(int argc, char** argv) {
   rclcpp::init(argc, argv);
-  if (argc < 3) return 2;
+  if (argc < 3) {
+    return 2;
+  }
   const std::map<std::string, void (*)(const std::string&)> modes = {
       {"talk", talk}, {"listen", listen}, {"call", call}, {"burst_inside", burst_inside}, {"allocate", allocate}};
   modes.at(argv[1])(argv[2]);

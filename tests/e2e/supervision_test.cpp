@@ -65,7 +65,9 @@ TEST_F(Supervision, MoreCtrlCsTerminateThenKillAndStillDestroyTheSession) {
     constexpr int kTries = 100;
     for (int i = 0; i < kTries; ++i) {
       run.send_signal(SIGINT);
-      if (run.wait_for_output(text, std::chrono::milliseconds(300))) return true;
+      if (run.wait_for_output(text, std::chrono::milliseconds(300))) {
+        return true;
+      }
     }
     return false;
   };

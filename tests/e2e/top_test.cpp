@@ -162,10 +162,14 @@ TEST_F(TopTest, FiveHundredProcessesAreScrolledAndALargerTerminalShowsMore) {
 std::string figure_of(const std::string& report, const std::string& title, const std::string& name, int column) {
   const std::size_t table = report.find("\n" + title + " ");
   const std::size_t row = table == std::string::npos ? table : report.find("\n  " + name + " ", table);
-  if (row == std::string::npos) return "no row '" + name + "' in '" + title + "'";
+  if (row == std::string::npos) {
+    return "no row '" + name + "' in '" + title + "'";
+  }
   std::istringstream words(report.substr(row + name.size() + 3, report.find('\n', row + 1) - row - name.size() - 3));
   std::string word;
-  for (int i = 0; i <= column; ++i) words >> word;
+  for (int i = 0; i <= column; ++i) {
+    words >> word;
+  }
   return word;
 }
 

@@ -35,7 +35,9 @@ std::string answer_in(const std::string& output) {
   std::string answer;
   std::istringstream lines(output);
   for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("[ask-1] ")) answer += line.substr(8) + "\n";
+    if (line.starts_with("[ask-1] ")) {
+      answer += line.substr(8) + "\n";
+    }
   }
   return answer;
 }
@@ -50,8 +52,12 @@ TEST_P(TraceAttributes, AreAsTheDaemonListsThem) {
   const CommandResult result = run_command({LAUNCH_PROGRAM, path.string()});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   const std::string answer = answer_in(result.out);
-  for (const std::string& part : row.expected) EXPECT_THAT(answer, HasSubstr(part));
-  for (const std::string& part : row.absent) EXPECT_THAT(answer, Not(HasSubstr(part)));
+  for (const std::string& part : row.expected) {
+    EXPECT_THAT(answer, HasSubstr(part));
+  }
+  for (const std::string& part : row.absent) {
+    EXPECT_THAT(answer, Not(HasSubstr(part)));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(

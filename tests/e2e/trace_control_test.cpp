@@ -50,7 +50,9 @@ class TraceControl : public testing::Test {
     std::istringstream out(read.out);
     for (std::string line; std::getline(out, line);) {
       const std::size_t end = line.find(": {");
-      if (end != std::string::npos && line.substr(line.rfind(' ', end) + 1).starts_with(prefix)) lines.push_back(line);
+      if (end != std::string::npos && line.substr(line.rfind(' ', end) + 1).starts_with(prefix)) {
+        lines.push_back(line);
+      }
     }
     return lines;
   }
@@ -83,7 +85,9 @@ TEST_F(TraceControl, WhatTheLauncherDoesIsInTheTraceWithTheLineThatAskedForIt) {
   const auto of = [&lines](const std::string& event) {
     std::vector<std::string> found;
     for (const std::string& line : lines) {
-      if (line.find(" launch:" + event + ": {") != std::string::npos) found.push_back(line);
+      if (line.find(" launch:" + event + ": {") != std::string::npos) {
+        found.push_back(line);
+      }
     }
     return found;
   };
@@ -305,7 +309,9 @@ TEST_F(TraceControl, TheNetworkExampleSendsItsTraceToTheRelayDaemon) {
 
 // As in a container that runs before the launch.
 TEST_F(TraceControl, AProgramWithSharedMemoryOfItsOwnIsToldOf) {
-  if (geteuid() != 0) GTEST_SKIP() << "skipped, because without root there is no second /dev/shm";
+  if (geteuid() != 0) {
+    GTEST_SKIP() << "skipped, because without root there is no second /dev/shm";
+  }
   const std::string apart = "mount -t tmpfs none /dev/shm && exec " TRACED_APP " 5 10";
   RunningCommand before({.argv = {"unshare", "-m", "sh", "-c", apart}});
   ASSERT_TRUE(before.wait_for_output("fired"));

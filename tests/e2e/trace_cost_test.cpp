@@ -80,7 +80,9 @@ TEST_F(TraceCost, TheVerdictSaysExactlyHowManyEventsEachProcessLost) {
 
   std::map<std::int64_t, std::uint64_t> recorded;  // the events that another reader counts
   for (const RecordedEvent& event : read_trace(sandbox_.trace_directory() / "run").events) {
-    if (event.name.starts_with("ros2:")) ++recorded[event.vpid];
+    if (event.name.starts_with("ros2:")) {
+      ++recorded[event.vpid];
+    }
   }
   std::uint64_t lost = told["lost_by_process"]["unattributed"];
   for (const json& process : told["processes"]) {
@@ -151,7 +153,9 @@ TEST_F(TraceCost, ClassesOfEventsAreDroppedWhileTheBudgetIsExceeded) {
   for (const RecordedEvent& event : read_trace(sandbox_.trace_directory() / "run").events) {
     last[event.name] = event.timestamp;
     ++counts[event.name];
-    if (event.name != "launch:cut") continue;
+    if (event.name != "launch:cut") {
+      continue;
+    }
     dropped.push_back(event.text("event_class"));
     cut[dropped.back()] = event.timestamp;
     EXPECT_GT(event.number("rate"), 1000u);
@@ -217,7 +221,9 @@ TEST_F(TraceCost, ALateCallbackAndALateMessageAreInSnapshots) {
     newest = std::max(newest, entry.path());
   }
   for (const RecordedEvent& event : read_trace(newest).events) {
-    if (event.name.starts_with("ros2_deadline:")) late.push_back(event);
+    if (event.name.starts_with("ros2_deadline:")) {
+      late.push_back(event);
+    }
   }
   ASSERT_THAT(late, SizeIs(2)) << "neither the quick callback, nor the take of nothing, nor what the middleware keeps";
   EXPECT_EQ(late[0].name, "ros2_deadline:callback");

@@ -101,7 +101,9 @@ TEST(LaunchRunEnd, IsEndedWhenPatienceIsOver) {
   asked.patience = 50ms;
   LaunchRun run(asked);
   constexpr int kLongestStart = 1200;  // calls, each of which waits for the 50 ms above
-  for (int i = 0; i < kLongestStart && !run.wait_for_output("process started with pid"); ++i) continue;
+  for (int i = 0; i < kLongestStart && !run.wait_for_output("process started with pid"); ++i) {
+    continue;
+  }
   EXPECT_FALSE(run.wait_for_output("a text that never comes"));
   const RunResult result = run.wait();
   EXPECT_TRUE(result.timed_out);

@@ -17,19 +17,33 @@ volatile std::size_t sum = 0;
 
 std::size_t sum_of(std::string_view text) {
   std::size_t sum_of_bytes = 0;
-  for (const char c : text) sum_of_bytes += static_cast<unsigned char>(c);
+  for (const char c : text) {
+    sum_of_bytes += static_cast<unsigned char>(c);
+  }
   return sum_of_bytes;
 }
 
 std::size_t sum_of(const FieldValue& value) {
   std::size_t all = value.is_hexadecimal() ? 1 : 0;
-  if (const auto label = value.enumeration_label()) all += sum_of(*label);
-  if (const auto number = value.unsigned_integer()) all += *number;
-  if (const auto number = value.integer()) all += static_cast<std::size_t>(*number);
-  if (const auto number = value.real()) all += *number > 0 ? 1 : 0;
-  if (const auto text = value.string()) all += sum_of(*text);
+  if (const auto label = value.enumeration_label()) {
+    all += sum_of(*label);
+  }
+  if (const auto number = value.unsigned_integer()) {
+    all += *number;
+  }
+  if (const auto number = value.integer()) {
+    all += static_cast<std::size_t>(*number);
+  }
+  if (const auto number = value.real()) {
+    all += *number > 0 ? 1 : 0;
+  }
+  if (const auto text = value.string()) {
+    all += sum_of(*text);
+  }
   for (std::size_t i = 0; i < value.size(); ++i) {
-    if (value.is_structure()) all += sum_of(value.member_name(i));
+    if (value.is_structure()) {
+      all += sum_of(value.member_name(i));
+    }
     all += sum_of(value[i]);
   }
   return all;
@@ -37,8 +51,12 @@ std::size_t sum_of(const FieldValue& value) {
 
 std::size_t sum_of(const Event& event) {
   std::size_t all = sum_of(event.name()) + event.procname.value_or("").size();
-  for (std::size_t i = 0; i < event.event_class->fields.size(); ++i) all += sum_of(event.field(i));
-  for (std::size_t i = 0; i < event.event_class->contexts.size(); ++i) all += sum_of(event.context(i));
+  for (std::size_t i = 0; i < event.event_class->fields.size(); ++i) {
+    all += sum_of(event.field(i));
+  }
+  for (std::size_t i = 0; i < event.event_class->contexts.size(); ++i) {
+    all += sum_of(event.context(i));
+  }
   return all;
 }
 
@@ -50,8 +68,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     TraceReader reader(directory.path(), TraceReader::Decoder::kDirect);
     while (const TraceItem item = reader.next()) {
-      if (item.event != nullptr) sum = sum + sum_of(*item.event);
-      if (item.loss != nullptr) sum = sum + item.loss->stream->name.size();
+      if (item.event != nullptr) {
+        sum = sum + sum_of(*item.event);
+      }
+      if (item.loss != nullptr) {
+        sum = sum + item.loss->stream->name.size();
+      }
     }
     reader.throw_damage();
   } catch (const TraceReadError& error) {

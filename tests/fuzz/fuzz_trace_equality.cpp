@@ -45,11 +45,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   testing::write_random_trace(trace, InputNumbers(data, size));
   const std::vector<std::string> expected = testing::trace_text(trace, TraceReader::Decoder::kBabeltrace);
   const std::vector<std::string> seen = testing::trace_text(trace, TraceReader::Decoder::kDirect);
-  if (seen == expected) return 0;
+  if (seen == expected) {
+    return 0;
+  }
   for (std::size_t i = 0; i < std::max(seen.size(), expected.size()); ++i) {
     const std::string ours = i < seen.size() ? seen[i] : "nothing";
     const std::string theirs = i < expected.size() ? expected[i] : "nothing";
-    if (ours != theirs) std::fprintf(stderr, "ours:   %s\ntheirs: %s\n", ours.c_str(), theirs.c_str());
+    if (ours != theirs) {
+      std::fprintf(stderr, "ours:   %s\ntheirs: %s\n", ours.c_str(), theirs.c_str());
+    }
   }
   std::abort();
 }

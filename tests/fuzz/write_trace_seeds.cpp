@@ -26,7 +26,9 @@ void write(const fs::path& file, const std::string& content) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) return 2;
+  if (argc != 3) {
+    return 2;
+  }
   const fs::path traces = argv[1];
   const fs::path numbers = argv[2];
   fs::create_directories(traces);
@@ -38,10 +40,14 @@ int main(int argc, char** argv) {
     const std::string name = "seed" + std::to_string(seed);
     testing::write_random_trace(directory.path() / name, seed);
     const std::string input = fuzz::trace_as_input(directory.path() / name);
-    if (input.size() <= kLongest) write(traces / name, input);
+    if (input.size() <= kLongest) {
+      write(traces / name, input);
+    }
     std::mt19937_64 random(seed);
     std::string bytes;
-    for (std::size_t i = 0; i < 2'000 * (1 + seed % 8); ++i) bytes.push_back(static_cast<char>(random()));
+    for (std::size_t i = 0; i < 2'000 * (1 + seed % 8); ++i) {
+      bytes.push_back(static_cast<char>(random()));
+    }
     write(numbers / name, bytes);
   }
   return EXIT_SUCCESS;

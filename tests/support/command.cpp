@@ -30,12 +30,16 @@ struct Pipe {
 
 Pipe make_pipe() {
   std::array<int, 2> ends{};
-  if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe2");
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) {
+    throw std::system_error(errno, std::generic_category(), "pipe2");
+  }
   return {ends[0], ends[1]};
 }
 
 void close_fd(int& fd) {
-  if (fd >= 0) close(fd);
+  if (fd >= 0) {
+    close(fd);
+  }
   fd = -1;
 }
 
@@ -48,17 +52,25 @@ std::vector<std::string> merged_environment(const std::map<std::string, std::str
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string text = *entry;
     const std::size_t equals = text.find('=');
-    if (equals != std::string::npos) merged[text.substr(0, equals)] = text.substr(equals + 1);
+    if (equals != std::string::npos) {
+      merged[text.substr(0, equals)] = text.substr(equals + 1);
+    }
   }
-  for (const auto& [name, value] : overrides) merged[name] = value;
+  for (const auto& [name, value] : overrides) {
+    merged[name] = value;
+  }
   std::vector<std::string> entries;
-  for (const auto& [name, value] : merged) entries.push_back(name + "=" + value);
+  for (const auto& [name, value] : merged) {
+    entries.push_back(name + "=" + value);
+  }
   return entries;
 }
 
 std::vector<char*> pointers(std::vector<std::string>& strings) {
   std::vector<char*> result;
-  for (std::string& string : strings) result.push_back(string.data());
+  for (std::string& string : strings) {
+    result.push_back(string.data());
+  }
   result.push_back(nullptr);
   return result;
 }
@@ -90,7 +102,9 @@ RunningCommand::RunningCommand(const Command& command) {
   posix_spawn_file_actions_adddup2(&actions, in.read_end, STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, out.write_end, STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, err.write_end, STDERR_FILENO);
-  if (!command.directory.empty()) posix_spawn_file_actions_addchdir_np(&actions, command.directory.c_str());
+  if (!command.directory.empty()) {
+    posix_spawn_file_actions_addchdir_np(&actions, command.directory.c_str());
+  }
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   sigset_t none;
@@ -107,17 +121,25 @@ RunningCommand::RunningCommand(const Command& command) {
                                  pointers(environment).data());
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
-  for (int* theirs : {&in.read_end, &out.write_end, &err.write_end}) close_fd(*theirs);
+  for (int* theirs : {&in.read_end, &out.write_end, &err.write_end}) {
+    close_fd(*theirs);
+  }
   in_ = in.write_end;
   out_ = out.read_end;
   err_ = err.read_end;
-  if (error == 0) pidfd_ = static_cast<int>(syscall(SYS_pidfd_open, pid_, 0));
+  if (error == 0) {
+    pidfd_ = static_cast<int>(syscall(SYS_pidfd_open, pid_, 0));
+  }
   if (error != 0 || pidfd_ < 0) {
     const int reason = error != 0 ? error : errno;
-    for (int* ours : {&in_, &out_, &err_}) close_fd(*ours);
+    for (int* ours : {&in_, &out_, &err_}) {
+      close_fd(*ours);
+    }
     throw std::system_error(reason, std::generic_category(), "cannot start " + argv[0]);
   }
-  for (const int fd : {out_, err_}) fcntl(fd, F_SETFL, O_NONBLOCK);
+  for (const int fd : {out_, err_}) {
+    fcntl(fd, F_SETFL, O_NONBLOCK);
+  }
 }
 
 RunningCommand::~RunningCommand() {
@@ -125,7 +147,9 @@ RunningCommand::~RunningCommand() {
     kill(-pid_, SIGKILL);
     reap();
   }
-  for (int* fd : {&in_, &out_, &err_, &pidfd_}) close_fd(*fd);
+  for (int* fd : {&in_, &out_, &err_, &pidfd_}) {
+    close_fd(*fd);
+  }
 }
 
 CommandResult RunningCommand::end_gently() {
@@ -136,8 +160,12 @@ CommandResult RunningCommand::end_gently() {
 bool RunningCommand::wait_for_output(const std::string& text, milliseconds timeout) {
   const auto deadline = Clock::now() + timeout;
   while (true) {
-    if (result_.out.find(text) != std::string::npos || result_.err.find(text) != std::string::npos) return true;
-    if (Clock::now() >= deadline) return false;
+    if (result_.out.find(text) != std::string::npos || result_.err.find(text) != std::string::npos) {
+      return true;
+    }
+    if (Clock::now() >= deadline) {
+      return false;
+    }
     if (!read_some(until(deadline))) {
       drain();
       return result_.out.find(text) != std::string::npos || result_.err.find(text) != std::string::npos;
@@ -180,10 +208,14 @@ void RunningCommand::send_signal(int number) {
 }
 
 CommandResult RunningCommand::wait(milliseconds timeout) {
-  if (ended_) return result_;
+  if (ended_) {
+    return result_;
+  }
   const auto deadline = Clock::now() + timeout;
   while (read_some(until(deadline))) {
-    if (Clock::now() < deadline) continue;
+    if (Clock::now() < deadline) {
+      continue;
+    }
     result_.timed_out = true;
     kill(-pid_, SIGKILL);
     break;
@@ -197,7 +229,9 @@ CommandResult RunningCommand::wait(milliseconds timeout) {
 bool RunningCommand::read_some(milliseconds timeout) {
   // A closed pipe has descriptor -1, which poll() skips.
   std::array<pollfd, 3> fds = {pollfd{out_, POLLIN, 0}, pollfd{err_, POLLIN, 0}, pollfd{pidfd_, POLLIN, 0}};
-  if (poll(fds.data(), fds.size(), static_cast<int>(timeout.count())) < 0) return errno == EINTR;
+  if (poll(fds.data(), fds.size(), static_cast<int>(timeout.count())) < 0) {
+    return errno == EINTR;
+  }
   drain();
   return fds[2].revents == 0;
 }
@@ -212,8 +246,12 @@ void RunningCommand::reap() {
   while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
   }
   ended_ = true;
-  if (WIFEXITED(status)) result_.exit_code = WEXITSTATUS(status);
-  if (WIFSIGNALED(status)) result_.signal = WTERMSIG(status);
+  if (WIFEXITED(status)) {
+    result_.exit_code = WEXITSTATUS(status);
+  }
+  if (WIFSIGNALED(status)) {
+    result_.signal = WTERMSIG(status);
+  }
 }
 
 CommandResult run_command(const Command& command, milliseconds timeout, const std::string& input) {
@@ -239,7 +277,9 @@ std::string read_file(const std::filesystem::path& path) {
 void write_file(const std::filesystem::path& path, const std::string& text) {
   std::filesystem::create_directories(path.parent_path());
   std::ofstream file(path, std::ios::binary);
-  if (!(file << text).flush()) throw std::runtime_error("cannot write " + path.string());
+  if (!(file << text).flush()) {
+    throw std::runtime_error("cannot write " + path.string());
+  }
 }
 
 }  // namespace test_support

@@ -29,7 +29,9 @@ namespace {
 namespace fs = std::filesystem;
 
 void check(int result, const std::string& what) {
-  if (result < 0) throw std::system_error(errno, std::generic_category(), what);
+  if (result < 0) {
+    throw std::system_error(errno, std::generic_category(), what);
+  }
 }
 
 struct ProcessInfo {
@@ -45,7 +47,9 @@ std::optional<ProcessInfo> read_process(pid_t pid) {
   std::getline(file, line);
   const std::size_t open = line.find('(');
   const std::size_t close = line.rfind(')');
-  if (open == std::string::npos || close == std::string::npos || close + 4 >= line.size()) return std::nullopt;
+  if (open == std::string::npos || close == std::string::npos || close + 4 >= line.size()) {
+    return std::nullopt;
+  }
   return ProcessInfo{line.substr(open + 1, close - open - 1), line[close + 2],
                      static_cast<pid_t>(std::atoi(line.c_str() + close + 4))};
 }
@@ -55,13 +59,19 @@ std::map<pid_t, ProcessInfo> descendants() {
   std::map<pid_t, ProcessInfo> all;
   for (const fs::directory_entry& entry : fs::directory_iterator("/proc")) {
     const pid_t pid = static_cast<pid_t>(std::atoi(entry.path().filename().c_str()));
-    if (pid <= 0) continue;
-    if (auto info = read_process(pid)) all.emplace(pid, std::move(*info));
+    if (pid <= 0) {
+      continue;
+    }
+    if (auto info = read_process(pid)) {
+      all.emplace(pid, std::move(*info));
+    }
   }
   std::map<pid_t, ProcessInfo> below;
   for (const auto& [pid, info] : all) {
     for (auto ancestor = all.find(info.parent); ancestor != all.end(); ancestor = all.find(ancestor->second.parent)) {
-      if (ancestor->first != getpid()) continue;
+      if (ancestor->first != getpid()) {
+        continue;
+      }
       below.emplace(pid, info);
       break;
     }
@@ -78,7 +88,9 @@ bool is_lttng_daemon(const ProcessInfo& process) {
 fs::path make_directory() {
   const char* parent = std::getenv("TMPDIR");
   std::string name = (fs::path(parent != nullptr && *parent != '\0' ? parent : "/tmp") / "sandbox-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) check(-1, "create " + name);
+  if (mkdtemp(name.data()) == nullptr) {
+    check(-1, "create " + name);
+  }
   return name;
 }
 
@@ -123,8 +135,12 @@ Sandbox::Sandbox() : directory_(make_directory()), previous_directory_(fs::curre
 }
 
 Sandbox::~Sandbox() {
-  for (const std::string& name : end_processes()) ADD_FAILURE() << "the test left a process behind: " << name;
-  for (const auto& [name, value] : std::map(previous_environment_)) set_environment(name, value);
+  for (const std::string& name : end_processes()) {
+    ADD_FAILURE() << "the test left a process behind: " << name;
+  }
+  for (const auto& [name, value] : std::map(previous_environment_)) {
+    set_environment(name, value);
+  }
   leave_namespaces();
   std::error_code ignored;
   fs::current_path(previous_directory_, ignored);
@@ -147,7 +163,9 @@ std::vector<std::string> Sandbox::end_processes() {
       kill(pid, SIGKILL);
     }
     // One at a time: the children of a reaped process become ours, and the next round finds them.
-    if (waitpid(-1, nullptr, 0) < 0 && errno == ECHILD) return unexpected;
+    if (waitpid(-1, nullptr, 0) < 0 && errno == ECHILD) {
+      return unexpected;
+    }
   }
 }
 
@@ -177,10 +195,16 @@ void Sandbox::enter_namespaces() {
 void Sandbox::leave_namespaces() {
   // Libraries keep threads that they started during the test. These threads share our root and working directory, and a
   // thread that shares these may not change its mount namespace (setns(2)).
-  if (mount_namespace_ >= 0) check(unshare(CLONE_FS), "unshare the working directory");
+  if (mount_namespace_ >= 0) {
+    check(unshare(CLONE_FS), "unshare the working directory");
+  }
   for (int* fd : {&mount_namespace_, &network_namespace_}) {
-    if (*fd < 0) continue;
-    if (setns(*fd, 0) != 0) ADD_FAILURE() << "cannot return to the first namespace: " << std::strerror(errno);
+    if (*fd < 0) {
+      continue;
+    }
+    if (setns(*fd, 0) != 0) {
+      ADD_FAILURE() << "cannot return to the first namespace: " << std::strerror(errno);
+    }
     close(*fd);
     *fd = -1;
   }

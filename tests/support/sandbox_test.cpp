@@ -44,7 +44,9 @@ TEST(Sandbox, GivesDirectoriesOfItsOwnAndTakesThemAway) {
 }
 
 TEST(Sandbox, HidesTheMachinesRunDirectoryAndNetwork) {
-  if (geteuid() != 0) GTEST_SKIP() << "skipped, because only root gets namespaces";
+  if (geteuid() != 0) {
+    GTEST_SKIP() << "skipped, because only root gets namespaces";
+  }
   for (int round = 0; round < 2; ++round) {
     const Sandbox sandbox;
     EXPECT_EQ(sandbox.not_isolated(), "");

@@ -51,7 +51,9 @@ class Terminal {
       ::kill(pid_, SIGKILL);
       ::waitpid(pid_, nullptr, 0);
     }
-    if (fd_ >= 0) ::close(fd_);
+    if (fd_ >= 0) {
+      ::close(fd_);
+    }
   }
   Terminal(const Terminal&) = delete;
   Terminal& operator=(const Terminal&) = delete;
@@ -98,7 +100,9 @@ class Terminal {
   bool shows(const std::string& text, const std::string& also = {}) {
     return read_until([&] {
       for (const std::string& line : screen_) {
-        if (line.find(text) != std::string::npos && line.find(also) != std::string::npos) return true;
+        if (line.find(text) != std::string::npos && line.find(also) != std::string::npos) {
+          return true;
+        }
       }
       return false;
     });
@@ -132,10 +136,16 @@ class Terminal {
       pollfd readable{fd_, POLLIN, 0};
       std::array<char, 4096> bytes{};
       const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - std::chrono::steady_clock::now()).count();
-      if (left <= 0 || ::poll(&readable, 1, static_cast<int>(left)) != 1) return false;
+      if (left <= 0 || ::poll(&readable, 1, static_cast<int>(left)) != 1) {
+        return false;
+      }
       const ssize_t count = ::read(fd_, bytes.data(), bytes.size());
-      if (count <= 0) return false;
-      for (ssize_t i = 0; i < count; ++i) take(bytes[static_cast<std::size_t>(i)]);
+      if (count <= 0) {
+        return false;
+      }
+      for (ssize_t i = 0; i < count; ++i) {
+        take(bytes[static_cast<std::size_t>(i)]);
+      }
     }
     return true;
   }
@@ -155,8 +165,12 @@ class Terminal {
     } else if (byte == '\b') {
       column_ -= column_ > 0 ? 1 : 0;
     } else {
-      if (column_ >= 200) column_ = 0;
-      if (line_ < screen_.size()) screen_[line_][column_] = byte;
+      if (column_ >= 200) {
+        column_ = 0;
+      }
+      if (line_ < screen_.size()) {
+        screen_[line_][column_] = byte;
+      }
       ++column_;
     }
   }

@@ -36,7 +36,9 @@ std::string describe(const EventCounts& process) {
 
 std::vector<std::string> ros_event_names() {
   std::vector<std::string> names;
-  for (const RosEvent& event : all_ros_events()) names.push_back(event.name);
+  for (const RosEvent& event : all_ros_events()) {
+    names.push_back(event.name);
+  }
   return names;
 }
 
@@ -45,7 +47,9 @@ std::vector<Absence> absent_launcher(const RecordedEvents& events, const std::se
                                   [](const RecordedEvents::Rule& rule) { return rule.pattern == kLaunchEvents; });
   const bool there = std::any_of(declared.begin(), declared.end(),
                                  [](const std::string& name) { return name.starts_with("launch:"); });
-  if (!wanted || there) return {};
+  if (!wanted || there) {
+    return {};
+  }
   return {{.text = "the launcher's own events are missing: the session daemon had not registered the launcher when the "
                    "launch ended",
            .is_loss = true}};
@@ -61,7 +65,9 @@ std::string did_you_mean(const std::string& pattern, const std::vector<std::stri
 std::vector<Absence> absent_processes(const std::vector<EventCounts>& counts) {
   std::vector<const EventCounts*> absent;
   for (const EventCounts& process : counts) {
-    if (process.missed != 0) absent.push_back(&process);
+    if (process.missed != 0) {
+      absent.push_back(&process);
+    }
   }
   std::stable_sort(absent.begin(), absent.end(),
                    [](const EventCounts* a, const EventCounts* b) { return a->missed > b->missed; });
@@ -71,7 +77,9 @@ std::vector<Absence> absent_processes(const std::vector<EventCounts>& counts) {
   }
   if (absent.size() > kMostToldOf) {
     std::uint64_t missed = 0;
-    for (std::size_t i = kMostToldOf; i < absent.size(); ++i) missed += absent[i]->missed;
+    for (std::size_t i = kMostToldOf; i < absent.size(); ++i) {
+      missed += absent[i]->missed;
+    }
     absences.push_back(
         {.text = fmt::format(
              "{} more recorded late or never: {} missing",
@@ -87,7 +95,9 @@ std::vector<Absence> absent_from_snapshot(const std::vector<EventCounts>& counts
   for (const EventCounts& process : counts) {
     const bool is_there = std::any_of(streams.begin(), streams.end(),
                                       [&process](const Stream& stream) { return stream.pid == process.pid; });
-    if (is_there || process.events.empty()) continue;
+    if (is_there || process.events.empty()) {
+      continue;
+    }
     absences.push_back({.text = fmt::format("{} [{}] had ended, and its buffers with it: its events are not in the "
                                             "snapshot",
                                             process.process, process.pid),
@@ -101,7 +111,9 @@ std::optional<std::set<std::string>> declared_events(const fs::path& recording) 
   std::error_code error;
   fs::recursive_directory_iterator entry(recording, error);
   for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
-    if (entry->path().filename() != "metadata") continue;
+    if (entry->path().filename() != "metadata") {
+      continue;
+    }
     try {
       for (const ctf::EventDeclaration& event : ctf::parse_metadata(ctf::read_metadata(entry->path())).events) {
         names.insert(event.name);
@@ -117,9 +129,13 @@ std::vector<Absence> absent_events(const RecordedEvents& events, const std::set<
   std::vector<Absence> absences = absent_launcher(events, declared);
   std::vector<const RecordedEvents::Rule*> rules;
   for (const RecordedEvents::Rule& rule : events.rules) {
-    if (!is_our_own(rule.pattern)) rules.push_back(&rule);
+    if (!is_our_own(rule.pattern)) {
+      rules.push_back(&rule);
+    }
   }
-  if (rules.empty()) return absences;
+  if (rules.empty()) {
+    return absences;
+  }
   std::vector<std::string> names = ros_event_names();
   names.insert(names.end(), declared.begin(), declared.end());
   const auto takes_one_of = [](const RecordedEvents::Rule& rule, const auto& candidates) {

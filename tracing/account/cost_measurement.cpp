@@ -79,7 +79,9 @@ std::vector<std::string> sorted(std::vector<std::string> names) {
 
 EventCost calibrate(const std::vector<std::string>& context_fields) {
   const std::optional<fs::path> probe = installed_program(kProbe);
-  if (!probe) throw TraceError("cannot measure the cost of events: launch-trace-probe is not installed");
+  if (!probe) {
+    throw TraceError("cannot measure the cost of events: launch-trace-probe is not installed");
+  }
   ensure_session_daemon();
   const CalibrationSession session(context_fields);
   std::istringstream output(program_output(*probe, {"measure"}));
@@ -95,7 +97,9 @@ EventCost calibrate(const std::vector<std::string>& context_fields) {
 }
 
 EventCost event_cost(const std::vector<std::string>& context_fields) {
-  if (std::optional<EventCost> known = known_event_cost(context_fields)) return *known;
+  if (std::optional<EventCost> known = known_event_cost(context_fields)) {
+    return *known;
+  }
   EventCost measured = calibrate(context_fields);
   try {
     remember(measured);

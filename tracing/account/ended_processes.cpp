@@ -21,7 +21,9 @@ std::map<std::string, EventCounts> read_ended_processes(const fs::path& director
   std::map<std::string, EventCounts> ended;
   std::ifstream file(directory / kFile);
   const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
-  if (!json.is_object()) return ended;
+  if (!json.is_object()) {
+    return ended;
+  }
   for (const auto& [name, process] : json.items()) {
     ended.emplace(name, EventCounts{.pid = process.value("pid", std::int64_t{0}),
                                     .process = process.value("process", ""),

@@ -51,9 +51,13 @@ std::vector<std::string> sorted(std::vector<std::string> names) {
 std::string processor_model() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);) {
-    if (!line.starts_with("model name")) continue;
+    if (!line.starts_with("model name")) {
+      continue;
+    }
     const std::size_t begin = line.find(": ");
-    if (begin != std::string::npos) return line.substr(begin + 2);
+    if (begin != std::string::npos) {
+      return line.substr(begin + 2);
+    }
   }
   return "unknown processor";
 }
@@ -69,7 +73,9 @@ std::optional<EventCost> known_event_cost(const std::vector<std::string>& contex
   const std::string cpu = processor_model();
   const std::vector<std::string> fields = sorted(context_fields);
   for (const nlohmann::ordered_json& measured : read_measurements()) {
-    if (!holds_for(measured, cpu, fields)) continue;
+    if (!holds_for(measured, cpu, fields)) {
+      continue;
+    }
     return EventCost{.ns_per_event = measured.at("ns_per_event"),
                      .cpu = cpu,
                      .lttng = LTTNG_VERSION_MEASURED,
@@ -82,7 +88,9 @@ std::optional<EventCost> known_event_cost(const std::vector<std::string>& contex
 void remember(const EventCost& cost) {
   nlohmann::ordered_json kept = nlohmann::ordered_json::array();
   for (const nlohmann::ordered_json& measured : read_measurements()) {
-    if (!holds_for(measured, cost.cpu, cost.context_fields)) kept.push_back(measured);
+    if (!holds_for(measured, cost.cpu, cost.context_fields)) {
+      kept.push_back(measured);
+    }
   }
   kept.push_back(as_json(cost));
   const fs::path file = event_cost_file();

@@ -56,8 +56,12 @@ bool has_ended(const fs::path& file) {
   const std::string name = file.filename();
   pid_t pid = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), pid);
-  if (error != std::errc() || end == name.data() + name.size() || *end != '-' || pid <= 0) return false;
-  if (kill(pid, 0) == 0 || errno != ESRCH) return false;
+  if (error != std::errc() || end == name.data() + name.size() || *end != '-' || pid <= 0) {
+    return false;
+  }
+  if (kill(pid, 0) == 0 || errno != ESRCH) {
+    return false;
+  }
   const launch::UniqueFd opened(open(file.c_str(), O_RDONLY | O_CLOEXEC));
   return opened && flock(opened.get(), LOCK_EX | LOCK_NB) == 0;
 }
@@ -70,14 +74,18 @@ class EventCounters::File {
   // Null when the file isn't complete (yet).
   static std::unique_ptr<File> open(const fs::path& path) {
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0) return nullptr;
+    if (descriptor < 0) {
+      return nullptr;
+    }
     struct stat status {};
     void* memory = MAP_FAILED;
     if (fstat(descriptor, &status) == 0 && static_cast<std::size_t>(status.st_size) >= sizeof(Header)) {
       memory = mmap(nullptr, static_cast<std::size_t>(status.st_size), PROT_READ, MAP_SHARED, descriptor, 0);
     }
     close(descriptor);
-    if (memory == MAP_FAILED) return nullptr;
+    if (memory == MAP_FAILED) {
+      return nullptr;
+    }
     std::unique_ptr<File> file(new File(memory, static_cast<std::size_t>(status.st_size)));
     return file->is_complete() ? std::move(file) : nullptr;
   }
@@ -98,8 +106,12 @@ class EventCounters::File {
     const std::uint64_t used = std::min<std::uint64_t>(load(&header.blocks_used), header.blocks);
     for (std::uint32_t event = 0; event < header.events; ++event) {
       std::uint64_t sum = 0;
-      for (std::uint64_t block = 0; block < used; ++block) sum += load(counters() + block * header.events + event);
-      if (sum != 0) counts.events.emplace(text(names() + event * kNameSize), sum);
+      for (std::uint64_t block = 0; block < used; ++block) {
+        sum += load(counters() + block * header.events + event);
+      }
+      if (sum != 0) {
+        counts.events.emplace(text(names() + event * kNameSize), sum);
+      }
     }
     return counts;
   }
@@ -131,8 +143,12 @@ std::vector<EventCounts> EventCounters::read() {
   std::error_code none;
   for (const fs::directory_entry& entry : fs::directory_iterator(directory_, none)) {
     const std::string name = entry.path().filename();
-    if (files_.contains(name)) continue;
-    if (std::unique_ptr<File> file = File::open(entry.path())) files_.emplace(name, std::move(file));
+    if (files_.contains(name)) {
+      continue;
+    }
+    if (std::unique_ptr<File> file = File::open(entry.path())) {
+      files_.emplace(name, std::move(file));
+    }
   }
   // A process may be put away meanwhile. This file is therefore read last, and is right about the processes in it.
   std::vector<EventCounts> counts;
@@ -140,7 +156,9 @@ std::vector<EventCounts> EventCounters::read() {
     files_.erase(name);
     counts.push_back(std::move(ended));
   }
-  for (const auto& [name, file] : files_) counts.push_back(file->read());
+  for (const auto& [name, file] : files_) {
+    counts.push_back(file->read());
+  }
   std::sort(counts.begin(), counts.end(), [](const EventCounts& a, const EventCounts& b) {
     return std::tie(a.begin, a.pid) < std::tie(b.begin, b.pid);
   });
@@ -157,15 +175,23 @@ void EventCounters::put_ended_processes_away(const fs::path& directory) {
   for (const fs::directory_entry& entry : fs::directory_iterator(directory, none)) {
     const std::string name = entry.path().filename();
     if (!ended.contains(name)) {  // else a launcher was killed before it removed the file
-      if (!has_ended(entry.path())) continue;
+      if (!has_ended(entry.path())) {
+        continue;
+      }
       const std::unique_ptr<File> file = File::open(entry.path());
-      if (!file) continue;
+      if (!file) {
+        continue;
+      }
       ended.emplace(name, file->read());
     }
     put_away.push_back(entry.path());
   }
-  if (put_away.empty() || !write_ended_processes(directory, ended)) return;
-  for (const fs::path& file : put_away) fs::remove(file, none);
+  if (put_away.empty() || !write_ended_processes(directory, ended)) {
+    return;
+  }
+  for (const fs::path& file : put_away) {
+    fs::remove(file, none);
+  }
 }
 
 }  // namespace tracing

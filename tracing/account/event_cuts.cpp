@@ -25,7 +25,9 @@ std::vector<EventCut> read_cuts(const TraceConfig& config) {
   std::ifstream file(cuts_file(config));
   for (std::string line; std::getline(file, line);) {
     const nlohmann::json json = nlohmann::json::parse(line, nullptr, false);
-    if (!json.is_object()) continue;  // of a launcher that was killed while it wrote
+    if (!json.is_object()) {
+      continue;  // of a launcher that was killed while it wrote
+    }
     cuts.push_back({.event_class = json.value("class", ""),
                     .events = json.value("events", std::vector<std::string>()),
                     .time = json.value("time", std::int64_t{0}),

@@ -23,9 +23,12 @@ bool LossAccount::complete() const {
 }
 
 bool LossAccount::has_losses() const {
-  if (cut_short || !damage.empty()) return true;
-  if (std::any_of(absences.begin(), absences.end(), [](const Absence& absence) { return absence.is_loss; }))
+  if (cut_short || !damage.empty()) {
     return true;
+  }
+  if (std::any_of(absences.begin(), absences.end(), [](const Absence& absence) { return absence.is_loss; })) {
+    return true;
+  }
   return std::any_of(channels.begin(), channels.end(), [](const ChannelLoss& channel) {
     const BeforeFirstPacket& before = channel.before_first;
     return channel.discarded_events + channel.lost_packets + before.discarded_events != 0 ||

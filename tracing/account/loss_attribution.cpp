@@ -22,7 +22,9 @@ constexpr const char* kCallbackEnd = "ros2:callback_end";
 std::uint64_t userspace_losses(const LossAccount& account) {
   std::uint64_t sum = 0;
   for (const ChannelLoss& channel : account.channels) {
-    if (channel.domain == "ust") sum += channel.discarded_events;
+    if (channel.domain == "ust") {
+      sum += channel.discarded_events;
+    }
   }
   return sum;
 }
@@ -32,11 +34,17 @@ std::uint64_t userspace_losses(const LossAccount& account) {
 std::map<std::int64_t, std::optional<std::uint64_t>> losses_by_buffers(const std::vector<Stream>& streams) {
   std::map<std::int64_t, std::optional<std::uint64_t>> losses;
   for (const Stream& stream : streams) {
-    if (!stream.pid || stream.packets.empty()) continue;
+    if (!stream.pid || stream.packets.empty()) {
+      continue;
+    }
     const PacketLosses found = losses_of(stream);
     std::optional<std::uint64_t>& sum = losses.try_emplace(*stream.pid, 0).first->second;
-    if (found.lost_packets + found.earlier_packets != 0) sum.reset();
-    if (sum) *sum += found.discarded_events;
+    if (found.lost_packets + found.earlier_packets != 0) {
+      sum.reset();
+    }
+    if (sum) {
+      *sum += found.discarded_events;
+    }
   }
   return losses;
 }
@@ -55,7 +63,9 @@ std::map<std::int64_t, std::optional<std::uint64_t>> losses_by_counters(const st
   std::map<std::int64_t, std::map<std::string, std::uint64_t>> fired;
   for (const EventCounts& process : counts) {
     for (const auto& [event, count] : process.events) {
-      if (events.countable(event)) fired[process.pid][event] += count * events.times(event);
+      if (events.countable(event)) {
+        fired[process.pid][event] += count * events.times(event);
+      }
     }
   }
   std::map<std::int64_t, std::optional<std::uint64_t>> losses;
@@ -64,7 +74,9 @@ std::map<std::int64_t, std::optional<std::uint64_t>> losses_by_counters(const st
     std::uint64_t lost = 0;
     for (const auto& [event, count] : by_event) {
       std::uint64_t arrived = 0;
-      if (found != recorded.end() && found->second.events.contains(event)) arrived = found->second.events.at(event);
+      if (found != recorded.end() && found->second.events.contains(event)) {
+        arrived = found->second.events.at(event);
+      }
       lost += count - std::min(count, arrived);
     }
     losses[pid] = lost;
@@ -93,7 +105,9 @@ RecordedProcesses parse_recorded_processes(const std::string& text) {
 namespace {
 
 std::optional<double> seconds_until_reached(const EventCounts& process) {
-  if (process.reached == 0) return std::nullopt;
+  if (process.reached == 0) {
+    return std::nullopt;
+  }
   return to_seconds(process.reached - process.begin);
 }
 
@@ -106,7 +120,9 @@ std::vector<ProcessAccount> account_processes(const std::vector<EventCounts>& co
     const std::uint64_t end = process.end != 0 ? process.end : std::max(now, process.begin);
     const auto callbacks = process.events.find(kCallbackEnd);
     std::uint64_t recorded = 0;
-    for (const auto& [event, count] : process.events) recorded += count * events.times(event);
+    for (const auto& [event, count] : process.events) {
+      recorded += count * events.times(event);
+    }
     processes.push_back({.name = process.process,
                          .pid = process.pid,
                          .seconds = to_seconds(end - process.begin),
@@ -129,17 +145,23 @@ void add_uncounted_events(std::vector<ProcessAccount>& processes, const Recorded
     const bool counts = is_known && found->counts;
     std::uint64_t uncounted = 0;
     for (const auto& [event, count] : process.events) {
-      if (event.starts_with("launch:") || (counts && is_counted(event))) continue;
+      if (event.starts_with("launch:") || (counts && is_counted(event))) {
+        continue;
+      }
       uncounted += count;
     }
-    if (uncounted == 0) continue;
+    if (uncounted == 0) {
+      continue;
+    }
     if (counts) {
       found->events += uncounted;
       continue;
     }
     // Known by the losses of its own buffers.
     const std::optional<std::uint64_t> lost = is_known ? found->lost : std::nullopt;
-    if (is_known) processes.erase(std::prev(found.base()));
+    if (is_known) {
+      processes.erase(std::prev(found.base()));
+    }
     const auto callbacks = process.events.find(kCallbackEnd);
     processes.push_back({.name = process.name,
                          .pid = pid,
@@ -156,13 +178,17 @@ void attribute_losses(LossAccount& account, const std::vector<EventCounts>& coun
                       const RecordedProcesses& recorded, const std::vector<Stream>& streams) {
   std::map<std::int64_t, std::optional<std::uint64_t>> losses = losses_by_buffers(streams);
   const bool by_buffers = !losses.empty();
-  if (!by_buffers) losses = losses_by_counters(counts, events, recorded);
+  if (!by_buffers) {
+    losses = losses_by_counters(counts, events, recorded);
+  }
   std::uint64_t sum = 0;
   for (const auto& [pid, lost] : losses) {
     sum += lost.value_or(0);
     const bool counted = std::any_of(account.processes.begin(), account.processes.end(),
                                      [pid = pid](const ProcessAccount& process) { return process.pid == pid; });
-    if (!counted && lost.value_or(1) != 0) account.processes.push_back({.name = "", .pid = pid, .counts = false});
+    if (!counted && lost.value_or(1) != 0) {
+      account.processes.push_back({.name = "", .pid = pid, .counts = false});
+    }
   }
   for (ProcessAccount& process : account.processes) {
     process.lost.reset();
@@ -171,9 +197,13 @@ void attribute_losses(LossAccount& account, const std::vector<EventCounts>& coun
       process.lost = found->second;
       losses.erase(found);
     }
-    if (const auto found = recorded.find(process.pid); found != recorded.end()) process.nodes = found->second.nodes;
+    if (const auto found = recorded.find(process.pid); found != recorded.end()) {
+      process.nodes = found->second.nodes;
+    }
   }
-  if (account.processes.empty()) return;
+  if (account.processes.empty()) {
+    return;
+  }
   const std::uint64_t total = userspace_losses(account);
   const bool all_counted = account.damage.empty() && !packets_are_missing(account);
   account.attribution = sum == total && all_counted ? LossAttribution::kExact : LossAttribution::kEstimate;
@@ -185,17 +215,29 @@ void count_overwritten(LossAccount& account, const std::vector<EventCounts>& cou
   ChannelLoss* overwritten = nullptr;
   std::uint64_t discarded = 0;
   for (ChannelLoss& channel : account.channels) {
-    if (channel.domain != "ust") continue;
+    if (channel.domain != "ust") {
+      continue;
+    }
     discarded += channel.discarded_events + channel.before_first.discarded_events;
     const bool in_files = channel.before_first.why == BeforeFirstPacket::kOverwrittenInFiles;
     // Counters know one sum for all channels, and what lost packets held is unknown as well.
-    if (channel.lost_packets != 0 || (in_files && channel.before_first.packets != 0 && overwritten)) return;
-    if (in_files && channel.before_first.packets != 0) overwritten = &channel;
+    if (channel.lost_packets != 0 || (in_files && channel.before_first.packets != 0 && overwritten)) {
+      return;
+    }
+    if (in_files && channel.before_first.packets != 0) {
+      overwritten = &channel;
+    }
   }
-  if (overwritten == nullptr) return;
+  if (overwritten == nullptr) {
+    return;
+  }
   std::uint64_t missing = 0;
-  for (const auto& [pid, lost] : losses_by_counters(counts, events, recorded)) missing += lost.value_or(0);
-  if (missing <= discarded) return;
+  for (const auto& [pid, lost] : losses_by_counters(counts, events, recorded)) {
+    missing += lost.value_or(0);
+  }
+  if (missing <= discarded) {
+    return;
+  }
   overwritten->before_first.events = missing - discarded;
   const bool all_count = std::all_of(recorded.begin(), recorded.end(), [&counts](const auto& process) {
     return std::any_of(counts.begin(), counts.end(),

@@ -43,7 +43,9 @@ LossAccount read_losses(const std::string& lttng_session_name) {
   LossAccount account;
   const LttngList<lttng_domain> domains(fmt::format("list the domains of session '{}'", lttng_session_name),
                                         lttng_list_domains, lttng_session_name.c_str());
-  for (const lttng_domain& domain : domains) read_domain(lttng_session_name, domain, account);
+  for (const lttng_domain& domain : domains) {
+    read_domain(lttng_session_name, domain, account);
+  }
   return account;
 }
 

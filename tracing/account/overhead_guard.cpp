@@ -30,14 +30,18 @@ Counts runtime_events(const std::vector<EventCounts>& processes) {
   Counts sums;
   for (const EventCounts& process : processes) {
     for (const auto& [event, count] : process.events) {
-      if (!initialisation.contains(event)) sums[event] += count;
+      if (!initialisation.contains(event)) {
+        sums[event] += count;
+      }
     }
   }
   return sums;
 }
 
 Counts difference(Counts after, const Counts& before) {
-  for (const auto& [event, count] : before) after[event] -= count;
+  for (const auto& [event, count] : before) {
+    after[event] -= count;
+  }
   return after;
 }
 
@@ -49,7 +53,9 @@ std::uint64_t total(const Counts& counts) {
 // False for a class whose events are counted, and did not come: nothing would be gained.
 bool is_worth_a_cut(const DroppableClass& drop, const Counts& came) {
   return std::any_of(drop.rules.begin(), drop.rules.end(), [&came](const DroppableRule& rule) {
-    if (!rule.event.starts_with("ros2:")) return true;
+    if (!rule.event.starts_with("ros2:")) {
+      return true;
+    }
     const auto found = came.find(rule.event);
     return found != came.end() && found->second != 0;
   });
@@ -124,7 +130,9 @@ void OverheadGuard::cut(const DroppableClass& drop, std::uint64_t rate) {
       made.events.push_back(rule.event);
     }
   }
-  if (made.events.empty()) return;  // the session was ended, or the events were switched off, by somebody else
+  if (made.events.empty()) {
+    return;  // the session was ended, or the events were switched off, by somebody else
+  }
   note_cut(config_, made);
   told_(made);
 }

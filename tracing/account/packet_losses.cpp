@@ -11,7 +11,9 @@ std::uint64_t beyond(std::uint64_t count, std::uint64_t known) {
 }
 
 BeforeFirstPacket::Why reason_of(const ChannelLoss& channel) {
-  if (channel.tracefile_count != 0) return BeforeFirstPacket::kOverwrittenInFiles;
+  if (channel.tracefile_count != 0) {
+    return BeforeFirstPacket::kOverwrittenInFiles;
+  }
   // Buffers that discard the newest events lose no packet.
   return channel.overwrite ? BeforeFirstPacket::kLost : BeforeFirstPacket::kRemoved;
 }
@@ -20,7 +22,9 @@ void count_channel(ChannelLoss& channel, const std::vector<Stream>& streams) {
   PacketLosses sum;
   bool found = false;
   for (const Stream& stream : streams) {
-    if (stream.domain != channel.domain || stream.channel != channel.channel || stream.packets.empty()) continue;
+    if (stream.domain != channel.domain || stream.channel != channel.channel || stream.packets.empty()) {
+      continue;
+    }
     found = true;
     const PacketLosses losses = losses_of(stream);
     sum.discarded_events += losses.discarded_events;
@@ -28,7 +32,9 @@ void count_channel(ChannelLoss& channel, const std::vector<Stream>& streams) {
     sum.earlier_packets += losses.earlier_packets;
     sum.earlier_discarded_events += losses.earlier_discarded_events;
   }
-  if (!found) return;
+  if (!found) {
+    return;
+  }
   channel.before_first = {
       .why = reason_of(channel), .packets = sum.earlier_packets, .discarded_events = sum.earlier_discarded_events};
   channel.only_daemon_events = beyond(channel.discarded_events, sum.discarded_events + sum.earlier_discarded_events);
@@ -42,7 +48,9 @@ void count_channel(ChannelLoss& channel, const std::vector<Stream>& streams) {
 
 PacketLosses losses_of(const Stream& stream) {
   PacketLosses losses;
-  if (stream.packets.empty()) return losses;
+  if (stream.packets.empty()) {
+    return losses;
+  }
   const Packet& first = stream.packets.front();
   losses.earlier_packets = first.sequence_number.value_or(0);
   (losses.earlier_packets == 0 ? losses.discarded_events : losses.earlier_discarded_events) = first.discarded_events;
@@ -58,7 +66,9 @@ PacketLosses losses_of(const Stream& stream) {
 }
 
 void count_in_packets(LossAccount& account, const std::vector<Stream>& streams) {
-  for (ChannelLoss& channel : account.channels) count_channel(channel, streams);
+  for (ChannelLoss& channel : account.channels) {
+    count_channel(channel, streams);
+  }
 }
 
 }  // namespace tracing

@@ -20,7 +20,9 @@ std::vector<std::string> exclusions_of(lttng_event& rule) {
   const int count = lttng_event_get_exclusion_name_count(&rule);
   for (int i = 0; i < count; ++i) {
     const char* name = nullptr;
-    if (lttng_event_get_exclusion_name(&rule, static_cast<std::size_t>(i), &name) == 0) names.emplace_back(name);
+    if (lttng_event_get_exclusion_name(&rule, static_cast<std::size_t>(i), &name) == 0) {
+      names.emplace_back(name);
+    }
   }
   return names;
 }
@@ -39,7 +41,9 @@ bool RecordedEvents::Rule::takes(const std::string& event) const {
 std::size_t RecordedEvents::times(const std::string& event) const {
   std::set<std::string> channels;
   for (const Rule& rule : rules) {
-    if (rule.takes(event)) channels.insert(rule.channel);
+    if (rule.takes(event)) {
+      channels.insert(rule.channel);
+    }
   }
   return channels.size();
 }
@@ -47,8 +51,12 @@ std::size_t RecordedEvents::times(const std::string& event) const {
 bool RecordedEvents::countable(const std::string& event) const {
   bool taken = false;
   for (const Rule& rule : rules) {
-    if (!rule.takes(event)) continue;
-    if (rule.conditional) return false;
+    if (!rule.takes(event)) {
+      continue;
+    }
+    if (rule.conditional) {
+      return false;
+    }
     taken = true;
   }
   return taken;

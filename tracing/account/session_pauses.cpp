@@ -23,7 +23,9 @@ std::string file_of(const std::string& counters, const std::string& name) {
 }
 
 void note(const char* what, const std::string& counters, const std::string& name) {
-  if (counters.empty()) return;
+  if (counters.empty()) {
+    return;
+  }
   std::ofstream(file_of(counters, name), std::ios::app) << what << ' ' << launch::monotonic_time() << '\n';
 }
 
@@ -52,14 +54,18 @@ void note_resume(const std::string& counters, const std::string& name) {
 }
 
 void forgive_pauses(std::vector<EventCounts>& counts, const std::string& counters, const std::string& name) {
-  if (counters.empty()) return;
+  if (counters.empty()) {
+    return;
+  }
   const std::vector<Pause> pauses = read_pauses(counters, name);
   for (EventCounts& process : counts) {
     const std::uint64_t until = process.reached != 0 ? process.reached : process.end != 0 ? process.end : kNotYet;
     const bool paused = std::any_of(pauses.begin(), pauses.end(), [&process, until](const Pause& pause) {
       return process.begin < pause.end && pause.begin < until;
     });
-    if (paused) process.missed = 0;
+    if (paused) {
+      process.missed = 0;
+    }
   }
 }
 

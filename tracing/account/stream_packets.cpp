@@ -33,15 +33,21 @@ struct FileName {
 
 std::optional<FileName> split(const std::string& name) {
   const std::size_t separator = name.rfind('_');
-  if (separator == std::string::npos || !is_number(std::string_view(name).substr(separator + 1))) return std::nullopt;
+  if (separator == std::string::npos || !is_number(std::string_view(name).substr(separator + 1))) {
+    return std::nullopt;
+  }
   return FileName{name.substr(0, separator), name.substr(separator + 1)};
 }
 
 std::optional<FileName> stream_of(const fs::path& file, const std::set<std::string>& channels_in_files) {
   // The name of a channel may hold a dot.
-  if (file.parent_path().filename() == "index") return std::nullopt;
+  if (file.parent_path().filename() == "index") {
+    return std::nullopt;
+  }
   std::optional<FileName> name = split(file.filename());
-  if (!name) return std::nullopt;
+  if (!name) {
+    return std::nullopt;
+  }
   std::optional<FileName> of_numbered_file = split(name->channel);
   return of_numbered_file && channels_in_files.contains(of_numbered_file->channel) ? of_numbered_file : name;
 }
@@ -50,9 +56,13 @@ std::optional<FileName> stream_of(const fs::path& file, const std::set<std::stri
 std::optional<std::int64_t> owner_of(const fs::path& trace) {
   constexpr std::size_t kTimeStamp = std::string_view("-YYYYMMDD-HHMMSS").size();
   auto part = trace.begin();
-  if (part == trace.end() || *part != "pid" || ++part == trace.end()) return std::nullopt;
+  if (part == trace.end() || *part != "pid" || ++part == trace.end()) {
+    return std::nullopt;
+  }
   std::string name = *part;
-  if (name.size() <= kTimeStamp) return std::nullopt;
+  if (name.size() <= kTimeStamp) {
+    return std::nullopt;
+  }
   name.resize(name.size() - kTimeStamp);
   std::int64_t pid = 0;
   const char* const digits = name.data() + name.rfind('-') + 1;
@@ -65,7 +75,9 @@ class Traces {
  public:
   const ctf::TraceClass* in(const fs::path& directory) {
     const auto [found, is_new] = traces_.try_emplace(directory);
-    if (!is_new) return found->second ? &*found->second : nullptr;
+    if (!is_new) {
+      return found->second ? &*found->second : nullptr;
+    }
     try {
       found->second = ctf::parse_metadata(ctf::read_metadata(directory / kMetadata));
     } catch (const ctf::UnsupportedTrace&) {
@@ -83,7 +95,9 @@ void add_packets(const ctf::TraceClass& trace, const fs::path& file, const std::
   try {
     const ctf::StreamFile stream(file);
     ctf::PacketList list = ctf::find_packets(trace, stream, give_up);
-    if (list.ends_early) list.packets.pop_back();
+    if (list.ends_early) {
+      list.packets.pop_back();
+    }
     for (const ctf::Packet& packet : list.packets) {
       packets.push_back({.begin = packet.time_begin.value_or(0),
                          .end = packet.time_end.value_or(0),
@@ -107,7 +121,9 @@ std::vector<fs::path> chunks_of(const fs::path& directory) {
   std::error_code error;
   // Another program may move an archive away meanwhile.
   fs::directory_iterator archive(directory / "archives", error);
-  for (; !error && archive != fs::directory_iterator(); archive.increment(error)) chunks.push_back(archive->path());
+  for (; !error && archive != fs::directory_iterator(); archive.increment(error)) {
+    chunks.push_back(archive->path());
+  }
   return chunks;
 }
 
@@ -125,12 +141,18 @@ std::vector<Stream> read_streams(const fs::path& directory, const std::set<std::
       for (; !error && iterator != fs::recursive_directory_iterator(); iterator.increment(error)) {
         const fs::directory_entry& entry = *iterator;
         std::error_code gone;
-        if (!entry.is_regular_file(gone)) continue;
+        if (!entry.is_regular_file(gone)) {
+          continue;
+        }
         const std::optional<FileName> name = stream_of(entry.path(), channels_in_files);
-        if (!name) continue;
+        if (!name) {
+          continue;
+        }
         const fs::path trace = entry.path().parent_path();
         Found& stream = found[{domain, trace.lexically_relative(chunk / domain), name->channel, name->cpu}];
-        if (chunk != directory) stream.in_archives = true;
+        if (chunk != directory) {
+          stream.in_archives = true;
+        }
         if (const ctf::TraceClass* const metadata = traces.in(trace)) {
           add_packets(*metadata, entry.path(), give_up, stream.packets);
         }
@@ -160,7 +182,9 @@ std::vector<Stream> read_streams(const fs::path& directory, const std::set<std::
 std::uint64_t first_time(const std::vector<Stream>& streams) {
   std::uint64_t first = std::numeric_limits<std::uint64_t>::max();
   for (const Stream& stream : streams) {
-    if (!stream.packets.empty()) first = std::min(first, stream.packets.front().begin);
+    if (!stream.packets.empty()) {
+      first = std::min(first, stream.packets.front().begin);
+    }
   }
   return first;
 }

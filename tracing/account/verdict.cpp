@@ -23,7 +23,9 @@ namespace {
 
 // The unbroken runs of packets before which events were lost. Returns the events of the longest.
 std::uint64_t add_ranges(const Stream& stream, std::uint64_t origin, std::vector<LossRange>& ranges) {
-  if (stream.packets.empty()) return 0;
+  if (stream.packets.empty()) {
+    return 0;
+  }
   std::uint64_t longest = 0;
   // What was lost before packets that are not there any more has no place in the trace.
   const bool is_whole = stream.packets.front().sequence_number.value_or(0) == 0;
@@ -35,7 +37,9 @@ std::uint64_t add_ranges(const Stream& stream, std::uint64_t origin, std::vector
     const std::uint64_t lost = packet.discarded_events - std::min(before, packet.discarded_events);
     if (lost != 0) {
       const std::uint64_t begin = i == 0 ? packet.begin : stream.packets[i - 1].end;
-      if (!in_run) ranges.push_back({.cpu = stream.cpu, .begin_ns = begin - origin, .end_ns = 0, .events = 0});
+      if (!in_run) {
+        ranges.push_back({.cpu = stream.cpu, .begin_ns = begin - origin, .end_ns = 0, .events = 0});
+      }
       ranges.back().end_ns = packet.end - origin;
       ranges.back().events += lost;
       longest = std::max(longest, ranges.back().events);
@@ -50,7 +54,9 @@ void advise(ChannelLoss& channel, std::uint64_t longest) {
   // What was lost before the first packet or after the last is known as a sum only.
   longest = std::max({longest, channel.before_first.discarded_events, std::uint64_t{1}});
   const std::uint64_t needed = 2 * (channel.subbuffer_size * channel.subbuffer_count + longest * kBytesPerLostEvent);
-  if (needed > kLargestAdvice) return;
+  if (needed > kLargestAdvice) {
+    return;
+  }
   channel.advised_subbuffer_size = std::bit_ceil(needed / kAdvisedSubbuffers);
   channel.advised_subbuffer_count = kAdvisedSubbuffers;
   if (channel.tracefile_size != 0 && channel.advised_subbuffer_size > channel.tracefile_size) {
@@ -88,8 +94,12 @@ nlohmann::ordered_json channel_as_json(const ChannelLoss& channel) {
                                    {"packets", before.packets},
                                    {"events", nullptr},
                                    {"discarded_events", before.discarded_events}};
-    if (before.events) json["before_first_packet"]["events"] = *before.events;
-    if (before.at_least) json["before_first_packet"]["at_least"] = true;
+    if (before.events) {
+      json["before_first_packet"]["events"] = *before.events;
+    }
+    if (before.at_least) {
+      json["before_first_packet"]["at_least"] = true;
+    }
   }
   for (const LossRange& range : channel.ranges) {
     json["lost"].push_back(
@@ -116,12 +126,20 @@ nlohmann::ordered_json process_as_json(const ProcessAccount& process, const std:
     json["missed_events"] = process.missed;
   }
   json["lost"] = process.lost ? nlohmann::ordered_json(*process.lost) : nlohmann::ordered_json(nullptr);
-  if (!process.nodes.empty()) json["nodes"] = process.nodes;
-  if (!cost) return json;
+  if (!process.nodes.empty()) {
+    json["nodes"] = process.nodes;
+  }
+  if (!cost) {
+    return json;
+  }
   const double ns = cost->ns_per_event;
   json["tracing"] = {{"seconds", process.tracing_seconds(ns)}, {"processor_share", process.processor_share(ns)}};
-  if (process.cpu_seconds > 0) json["tracing"]["own_share"] = process.own_share(ns);
-  if (process.callbacks != 0) json["tracing"]["ns_per_callback"] = process.ns_per_callback(ns);
+  if (process.cpu_seconds > 0) {
+    json["tracing"]["own_share"] = process.own_share(ns);
+  }
+  if (process.callbacks != 0) {
+    json["tracing"]["ns_per_callback"] = process.ns_per_callback(ns);
+  }
   return json;
 }
 
@@ -147,12 +165,18 @@ void explain_losses(LossAccount& account, const std::vector<Stream>& streams) {
   for (ChannelLoss& channel : account.channels) {
     std::uint64_t longest = 0;
     for (const Stream& stream : streams) {
-      if (stream.domain != channel.domain || stream.channel != channel.channel) continue;
-      for (const Packet& packet : stream.packets) channel.bytes += packet.bytes;
+      if (stream.domain != channel.domain || stream.channel != channel.channel) {
+        continue;
+      }
+      for (const Packet& packet : stream.packets) {
+        channel.bytes += packet.bytes;
+      }
       longest = std::max(longest, add_ranges(stream, origin, channel.ranges));
     }
     const bool lost = channel.discarded_events + channel.before_first.discarded_events != 0;
-    if (lost && channel.subbuffer_count != 0) advise(channel, longest);
+    if (lost && channel.subbuffer_count != 0) {
+      advise(channel, longest);
+    }
   }
 }
 
@@ -165,8 +189,12 @@ std::string verdict_as_json(const LossAccount& account, const std::string& sessi
                                  {"discarded_events", account.discarded_events()},
                                  {"lost_packets", account.lost_packets()},
                                  {"channels", nlohmann::ordered_json::array()}};
-  for (const Absence& absence : account.absences) json["absent"].push_back(absence.text);
-  for (const ChannelLoss& channel : account.channels) json["channels"].push_back(channel_as_json(channel));
+  for (const Absence& absence : account.absences) {
+    json["absent"].push_back(absence.text);
+  }
+  for (const ChannelLoss& channel : account.channels) {
+    json["channels"].push_back(channel_as_json(channel));
+  }
   json["lost_by_process"] = {{"method", name_of(account.attribution)}, {"unattributed", account.unattributed}};
   if (account.cost) {
     json["event_cost"] = {{"ns", account.cost->ns_per_event},
@@ -183,8 +211,9 @@ std::string verdict_as_json(const LossAccount& account, const std::string& sessi
                             {"processor_share", cut.share}});
   }
   json["processes"] = nlohmann::ordered_json::array();
-  for (const ProcessAccount& process : account.processes)
+  for (const ProcessAccount& process : account.processes) {
     json["processes"].push_back(process_as_json(process, account.cost));
+  }
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -217,7 +246,9 @@ void write_snapshot_verdict(const std::filesystem::path& directory, const std::s
                                  {"lost_packets", lost},
                                  {"begin_ns", std::min(begin, end)},
                                  {"end_ns", end}};
-  for (const Absence& absence : absences) json["absent"].push_back(absence.text);
+  for (const Absence& absence : absences) {
+    json["absent"].push_back(absence.text);
+  }
   write_file(directory, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 

@@ -11,13 +11,17 @@ namespace {
 
 // The process that a condition names: "talker" for "'talker' has started"; empty for a condition of the ROS graph.
 std::string_view process_in(std::string_view condition) {
-  if (!condition.starts_with('\'')) return "";
+  if (!condition.starts_with('\'')) {
+    return "";
+  }
   const std::size_t end = condition.find('\'', 1);
   return end == std::string_view::npos ? "" : condition.substr(1, end - 1);
 }
 
 std::optional<std::int64_t> ready_ns(const StartedProcess& process) {
-  if (!process.start.ready_after_ns) return std::nullopt;
+  if (!process.start.ready_after_ns) {
+    return std::nullopt;
+  }
   return process.start.exec_ns + *process.start.ready_after_ns;
 }
 
@@ -37,7 +41,9 @@ class PathBack {
  private:
   // A step from `begin_ns` to the begin of the step after it.
   void add(const std::string& process, const std::string& what, std::int64_t begin_ns) {
-    if (begin_ns >= now_) return;
+    if (begin_ns >= now_) {
+      return;
+    }
     path_.push_back({process, what, begin_ns, now_});
     now_ = begin_ns;
   }
@@ -53,7 +59,9 @@ class PathBack {
                                                                            {0, ""}};
     std::string next = until;
     for (const auto& [after_ns, what] : reached) {
-      if (!after_ns) continue;
+      if (!after_ns) {
+        continue;
+      }
       if (start.exec_ns + *after_ns < now_) {
         add(start.process, "until " + next, start.exec_ns + *after_ns);
         next = what;
@@ -61,15 +69,21 @@ class PathBack {
         next = what;
       }
     }
-    if (start.spawn_ns) add(start.process, "started by the launcher", *start.spawn_ns);
+    if (start.spawn_ns) {
+      add(start.process, "started by the launcher", *start.spawn_ns);
+    }
     through_condition(process);
   }
 
   void through_condition(const StartedProcess& process) {
     const StartCondition* last = nullptr;
     for (const StartCondition& condition : conditions_) {
-      if (condition.process != process.name || condition.held_ns > now_) continue;
-      if (last == nullptr || condition.held_ns >= last->held_ns) last = &condition;
+      if (condition.process != process.name || condition.held_ns > now_) {
+        continue;
+      }
+      if (last == nullptr || condition.held_ns >= last->held_ns) {
+        last = &condition;
+      }
     }
     if (last == nullptr) {
       through_launcher();
@@ -89,8 +103,12 @@ class PathBack {
   const StartedProcess* process_called(std::string_view name) const {
     const StartedProcess* found = nullptr;
     for (const StartedProcess& process : processes_) {
-      if (process.name != name || process.start.exec_ns > now_) continue;
-      if (std::find(visited_.begin(), visited_.end(), &process) == visited_.end()) found = &process;
+      if (process.name != name || process.start.exec_ns > now_) {
+        continue;
+      }
+      if (std::find(visited_.begin(), visited_.end(), &process) == visited_.end()) {
+        found = &process;
+      }
     }
     return found;
   }
@@ -98,12 +116,16 @@ class PathBack {
   void through_launcher() {
     std::vector<const LauncherStep*> steps;
     for (const LauncherStep& step : steps_) {
-      if (step.begin_ns < now_) steps.push_back(&step);
+      if (step.begin_ns < now_) {
+        steps.push_back(&step);
+      }
     }
     std::stable_sort(steps.begin(), steps.end(),
                      [](const LauncherStep* a, const LauncherStep* b) { return a->end_ns > b->end_ns; });
     for (const LauncherStep* step : steps) {
-      if (step->begin_ns >= now_) continue;  // within a step that is there already
+      if (step->begin_ns >= now_) {
+        continue;  // within a step that is there already
+      }
       add("", waits_for_.empty() ? "other things" : "until " + waits_for_, step->end_ns);
       waits_for_.clear();
       add("", step->what, step->begin_ns);
@@ -126,9 +148,13 @@ std::optional<StartupResult> critical_start(const std::vector<StartedProcess>& p
                                             const std::vector<LauncherStep>& steps) {
   const StartedProcess* last = nullptr;
   for (const StartedProcess& process : processes) {
-    if (ready_ns(process) && (last == nullptr || *ready_ns(process) > *ready_ns(*last))) last = &process;
+    if (ready_ns(process) && (last == nullptr || *ready_ns(process) > *ready_ns(*last))) {
+      last = &process;
+    }
   }
-  if (last == nullptr) return std::nullopt;
+  if (last == nullptr) {
+    return std::nullopt;
+  }
   StartupResult result;
   result.ready_ns = *ready_ns(*last);
   result.critical_path = PathBack(processes, conditions, steps, result.ready_ns).from(*last);

@@ -21,14 +21,20 @@ std::vector<ActionResult> action_results(const Ros2Results& results) {
   std::map<std::tuple<std::string, std::string, std::optional<ProcessIndex>>, ActionResult> actions;
   for (const CallResult& call : results.calls) {
     const std::size_t mark = call.service.find(kMark);
-    if (mark == std::string::npos) continue;
+    if (mark == std::string::npos) {
+      continue;
+    }
     const std::string name = call.service.substr(0, mark);
     ActionResult& action = actions[{name, call.client, call.client_process}];
     action.name = name;
     action.client = call.client;
     action.client_process = call.client_process;
-    if (!call.server.empty()) action.server = call.server;
-    if (call.server_process) action.server_process = call.server_process;
+    if (!call.server.empty()) {
+      action.server = call.server;
+    }
+    if (call.server_process) {
+      action.server_process = call.server_process;
+    }
     const std::string_view kind = std::string_view(call.service).substr(mark + kMark.size());
     if (kind == "send_goal") {
       action.goals += call.requests;

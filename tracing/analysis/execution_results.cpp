@@ -16,14 +16,18 @@ std::map<ObjectId, std::uint64_t> Ros2Analysis::overwritten_in_buffers() const {
   std::map<ObjectId, std::uint64_t> counts;
   for (const auto& [object, count] : intra_process_.overwritten()) {
     const ObjectId subscription = model_.subscription_of_object(object.first, object.second);
-    if (subscription != kNoObject) counts[subscription] += count;
+    if (subscription != kNoObject) {
+      counts[subscription] += count;
+    }
   }
   return counts;
 }
 
 std::vector<std::uint64_t> Ros2Analysis::missed_periods() const {
   std::vector<std::uint64_t> missed;
-  for (const CallbackTimingRecord& record : timing_.records()) missed.push_back(record.missed);
+  for (const CallbackTimingRecord& record : timing_.records()) {
+    missed.push_back(record.missed);
+  }
   return missed;
 }
 
@@ -33,7 +37,9 @@ std::vector<std::uint64_t> Ros2Analysis::dropped_messages() const {
     dropped.push_back(record.not_executed + record.overwritten + record.lost);
   }
   for (const auto& [subscription, count] : overwritten_in_buffers()) {
-    if (subscription < dropped.size()) dropped[subscription] += count;
+    if (subscription < dropped.size()) {
+      dropped[subscription] += count;
+    }
   }
   return dropped;
 }
@@ -43,7 +49,9 @@ std::vector<SubscriptionResult> Ros2Analysis::subscription_results() const {
   std::vector<SubscriptionResult> results;
   for (ObjectId id = 0; id < deliveries_.subscriptions().size(); ++id) {
     const DeliveryRecord& record = deliveries_.subscriptions()[id];
-    if (record.received == 0) continue;
+    if (record.received == 0) {
+      continue;
+    }
     const EndpointObject& subscription = model_.subscriptions()[id];
     SubscriptionResult result;
     if (subscription.node != kNoObject) {
@@ -92,7 +100,9 @@ std::vector<ExecutorResult> Ros2Analysis::executor_results() const {
       result.waited_ns = record.waited_ns;
       busy = result.span_ns - record.waited_ns;
     }
-    if (result.span_ns > 0) result.utilisation = static_cast<double>(busy) / static_cast<double>(result.span_ns);
+    if (result.span_ns > 0) {
+      result.utilisation = static_cast<double>(busy) / static_cast<double>(result.span_ns);
+    }
     result.longest_busy_ns = record.longest_busy_ns;
     result.longest_busy_begin_ns = record.longest_busy_begin_ns;
     if (record.longest_callback != kNoObject) {
@@ -119,12 +129,16 @@ ChainResult Ros2Analysis::chain_result(const ChainRecord& last) const {
     shown.node = node_name(model_, callback);
     shown.callback = callback_source(model_, callback);
     shown.callback_id = step->callback;
-    if (step->topic != kNoObject) shown.topic = model_.topics()[step->topic].name;
+    if (step->topic != kNoObject) {
+      shown.topic = model_.topics()[step->topic].name;
+    }
     shown.until_publish = step->until_publish.summary();
     shown.transfer = step->transfer.summary();
     shown.executor = step->executor.summary();
     shown.take = step->take.summary();
-    if (shown.process < processes_.size() && processes_[shown.process].doubtful) result.doubtful = true;
+    if (shown.process < processes_.size() && processes_[shown.process].doubtful) {
+      result.doubtful = true;
+    }
     result.steps.insert(result.steps.begin(), std::move(shown));
   }
   result.last_callback = last.last_callback.summary();
@@ -140,7 +154,9 @@ ChainResult Ros2Analysis::chain_result(const ChainRecord& last) const {
 void Ros2Analysis::add_chains(Ros2Results& results) const {
   std::vector<std::pair<std::size_t, ChainResult>> named;  // by definition
   for (const ChainRecord& last : chains_.paths()) {
-    if (last.length < 2 || last.response.count() == 0) continue;
+    if (last.length < 2 || last.response.count() == 0) {
+      continue;
+    }
     for (const NamedPath& path : last.named) {
       const ChainDefinition& definition = chains_.definitions()[path.definition];
       ChainResult result = chain_result(last);
@@ -149,7 +165,9 @@ void Ros2Analysis::add_chains(Ros2Results& results) const {
       result.over_budget = path.over_budget;
       named.emplace_back(path.definition, std::move(result));
     }
-    if (last.named.empty() && !last.goes_on && is_natural(last)) results.chains.push_back(chain_result(last));
+    if (last.named.empty() && !last.goes_on && is_natural(last)) {
+      results.chains.push_back(chain_result(last));
+    }
   }
   // A chain that hardly ever was gone through says little.
   const auto is_frequent = [](const ChainResult& chain) { return chain.response.count >= 5; };
@@ -161,20 +179,26 @@ void Ros2Analysis::add_chains(Ros2Results& results) const {
     return a.first != b.first ? a.first < b.first : comes_before(a.second, b.second);
   });
   std::vector<ChainResult> first;
-  for (auto& [definition, chain] : named) first.push_back(std::move(chain));
+  for (auto& [definition, chain] : named) {
+    first.push_back(std::move(chain));
+  }
   results.chains.insert(results.chains.begin(), std::make_move_iterator(first.begin()),
                         std::make_move_iterator(first.end()));
   for (const ChainDefinition& definition : chains_.definitions()) {
     const bool is_seen = std::any_of(results.chains.begin(), results.chains.end(),
                                      [&](const ChainResult& chain) { return chain.name == definition.name; });
-    if (!is_seen) results.unseen_chains.push_back(definition.name);
+    if (!is_seen) {
+      results.unseen_chains.push_back(definition.name);
+    }
   }
 }
 
 // Whether the chain began at least once without a known cause.
 bool Ros2Analysis::is_natural(const ChainRecord& last) const {
   const ChainRecord* first = &last;
-  while (first->parent != kNoPath) first = &chains_.paths()[first->parent];
+  while (first->parent != kNoPath) {
+    first = &chains_.paths()[first->parent];
+  }
   return first->is_natural;
 }
 
@@ -208,21 +232,29 @@ std::vector<NodeResult> Ros2Analysis::node_results(const std::vector<CallbackRes
     result.name = name;
     return result;
   };
-  for (const NodeObject& object : model_.nodes()) node(place_of(object.process), object.name);
+  for (const NodeObject& object : model_.nodes()) {
+    node(place_of(object.process), object.name);
+  }
   for (const CallbackResult& callback : callbacks) {
-    if (callback.node.empty()) continue;
+    if (callback.node.empty()) {
+      continue;
+    }
     NodeResult& result = node(callback.process, callback.node);
     result.callbacks += callback.durations.count;
     result.callback_ns += std::llround(callback.durations.mean_ns * static_cast<double>(callback.durations.count));
   }
   std::vector<NodeResult> results;
-  for (auto& [key, result] : nodes) results.push_back(std::move(result));
+  for (auto& [key, result] : nodes) {
+    results.push_back(std::move(result));
+  }
   return results;
 }
 
 std::vector<UnmatchedResult> Ros2Analysis::unmatched_results() const {
   std::uint64_t unfinished = 0;
-  for (const CallbackRecord& record : callbacks_.records()) unfinished += record.unfinished;
+  for (const CallbackRecord& record : callbacks_.records()) {
+    unfinished += record.unfinished;
+  }
   std::uint64_t untaken = 0;
   std::uint64_t without_subscription = 0;
   std::uint64_t unpublished = 0;
@@ -236,14 +268,20 @@ std::vector<UnmatchedResult> Ros2Analysis::unmatched_results() const {
     untimed_taken += record.untimed_taken;
   }
   std::uint64_t not_executed = 0;
-  for (const DeliveryRecord& record : deliveries_.subscriptions()) not_executed += record.not_executed;
+  for (const DeliveryRecord& record : deliveries_.subscriptions()) {
+    not_executed += record.not_executed;
+  }
   std::uint64_t unanswered = 0;
-  for (const auto& [pair, record] : calls_.records()) unanswered += record.requests - record.responses;
+  for (const auto& [pair, record] : calls_.records()) {
+    unanswered += record.requests - record.responses;
+  }
   const BufferRecord& buffers = intra_process_.record();
 
   std::vector<UnmatchedResult> results;
   const auto add = [&results](const char* event, const char* reason, std::uint64_t count) {
-    if (count > 0) results.push_back({event, reason, count});
+    if (count > 0) {
+      results.push_back({event, reason, count});
+    }
   };
   add("callback_start", "no end: an exception, a killed process, or it ran when the trace ended", unfinished);
   add("callback_end", "no begin: it ran when the trace began, or the begin was lost", ends_without_begin_);

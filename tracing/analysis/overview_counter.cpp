@@ -8,13 +8,17 @@ namespace tracing {
 
 std::uint64_t TraceOverview::lost_events() const {
   std::uint64_t sum = 0;
-  for (const LossResult& loss : losses) sum += loss.events;
+  for (const LossResult& loss : losses) {
+    sum += loss.events;
+  }
   return sum;
 }
 
 std::uint64_t TraceOverview::lost_packets() const {
   std::uint64_t sum = 0;
-  for (const LossResult& loss : losses) sum += loss.packets;
+  for (const LossResult& loss : losses) {
+    sum += loss.packets;
+  }
   return sum;
 }
 
@@ -24,7 +28,9 @@ bool TraceOverview::lost_uncounted() const {
 
 void OverviewCounter::count(const Event& event, ProcessId process) {
   const EventClass& event_class = *event.event_class;
-  if (event_class.id >= classes_.size()) classes_.resize(event_class.id + 1);
+  if (event_class.id >= classes_.size()) {
+    classes_.resize(event_class.id + 1);
+  }
   CountedClass& counted = classes_[event_class.id];
   if (counted.name.empty()) {
     counted.name = event_class.name;
@@ -37,9 +43,13 @@ void OverviewCounter::count(const Event& event, ProcessId process) {
     return;
   }
   ++events_;
-  if (!begin_ns_) begin_ns_ = event.timestamp_ns;
+  if (!begin_ns_) {
+    begin_ns_ = event.timestamp_ns;
+  }
   end_ns_ = event.timestamp_ns;
-  if (process >= counted.by_process.size()) counted.by_process.resize(process + 1);
+  if (process >= counted.by_process.size()) {
+    counted.by_process.resize(process + 1);
+  }
   ++counted.by_process[process];
 }
 
@@ -70,12 +80,16 @@ std::vector<ProcessId> OverviewCounter::processes_that_lost(const CountedLoss& l
   std::vector<ProcessId> with_the_id;  // a process whose events were all lost has none in the trace
   for (const ProcessId process : order()) {
     const bool has_the_id = !loss.vpid || processes_.processes()[process].vpid == loss.vpid;
-    if (!has_the_id) continue;
+    if (!has_the_id) {
+      continue;
+    }
     with_the_id.push_back(process);
     const bool has_events = std::any_of(classes_.begin(), classes_.end(), [&](const CountedClass& counted) {
       return counted.trace == loss.trace && process < counted.by_process.size() && counted.by_process[process] > 0;
     });
-    if (has_events) in_trace.push_back(process);
+    if (has_events) {
+      in_trace.push_back(process);
+    }
   }
   return in_trace.empty() && loss.vpid ? with_the_id : in_trace;
 }
@@ -87,7 +101,9 @@ std::vector<ProcessId> OverviewCounter::order() const {
     const bool has_events = std::any_of(classes_.begin(), classes_.end(), [&](const CountedClass& counted) {
       return process < counted.by_process.size() && counted.by_process[process] > 0;
     });
-    if (has_events) order.push_back(process);
+    if (has_events) {
+      order.push_back(process);
+    }
   }
   std::stable_sort(order.begin(), order.end(), [this](ProcessId left, ProcessId right) {
     const ProcessObject& a = processes_.processes()[left];
@@ -100,7 +116,9 @@ std::vector<ProcessId> OverviewCounter::order() const {
 std::vector<std::optional<ProcessIndex>> OverviewCounter::places() const {
   std::vector<std::optional<ProcessIndex>> places(processes_.processes().size());
   const std::vector<ProcessId> ordered = order();
-  for (ProcessIndex place = 0; place < ordered.size(); ++place) places[ordered[place]] = place;
+  for (ProcessIndex place = 0; place < ordered.size(); ++place) {
+    places[ordered[place]] = place;
+  }
   return places;
 }
 
@@ -119,25 +137,35 @@ TraceOverview OverviewCounter::overview() const {
 
   std::map<std::string, EventCount> counts;  // several traces may have classes of one name
   for (const CountedClass& counted : classes_) {
-    if (counted.name.empty()) continue;
+    if (counted.name.empty()) {
+      continue;
+    }
     EventCount& count = counts[counted.name];
     count.name = counted.name;
     count.total += counted.by_launcher;
     count.by_process.resize(result.processes.size());
     for (ProcessId process = 0; process < counted.by_process.size(); ++process) {
-      if (counted.by_process[process] == 0) continue;
+      if (counted.by_process[process] == 0) {
+        continue;
+      }
       count.by_process[*place[process]] += counted.by_process[process];
       count.total += counted.by_process[process];
       result.processes[*place[process]].events += counted.by_process[process];
     }
   }
-  for (auto& [name, count] : counts) result.event_counts.push_back(std::move(count));
+  for (auto& [name, count] : counts) {
+    result.event_counts.push_back(std::move(count));
+  }
 
   for (const auto& [name, counted] : losses_) {
     LossResult loss = counted.result;
-    for (const ProcessId process : processes_that_lost(counted)) loss.processes.push_back(*place[process]);
+    for (const ProcessId process : processes_that_lost(counted)) {
+      loss.processes.push_back(*place[process]);
+    }
     std::sort(loss.processes.begin(), loss.processes.end());
-    for (const std::size_t process : loss.processes) result.processes[process].doubtful = true;
+    for (const std::size_t process : loss.processes) {
+      result.processes[process].doubtful = true;
+    }
     result.losses.push_back(std::move(loss));
   }
   return result;

@@ -14,7 +14,9 @@ Ros2Analysis::Ros2Analysis(ExecutionSink* sink, std::vector<ChainDefinition> cha
   sinks_.add(&chains_);
   sinks_.add(&allocations_);
   sinks_.add(&first_activity_);
-  if (sink != nullptr) sinks_.add(sink);
+  if (sink != nullptr) {
+    sinks_.add(sink);
+  }
 }
 
 void Ros2Analysis::on_event(const Origin& origin, const ros2::AnyEvent& event) {
@@ -53,7 +55,9 @@ void Ros2Analysis::on(const Origin& origin, const ros2::RmwPublish& event) {
     // ros2_tracing before 8.0 records only the message: its rcl_publish came just before, in the same thread.
     if (publishing.rcl_message == event.message) {
       publisher.id = model_.publisher(origin.process, publishing.rcl_publisher);
-      if (publisher.id != kNoObject) publisher.kind = RmwHandle::kKnown;
+      if (publisher.id != kNoObject) {
+        publisher.kind = RmwHandle::kKnown;
+      }
     }
   }
   if (publisher.kind == RmwHandle::kInternal) {
@@ -67,8 +71,12 @@ void Ros2Analysis::on(const Origin& origin, const ros2::RmwPublish& event) {
                             .publisher = publisher.id,
                             .thread = {origin.process, origin.vtid},
                             .published_ns = origin.time_ns};
-    if (event.message != 0 && publishing.rcl_message == event.message) publication.rcl_ns = publishing.rcl_ns;
-    if (event.message != 0 && publishing.rclcpp_message == event.message) publication.rclcpp_ns = publishing.rclcpp_ns;
+    if (event.message != 0 && publishing.rcl_message == event.message) {
+      publication.rcl_ns = publishing.rcl_ns;
+    }
+    if (event.message != 0 && publishing.rclcpp_message == event.message) {
+      publication.rclcpp_ns = publishing.rclcpp_ns;
+    }
     messages_.publish(publication, event.timestamp);
     sink_->on_publication(publication);
   }
@@ -78,8 +86,12 @@ void Ros2Analysis::on(const Origin& origin, const ros2::RmwPublish& event) {
 
 void Ros2Analysis::on(const Origin& origin, const ros2::RmwTake& event) {
   Thread& taking = thread(origin);
-  if (taking.taken) tell_message(origin, taking, kNoObject);
-  if (!event.taken) return;
+  if (taking.taken) {
+    tell_message(origin, taking, kNoObject);
+  }
+  if (!event.taken) {
+    return;
+  }
   const RmwLookup subscription = model_.rmw_subscription(origin.process, event.rmw_subscription_handle);
   if (subscription.kind == RmwHandle::kInternal) {
     ++internal_messages_;
@@ -115,7 +127,9 @@ void Ros2Analysis::on(const Origin& origin, const ros2::RclcppRingBufferEnqueue&
 
 void Ros2Analysis::on(const Origin& origin, const ros2::RclcppRingBufferDequeue& event) {
   Thread& taking = thread(origin);
-  if (taking.buffered) tell_buffered(origin, taking, kNoObject);
+  if (taking.buffered) {
+    tell_buffered(origin, taking, kNoObject);
+  }
   taking.buffered = intra_process_.dequeue(origin, event);
   taking.buffered_ns = origin.time_ns;
 }
@@ -125,15 +139,21 @@ void Ros2Analysis::on(const Origin& origin, const ros2::CallbackStart& event) {
   const ObjectId id = model_.callback(origin.process, event.callback);
   start(origin, running, {event.callback, id, origin.time_ns, event.is_intra_process});
   if (event.is_intra_process) {
-    if (running.buffered) tell_buffered(origin, running, id);
+    if (running.buffered) {
+      tell_buffered(origin, running, id);
+    }
     return;
   }
-  if (!running.taken) return;
+  if (!running.taken) {
+    return;
+  }
   // The next callback of the thread gets the message. If it belongs to another subscription, the callback was disabled.
   const CallbackObject& callback = model_.callbacks()[id];
   const bool gets_it = callback.owner == CallbackObject::Owner::kUnknown ||
                        model_.subscription_of(callback) == running.taken->subscription;
-  if (gets_it) messages_.deliver(*running.taken, origin.time_ns);
+  if (gets_it) {
+    messages_.deliver(*running.taken, origin.time_ns);
+  }
   tell_message(origin, running, gets_it ? id : kNoObject);
 }
 
@@ -145,7 +165,9 @@ void Ros2Analysis::start(const Origin& origin, Thread& thread, const ActiveCallb
   const ThreadId id{origin.process, origin.vtid};
   const std::optional<ActiveCallback> lost = callbacks_.start(thread.active_callbacks, callback);
   const bool nested = thread.active_callbacks.size() > 1;
-  if (lost) tell(id, *lost, origin.time_ns, nested, false);
+  if (lost) {
+    tell(id, *lost, origin.time_ns, nested, false);
+  }
   sink_->on_callback_begin({.thread = id,
                             .callback = callback.callback,
                             .begin_ns = callback.start_ns,
@@ -210,11 +232,15 @@ void Ros2Analysis::link(const Origin& origin, const std::vector<ros2::Handle>& s
   MessageLink link;
   for (const ros2::Handle handle : subscriptions) {
     const ObjectId subscription = model_.subscription(origin.process, handle);
-    if (subscription != kNoObject) link.subscriptions.push_back(subscription);
+    if (subscription != kNoObject) {
+      link.subscriptions.push_back(subscription);
+    }
   }
   for (const ros2::Handle handle : publishers) {
     const ObjectId publisher = model_.publisher(origin.process, handle);
-    if (publisher != kNoObject) link.publishers.push_back(publisher);
+    if (publisher != kNoObject) {
+      link.publishers.push_back(publisher);
+    }
   }
   sink_->on_message_link(link);
 }
@@ -233,7 +259,9 @@ void Ros2Analysis::on(const Origin& origin, const ros2::RclLifecycleTransition& 
 
 void Ros2Analysis::on_end(const Origin& origin, const ros2::ObjectEnd& end) {
   last_ns_ = origin.time_ns;
-  if (end.kind == ros2::ObjectEnd::Kind::kRclLifecycleStateMachine) lifecycle_.end(origin, end.handle, sink_);
+  if (end.kind == ros2::ObjectEnd::Kind::kRclLifecycleStateMachine) {
+    lifecycle_.end(origin, end.handle, sink_);
+  }
   model_.on(origin, end);
 }
 
@@ -245,7 +273,9 @@ void Ros2Analysis::on_lifecycle_state(const Origin& origin, ros2::Handle state_m
 // responses come.
 ros2::Gid Ros2Analysis::gid_of(ObjectId client) const {
   ros2::Gid gid = model_.clients()[client].gid;
-  if (gid.size == 0) std::memcpy(gid.bytes.data(), &client, sizeof client);
+  if (gid.size == 0) {
+    std::memcpy(gid.bytes.data(), &client, sizeof client);
+  }
   return gid;
 }
 
@@ -259,7 +289,9 @@ void Ros2Analysis::on(const Origin& origin, const ros2::RmwSendRequest& event) {
 }
 
 void Ros2Analysis::on(const Origin& origin, const ros2::RmwTakeRequest& event) {
-  if (!event.taken) return;
+  if (!event.taken) {
+    return;
+  }
   calls_.take_request(model_.rmw_service(origin.process, event.rmw_service_handle), event.client_gid,
                       event.sequence_number, origin.time_ns);
 }
@@ -272,7 +304,9 @@ void Ros2Analysis::on(const Origin& origin, const ros2::RmwSendResponse& event) 
 
 void Ros2Analysis::on(const Origin& origin, const ros2::RmwTakeResponse& event) {
   const ObjectId client = model_.rmw_client(origin.process, event.rmw_client_handle);
-  if (!event.taken || client == kNoObject) return;
+  if (!event.taken || client == kNoObject) {
+    return;
+  }
   calls_.take_response(gid_of(client), event.sequence_number, origin.time_ns);
 }
 
@@ -285,14 +319,20 @@ void Ros2Analysis::on(const Origin& origin, const ros2::RclcppExecutorGetNextRea
     return;
   }
   spinning.woken_ns = origin.time_ns;
-  if (spinning.free_ns != 0) sink_->on_executor_wait({thread, spinning.free_ns, origin.time_ns});
+  if (spinning.free_ns != 0) {
+    sink_->on_executor_wait({thread, spinning.free_ns, origin.time_ns});
+  }
 }
 
 void Ros2Analysis::on(const Origin& origin, const ros2::RclcppExecutorWaitForWork&) {
   Thread& spinning = thread(origin);
   spinning.execution.reset();
-  if (spinning.taken) tell_message(origin, spinning, kNoObject);
-  if (spinning.buffered) tell_buffered(origin, spinning, kNoObject);
+  if (spinning.taken) {
+    tell_message(origin, spinning, kNoObject);
+  }
+  if (spinning.buffered) {
+    tell_buffered(origin, spinning, kNoObject);
+  }
   spinning.free_ns = origin.time_ns;
   spinning.woken_ns = 0;
 }
@@ -315,9 +355,15 @@ void Ros2Analysis::on_execution(const Origin& origin, const ros2::ExecutionEvent
     return;
   }
   Served served{origin.process, event.kind, kNoObject, 0};
-  if (event.kind == Kind::kService) served.id = model_.service(origin.process, event.handle);
-  if (event.kind == Kind::kClient) served.id = model_.client(origin.process, event.handle);
-  if (served.id == kNoObject) served.address = event.handle;
+  if (event.kind == Kind::kService) {
+    served.id = model_.service(origin.process, event.handle);
+  }
+  if (event.kind == Kind::kClient) {
+    served.id = model_.client(origin.process, event.handle);
+  }
+  if (served.id == kNoObject) {
+    served.address = event.handle;
+  }
   executions_.start(running.execution, served, origin.time_ns);
 }
 

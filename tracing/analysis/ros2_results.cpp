@@ -15,7 +15,9 @@ namespace {
 
 // In a second, from the first to the last one.
 double rate(std::uint64_t count, std::int64_t first_ns, std::int64_t last_ns) {
-  if (count < 2 || last_ns <= first_ns) return 0;
+  if (count < 2 || last_ns <= first_ns) {
+    return 0;
+  }
   return static_cast<double>(count - 1) * 1e9 / static_cast<double>(last_ns - first_ns);
 }
 
@@ -26,7 +28,9 @@ ProcessIndex Ros2Analysis::place_of(ProcessId process) const {
 }
 
 bool Ros2Analysis::is_doubtful(ObjectId node) const {
-  if (node == kNoObject) return false;
+  if (node == kNoObject) {
+    return false;
+  }
   const ProcessIndex process = place_of(model_.nodes()[node].process);
   return process < processes_.size() && processes_[process].doubtful;
 }
@@ -56,16 +60,22 @@ CallbackResult Ros2Analysis::callback_result(ObjectId id) const {
     result.owner_name = model_.services()[callback.owner_id].name;
   } else if (callback.owner == CallbackObject::Owner::kClient) {
     result.owner = CallbackResult::Owner::kClient;
-    if (callback.owner_id != kNoObject) result.owner_name = model_.clients()[callback.owner_id].name;
+    if (callback.owner_id != kNoObject) {
+      result.owner_name = model_.clients()[callback.owner_id].name;
+    }
   }
-  if (id >= timing_.records().size()) return result;
+  if (id >= timing_.records().size()) {
+    return result;
+  }
   const CallbackTimingRecord& timing = timing_.records()[id];
   result.rate_hz = rate(timing.begins, timing.first_begin_ns, timing.last_begin_ns);
   result.interval = timing.intervals.summary();
   result.jitter = timing.jitter.summary();
   result.missed = timing.missed;
   result.overruns = timing.overruns;
-  if (timing_.has_allocations()) result.allocations = timing.allocations;
+  if (timing_.has_allocations()) {
+    result.allocations = timing.allocations;
+  }
   result.allocated_bytes = timing.allocated_bytes;
   result.running = timing.running.summary();
   result.runnable = timing.runnable.summary();
@@ -86,7 +96,9 @@ TopicResult Ros2Analysis::topic_result(ObjectId id) const {
   DurationStatistics intervals;
   for (ObjectId publisher = 0; publisher < deliveries_.publishers().size(); ++publisher) {
     const PublisherRecord& record = deliveries_.publishers()[publisher];
-    if (model_.publishers()[publisher].topic != id || record.first_ns == 0) continue;
+    if (model_.publishers()[publisher].topic != id || record.first_ns == 0) {
+      continue;
+    }
     count += std::max(record.published, record.intra_process);
     first_ns = first_ns == 0 ? record.first_ns : std::min(first_ns, record.first_ns);
     last_ns = std::max(last_ns, record.last_ns);
@@ -96,7 +108,9 @@ TopicResult Ros2Analysis::topic_result(ObjectId id) const {
   result.rate_hz = rate(count, first_ns, last_ns);
   result.interval = intervals.summary();
   for (ObjectId subscription = 0; subscription < deliveries_.subscriptions().size(); ++subscription) {
-    if (model_.subscriptions()[subscription].topic != id) continue;
+    if (model_.subscriptions()[subscription].topic != id) {
+      continue;
+    }
     result.intra_process_received += deliveries_.subscriptions()[subscription].intra_process;
   }
   const auto of_topic = [id, this](const EndpointObject& endpoint) {
@@ -104,7 +118,9 @@ TopicResult Ros2Analysis::topic_result(ObjectId id) const {
   };
   result.doubtful = std::any_of(model_.publishers().begin(), model_.publishers().end(), of_topic) ||
                     std::any_of(model_.subscriptions().begin(), model_.subscriptions().end(), of_topic);
-  if (id >= messages_.records().size()) return result;
+  if (id >= messages_.records().size()) {
+    return result;
+  }
   const TopicRecord& record = messages_.records()[id];
   result.published = record.published;
   result.received = record.received;
@@ -121,7 +137,9 @@ CallResult Ros2Analysis::call_result(const ServiceMatcher::Pair& pair, const Cal
   CallResult result;
   const auto& [client, service] = pair;
   const auto fill = [this](ObjectId node, std::optional<ProcessIndex>& process, std::string& name) {
-    if (node == kNoObject) return;
+    if (node == kNoObject) {
+      return;
+    }
     process = place_of(model_.nodes()[node].process);
     name = model_.nodes()[node].name;
   };
@@ -164,7 +182,9 @@ ExecutionResult Ros2Analysis::execution_result(const Served& served, const Execu
   } else {
     result.kind = ExecutionResult::Kind::kWaitable;
   }
-  if (node != kNoObject) result.node = model_.nodes()[node].name;
+  if (node != kNoObject) {
+    result.node = model_.nodes()[node].name;
+  }
   return result;
 }
 
@@ -174,10 +194,16 @@ Ros2Results Ros2Analysis::finish(const std::vector<std::optional<ProcessIndex>>&
   processes_ = processes;
   for (auto& [id, state] : threads_) {
     callbacks_.abandon(state.active_callbacks);
-    for (const ActiveCallback& active : state.active_callbacks) tell(id, active, last_ns_, false, false);
+    for (const ActiveCallback& active : state.active_callbacks) {
+      tell(id, active, last_ns_, false, false);
+    }
     const Origin origin{last_ns_, id.process, id.vtid};
-    if (state.taken) tell_message(origin, state, kNoObject);
-    if (state.buffered) tell_buffered(origin, state, kNoObject);
+    if (state.taken) {
+      tell_message(origin, state, kNoObject);
+    }
+    if (state.buffered) {
+      tell_buffered(origin, state, kNoObject);
+    }
   }
   lifecycle_.finish(last_ns_, sink_);
   threads_.clear();
@@ -189,17 +215,23 @@ Ros2Results Ros2Analysis::finish(const std::vector<std::optional<ProcessIndex>>&
   Ros2Results results;
   for (ObjectId id = 0; id < callbacks_.records().size(); ++id) {
     CallbackResult result = callback_result(id);
-    if (result.durations.count > 0 || result.unfinished > 0) results.callbacks.push_back(std::move(result));
+    if (result.durations.count > 0 || result.unfinished > 0) {
+      results.callbacks.push_back(std::move(result));
+    }
   }
   std::stable_sort(results.callbacks.begin(), results.callbacks.end(),
                    [](const CallbackResult& left, const CallbackResult& right) {
                      return std::tie(left.process, left.node, left.owner, left.owner_name, left.period_ns) <
                             std::tie(right.process, right.node, right.owner, right.owner_name, right.period_ns);
                    });
-  for (ObjectId id = 0; id < model_.topics().size(); ++id) results.topics.push_back(topic_result(id));
+  for (ObjectId id = 0; id < model_.topics().size(); ++id) {
+    results.topics.push_back(topic_result(id));
+  }
   std::sort(results.topics.begin(), results.topics.end(),
             [](const TopicResult& left, const TopicResult& right) { return left.name < right.name; });
-  for (const auto& [pair, record] : calls_.records()) results.calls.push_back(call_result(pair, record));
+  for (const auto& [pair, record] : calls_.records()) {
+    results.calls.push_back(call_result(pair, record));
+  }
   std::sort(results.calls.begin(), results.calls.end(), [](const CallResult& left, const CallResult& right) {
     return std::tie(left.service, left.client, left.client_process, left.server, left.server_process) <
            std::tie(right.service, right.client, right.client_process, right.server, right.server_process);

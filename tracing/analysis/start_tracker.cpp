@@ -28,7 +28,9 @@ bool is_of_state_dump(const Event& event) {
 
 StartTracker::Kind StartTracker::kind_of(const Event& event) {
   const std::size_t id = event.event_class->id;
-  if (id >= kinds_.size()) kinds_.resize(id + 1);
+  if (id >= kinds_.size()) {
+    kinds_.resize(id + 1);
+  }
   if (!kinds_[id]) {
     const std::string_view name = event.name();
     if (name == "launch:exec") {
@@ -56,23 +58,33 @@ StartTracker::Kind StartTracker::kind_of(const Event& event) {
 
 void StartTracker::on_event(const Event& event, ProcessId id) {
   const Kind kind = kind_of(event);
-  if (kind == Kind::kOther) return;
+  if (kind == Kind::kOther) {
+    return;
+  }
   if (kind <= Kind::kLaunch) {
     on_launcher_event(event, id, kind);
     return;
   }
-  if (!event.vpid) return;
+  if (!event.vpid) {
+    return;
+  }
   Process& process = processes_[id];
-  if (process.late) return;
+  if (process.late) {
+    return;
+  }
   if (kind == Kind::kInit) {
-    if (process.init_ns) return;
+    if (process.init_ns) {
+      return;
+    }
     if (is_of_state_dump(event)) {
       process.late = true;
     } else {
       process.init_ns = event.timestamp_ns;
     }
   } else if (kind == Kind::kNode) {
-    if (process.node_ns) return;
+    if (process.node_ns) {
+      return;
+    }
     if (is_of_state_dump(event)) {
       process.late = true;
     } else {
@@ -85,7 +97,9 @@ void StartTracker::on_event(const Event& event, ProcessId id) {
 
 void StartTracker::on_launcher_event(const Event& event, ProcessId launcher, Kind kind) {
   const std::int64_t time = number_of(event, "time");
-  if (time == 0) return;
+  if (time == 0) {
+    return;
+  }
   const std::int64_t zero = event.timestamp_ns - time;
   monotonic_zero_ns_ = std::min(monotonic_zero_ns_.value_or(zero), zero);
   switch (kind) {
@@ -125,14 +139,24 @@ StartResult StartTracker::result_of(const Start& start, const ProcessTable& proc
                                     const FirstActivity& first) const {
   StartResult result = start.result;
   result.exec_ns += monotonic_zero_ns_.value_or(0);
-  if (result.spawn_ns) *result.spawn_ns += monotonic_zero_ns_.value_or(0);
+  if (result.spawn_ns) {
+    *result.spawn_ns += monotonic_zero_ns_.value_or(0);
+  }
   const std::optional<ProcessId> process = processes.beside(start.launcher, result.vpid);
-  if (!process) return result;
-  if (*process < places.size()) result.place = places[*process];
+  if (!process) {
+    return result;
+  }
+  if (*process < places.size()) {
+    result.place = places[*process];
+  }
   const auto found = processes_.find(*process);
-  if (found == processes_.end() || found->second.late) return result;
+  if (found == processes_.end() || found->second.late) {
+    return result;
+  }
   const auto after = [&](const std::optional<std::int64_t>& time) -> std::optional<std::int64_t> {
-    if (!time) return std::nullopt;
+    if (!time) {
+      return std::nullopt;
+    }
     return std::max<std::int64_t>(*time - result.exec_ns, 0);
   };
   result.init_after_ns = after(found->second.init_ns);
@@ -158,7 +182,9 @@ void StartTracker::finish(const ProcessTable& processes, const std::vector<std::
     step.end_ns += zero;
   }
   std::vector<StartCondition> conditions = conditions_;
-  for (StartCondition& condition : conditions) condition.held_ns += zero;
+  for (StartCondition& condition : conditions) {
+    condition.held_ns += zero;
+  }
   results.startup = critical_start(started, conditions, steps);
 }
 

@@ -9,7 +9,9 @@ void TraceAnalysis::on_event(const Event& event) {
   starts_.on_event(event, process);
   const Origin origin{event.timestamp_ns, process, event.vtid.value_or(0)};
   if (const ros2::AnyEvent* decoded = decoder_.decode(event)) {
-    if (!event.vpid || !event.vtid) lacks_thread_context_ = true;
+    if (!event.vpid || !event.vtid) {
+      lacks_thread_context_ = true;
+    }
     ros2_.on_event(origin, *decoded);
   } else if (const std::optional<ros2::ObjectEnd> end = ends_.decode(event)) {
     ros2_.on_end(origin, *end);

@@ -33,7 +33,9 @@ class TrialSession {
  public:
   TrialSession() : name_(fmt::format("launch-check-{}", getpid())) {
     std::string pattern = (fs::temp_directory_path() / "launch-check-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw TraceError(fmt::format("cannot create {}", pattern));
+    if (mkdtemp(pattern.data()) == nullptr) {
+      throw TraceError(fmt::format("cannot create {}", pattern));
+    }
     directory_ = pattern;
     check_lttng(lttng_create_session(name_.c_str(), directory_.c_str()), "create a session to try context fields");
   }
@@ -83,8 +85,12 @@ std::vector<std::string> context_warnings(const std::vector<ChannelPlan>& channe
   for (const ChannelPlan& channel : channels) {
     std::vector<std::string> counters;
     std::copy_if(channel.context_fields.begin(), channel.context_fields.end(), std::back_inserter(counters), is_perf);
-    if (channel.domain != LTTNG_DOMAIN_UST || counters.empty()) continue;
-    if (probe && records_an_event(counters, *probe)) continue;
+    if (channel.domain != LTTNG_DOMAIN_UST || counters.empty()) {
+      continue;
+    }
+    if (probe && records_an_event(counters, *probe)) {
+      continue;
+    }
     const std::vector<std::string> reasons = perf_warnings(counters);
     warnings.insert(warnings.end(), reasons.begin(), reasons.end());
     if (probe && reasons.empty()) {

@@ -21,7 +21,9 @@ namespace {
 
 std::vector<std::string> names_of(const LttngList<lttng_event>& events) {
   std::vector<std::string> names;
-  for (const lttng_event& event : events) names.emplace_back(event.name);
+  for (const lttng_event& event : events) {
+    names.emplace_back(event.name);
+  }
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -49,7 +51,9 @@ void check_kernel_tracer() {
   lttng_event* tracepoints = nullptr;
   const int count = lttng_list_tracepoints(handle.get(), &tracepoints);
   std::free(tracepoints);
-  if (count >= 0) return;
+  if (count >= 0) {
+    return;
+  }
   if (count == -LTTNG_ERR_NEED_ROOT_SESSIOND) {
     throw TraceError(
         "kernel events cannot be recorded: root's session daemon alone records them, and this user has none",
@@ -81,22 +85,32 @@ std::string drop_unknown_kernel_names(std::vector<ChannelPlan>& channels, const 
   std::vector<UnknownName> dropped;
   bool some_left = false;
   for (ChannelPlan& channel : channels) {
-    if (channel.domain != LTTNG_DOMAIN_KERNEL) continue;
+    if (channel.domain != LTTNG_DOMAIN_KERNEL) {
+      continue;
+    }
     std::erase_if(channel.events, [&](const EventRule& rule) {
       // LTTng's own events, such as lttng_statedump_process_state, are not listed.
-      if (rule.pattern.starts_with("lttng_") || is_known(rule.pattern, events)) return false;
+      if (rule.pattern.starts_with("lttng_") || is_known(rule.pattern, events)) {
+        return false;
+      }
       dropped.push_back(unknown("event", rule.pattern, events, "`launch trace events` lists them"));
       return true;
     });
     std::erase_if(channel.syscalls, [&](const std::string& name) {
-      if (is_known(name, syscalls)) return false;
+      if (is_known(name, syscalls)) {
+        return false;
+      }
       dropped.push_back(unknown("system call", name, syscalls, "name it without 'sys_', as in openat"));
       return true;
     });
     some_left = some_left || !channel.events.empty() || !channel.syscalls.empty();
   }
-  if (dropped.empty()) return "";
-  if (!some_left) throw TraceError("the kernel has no " + dropped.front().what, dropped.front().remedy);
+  if (dropped.empty()) {
+    return "";
+  }
+  if (!some_left) {
+    throw TraceError("the kernel has no " + dropped.front().what, dropped.front().remedy);
+  }
   std::erase_if(channels, [](const ChannelPlan& channel) {
     return channel.domain == LTTNG_DOMAIN_KERNEL && channel.events.empty() && channel.syscalls.empty();
   });
@@ -111,7 +125,9 @@ std::string drop_unknown_kernel_names(std::vector<ChannelPlan>& channels, const 
 void check_kernel_context_fields(const std::vector<ChannelPlan>& channels, const std::string& modules_version) {
   // Nothing calls their function wrapper_task_prio_init: the first event calls the null pointer that this function
   // should have set, and the kernel panics.
-  if (!modules_version.starts_with("2.13.")) return;
+  if (!modules_version.starts_with("2.13.")) {
+    return;
+  }
   for (const ChannelPlan& channel : channels) {
     const std::vector<std::string>& fields = channel.context_fields;
     if (channel.domain != LTTNG_DOMAIN_KERNEL || std::find(fields.begin(), fields.end(), "prio") == fields.end()) {

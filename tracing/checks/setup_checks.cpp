@@ -30,7 +30,9 @@ void check_relay_daemon(const TraceConfig& config) {
 }  // namespace
 
 void check_config(const TraceConfig& config) {
-  if (config.session_name.empty()) throw TraceError("the trace session's name is empty", "give it a session-name");
+  if (config.session_name.empty()) {
+    throw TraceError("the trace session's name is empty", "give it a session-name");
+  }
   const std::string session = config.lttng_session_name();
   if (session.find('/') != std::string::npos) {
     throw TraceError(fmt::format("trace session name '{}' contains a '/'", session),
@@ -59,7 +61,9 @@ void check_config(const TraceConfig& config) {
 void check_writable(const std::string& base_path) {
   std::filesystem::path existing = base_path;
   std::error_code error;
-  while (!std::filesystem::exists(existing, error) && existing.has_relative_path()) existing = existing.parent_path();
+  while (!std::filesystem::exists(existing, error) && existing.has_relative_path()) {
+    existing = existing.parent_path();
+  }
 
   std::string reason;
   if (!std::filesystem::is_directory(existing, error)) {
@@ -78,8 +82,12 @@ std::uint64_t free_shared_memory() {
   struct statvfs usage {};
   const int result = statvfs(kFolder, &usage);
   int error = result != 0 ? errno : 0;
-  if (error == 0 && (usage.f_flag & ST_RDONLY) != 0) error = EROFS;
-  if (error == 0 && faccessat(AT_FDCWD, kFolder, W_OK | X_OK, AT_EACCESS) != 0) error = errno;
+  if (error == 0 && (usage.f_flag & ST_RDONLY) != 0) {
+    error = EROFS;
+  }
+  if (error == 0 && faccessat(AT_FDCWD, kFolder, W_OK | X_OK, AT_EACCESS) != 0) {
+    error = errno;
+  }
   if (error != 0) {
     throw TraceError(
         fmt::format("userspace events need shared memory, but {} cannot be written: {}", kFolder, std::strerror(error)),

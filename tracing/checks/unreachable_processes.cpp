@@ -28,14 +28,18 @@ std::set<int> registered_processes() {
   const DomainHandle handle = domain_handle("", LTTNG_DOMAIN_UST);
   const LttngList<lttng_event> events("list the userspace events", lttng_list_tracepoints, handle.get());
   std::set<int> pids;
-  for (const lttng_event& event : events) pids.insert(event.pid);
+  for (const lttng_event& event : events) {
+    pids.insert(event.pid);
+  }
   return pids;
 }
 
 // Which directory that is; nothing when it can't be seen.
 std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& path) {
   struct stat status {};
-  if (stat(path.c_str(), &status) != 0) return std::nullopt;
+  if (stat(path.c_str(), &status) != 0) {
+    return std::nullopt;
+  }
   return std::pair{status.st_dev, status.st_ino};
 }
 
@@ -44,10 +48,14 @@ std::optional<std::uint64_t> start_time(const fs::path& process) {
   std::string line;
   std::getline(std::ifstream(process / "stat"), line);
   const std::size_t name_end = line.rfind(')');
-  if (name_end == std::string::npos) return std::nullopt;
+  if (name_end == std::string::npos) {
+    return std::nullopt;
+  }
   std::istringstream fields(line.substr(name_end + 1));
   std::string passed;
-  for (int field = 3; field < 22; ++field) fields >> passed;
+  for (int field = 3; field < 22; ++field) {
+    fields >> passed;
+  }
   std::uint64_t ticks = 0;
   return fields >> ticks ? std::optional(ticks) : std::nullopt;
 }
@@ -55,7 +63,9 @@ std::optional<std::uint64_t> start_time(const fs::path& process) {
 bool has_lttng_ust(const fs::path& process) {
   std::ifstream maps(process / "maps");
   for (std::string line; std::getline(maps, line);) {
-    if (line.find("/liblttng-ust.so") != std::string::npos) return true;
+    if (line.find("/liblttng-ust.so") != std::string::npos) {
+      return true;
+    }
   }
   return false;
 }
@@ -79,16 +89,28 @@ std::vector<std::string> unreachable_process_warnings() {
   std::error_code none;
   for (const fs::directory_entry& process : fs::directory_iterator("/proc", none)) {
     const int pid = number_of(process.path());
-    if (pid <= 0) continue;
+    if (pid <= 0) {
+      continue;
+    }
     const fs::path root = process.path() / "root";
     const auto theirs = identity_of(root / "dev" / "shm");
-    if (!theirs || theirs == memory || identity_of(root / daemon.relative_path()) != directory) continue;
+    if (!theirs || theirs == memory || identity_of(root / daemon.relative_path()) != directory) {
+      continue;
+    }
     // What starts later finds the daemon by itself.
     const auto started = start_time(process.path());
-    if (!started || !daemon_started || *started > *daemon_started) continue;
-    if (!has_lttng_ust(process.path())) continue;
-    if (!registered) registered = registered_processes();
-    if (registered->contains(pid)) continue;
+    if (!started || !daemon_started || *started > *daemon_started) {
+      continue;
+    }
+    if (!has_lttng_ust(process.path())) {
+      continue;
+    }
+    if (!registered) {
+      registered = registered_processes();
+    }
+    if (registered->contains(pid)) {
+      continue;
+    }
     std::string name;
     std::getline(std::ifstream(process.path() / "comm"), name);
     warnings.push_back(

@@ -19,7 +19,9 @@ EnterOrSignal::EnterOrSignal() {
   sigaddset(&ending, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &ending, &previous_mask_);
   signals_ = signalfd(-1, &ending, SFD_CLOEXEC | SFD_NONBLOCK);
-  if (signals_ < 0) throw std::system_error(errno, std::generic_category(), "signalfd");
+  if (signals_ < 0) {
+    throw std::system_error(errno, std::generic_category(), "signalfd");
+  }
 }
 
 EnterOrSignal::~EnterOrSignal() {
@@ -32,13 +34,23 @@ EnterOrSignal::~EnterOrSignal() {
 EnterOrSignal::Answer EnterOrSignal::wait() {
   std::array<pollfd, 2> fds = {pollfd{signals_, POLLIN, 0}, pollfd{STDIN_FILENO, POLLIN, 0}};
   while (true) {
-    if (poll(fds.data(), fds.size(), -1) < 0) continue;  // EINTR
-    if (take_signal()) return Answer::kSignal;
-    if (fds[1].revents == 0) continue;
+    if (poll(fds.data(), fds.size(), -1) < 0) {
+      continue;  // EINTR
+    }
+    if (take_signal()) {
+      return Answer::kSignal;
+    }
+    if (fds[1].revents == 0) {
+      continue;
+    }
     char character = 0;  // one by one: the next line is for the next prompt
     const ssize_t length = read(STDIN_FILENO, &character, 1);
-    if (length == 0 || (length < 0 && errno != EINTR && errno != EAGAIN)) return Answer::kInputEnded;
-    if (length == 1 && character == '\n') return Answer::kEnter;
+    if (length == 0 || (length < 0 && errno != EINTR && errno != EAGAIN)) {
+      return Answer::kInputEnded;
+    }
+    if (length == 1 && character == '\n') {
+      return Answer::kEnter;
+    }
   }
 }
 

@@ -31,7 +31,9 @@ bool guard_has_ended(const launch::UniqueFd& pipe) {
 void leave_terminal() {
   setsid();
   const launch::UniqueFd nothing(open("/dev/null", O_RDWR | O_CLOEXEC));
-  for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nothing.get(), standard);
+  for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    dup2(nothing.get(), standard);
+  }
 }
 
 }  // namespace
@@ -39,7 +41,9 @@ void leave_terminal() {
 SessionGuard::SessionGuard(const std::function<void()>& clean_up) {
   launch::Pipe pipe = launch::make_pipe();
   waiting_ = fork();
-  if (waiting_ < 0) throw std::system_error(errno, std::generic_category(), "fork");
+  if (waiting_ < 0) {
+    throw std::system_error(errno, std::generic_category(), "fork");
+  }
   if (waiting_ == 0) {
     pipe.write.reset();
     leave_terminal();

@@ -12,7 +12,9 @@ namespace {
 
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  for (const std::string& word : words) {
+    text += (text.empty() ? "" : ", ") + word;
+  }
   return text;
 }
 
@@ -23,7 +25,9 @@ std::string counted(std::size_t count, const std::string& what) {
 }  // namespace
 
 std::string sessions_as_text(const std::vector<SessionSummary>& sessions) {
-  if (sessions.empty()) return "no trace sessions\n";
+  if (sessions.empty()) {
+    return "no trace sessions\n";
+  }
   std::string text;
   for (const SessionSummary& session : sessions) {
     text += fmt::format("{} ({}{}){}{}\n", session.name, session.active ? "recording" : "paused",
@@ -64,7 +68,9 @@ std::string events_as_text(const TraceableEvents& events) {
   } else {
     text += fmt::format("kernel: {}, {}\n", counted(events.kernel.size(), "event"),
                         counted(events.syscalls, "system call"));
-    for (const std::string& name : events.kernel) text += fmt::format("  {}\n", name);
+    for (const std::string& name : events.kernel) {
+      text += fmt::format("  {}\n", name);
+    }
   }
   text += fmt::format("context fields of userspace events: {}, perf:thread:COUNTER, $app.PROVIDER:TYPE\n",
                       joined(events.context_fields_ust));

@@ -44,8 +44,12 @@ void print_error(const TraceOptions& options, const TraceError& error) {
 
 void print_names(const std::string& heading, const std::vector<std::string>& names, bool list) {
   print_line(heading);
-  if (!list) return;
-  for (const std::string& name : names) print_line("\t" + name);
+  if (!list) {
+    return;
+  }
+  for (const std::string& name : names) {
+    print_line("\t" + name);
+  }
 }
 
 void print_events(const std::string& what, const std::string& unit, const std::vector<std::string>& names, bool list) {
@@ -77,17 +81,29 @@ void print_session(const TraceOptions& options) {
 
 // A dual session's runtime half starts where the snapshot of its initialisation events was taken.
 void start(const TraceOptions& options, Tracer& tracer) {
-  if (options.dual_session) tracer.record_snapshot(snapshot_half(options.config).lttng_session_name());
+  if (options.dual_session) {
+    tracer.record_snapshot(snapshot_half(options.config).lttng_session_name());
+  }
   SetupReport report = tracer.start(options.config);
-  for (std::string& warning : tracer.unreachable_processes()) report.warnings.push_back(std::move(warning));
-  for (const std::string& warning : report.warnings) fmt::print(stderr, "{}: warning: {}\n", options.command, warning);
-  if (!report.notes.empty()) fmt::print(stderr, "{}: note: {}\n", options.command, report.notes);
+  for (std::string& warning : tracer.unreachable_processes()) {
+    report.warnings.push_back(std::move(warning));
+  }
+  for (const std::string& warning : report.warnings) {
+    fmt::print(stderr, "{}: warning: {}\n", options.command, warning);
+  }
+  if (!report.notes.empty()) {
+    fmt::print(stderr, "{}: note: {}\n", options.command, report.notes);
+  }
 }
 
 void print_account(const TraceOptions& options, const LossAccount& losses) {
-  if (!losses.directory.empty()) print_line("trace written to: " + losses.directory);
+  if (!losses.directory.empty()) {
+    print_line("trace written to: " + losses.directory);
+  }
   print_line(fmt::format("trace is {}: {}", losses.complete() ? "complete" : "incomplete", describe_losses(losses)));
-  if (const std::string cost = describe_cost(losses); !cost.empty()) print_line(cost);
+  if (const std::string cost = describe_cost(losses); !cost.empty()) {
+    print_line(cost);
+  }
   if (!losses.unwritten_verdict.empty()) {
     fmt::print(stderr, "{}: warning: {}\n", options.command, losses.unwritten_verdict);
   }
@@ -95,7 +111,9 @@ void print_account(const TraceOptions& options, const LossAccount& losses) {
 
 void record_snapshot(const std::string& session_name, Tracer& tracer) {
   const std::string directory = tracer.record_snapshot(session_name);
-  if (!directory.empty()) print_line("snapshot written to: " + directory);
+  if (!directory.empty()) {
+    print_line("snapshot written to: " + directory);
+  }
 }
 
 void finish(const TraceOptions& options, Tracer& tracer, const std::function<bool()>& give_up) {
@@ -124,7 +142,9 @@ bool is_older(const std::string& session_name, std::int64_t seconds, Tracer& tra
 // Ends the session of this command, from another process.
 std::function<void()> ending(const TraceConfig& config, Tracer& tracer) {
   return [&config, &tracer, begin = std::time(nullptr)] {
-    if (!is_older(config.lttng_session_name(), begin, tracer)) tracer.finish(config, [] { return false; });
+    if (!is_older(config.lttng_session_name(), begin, tracer)) {
+      tracer.finish(config, [] { return false; });
+    }
   };
 }
 
@@ -133,7 +153,9 @@ void start_or_leave_nothing(const TraceOptions& options, Tracer& tracer) {
   const SessionGuard guard(ending(options.config, tracer));
   EnterOrSignal signals;
   start(options, tracer);
-  if (!signals.take_signal()) return;
+  if (!signals.take_signal()) {
+    return;
+  }
   tracer.finish(options.config, [] { return true; });
   throw TraceError(fmt::format("interrupted: session '{}' was ended again", options.config.lttng_session_name()));
 }
@@ -143,7 +165,9 @@ EnterOrSignal::Answer ask(const std::string& prompt, EnterOrSignal& input) {
   std::fflush(stdout);
   const EnterOrSignal::Answer answer = input.wait();
   // A user who types Enter at a terminal has made the line break already.
-  if (answer != EnterOrSignal::Answer::kEnter || isatty(STDIN_FILENO) == 0) print_line("");
+  if (answer != EnterOrSignal::Answer::kEnter || isatty(STDIN_FILENO) == 0) {
+    print_line("");
+  }
   return answer;
 }
 
@@ -171,8 +195,12 @@ void print_status(const std::string& session_name, Tracer& tracer) {
     return;
   }
   const std::vector<SessionSummary> sessions = tracer.sessions();
-  if (sessions.empty()) fmt::print("{}", sessions_as_text(sessions));
-  for (const SessionSummary& session : sessions) fmt::print("{}", session_as_text(tracer.status(session.name)));
+  if (sessions.empty()) {
+    fmt::print("{}", sessions_as_text(sessions));
+  }
+  for (const SessionSummary& session : sessions) {
+    fmt::print("{}", session_as_text(tracer.status(session.name)));
+  }
 }
 
 void print_calibration(const std::vector<std::string>& context_fields) {
@@ -193,15 +221,21 @@ void run_verb(const TraceOptions& options, Tracer& tracer) {
       return start_or_leave_nothing(options, tracer);
     case TraceVerb::kPause:
       print_line("pausing tracing session");
-      if (const std::optional<LossAccount> losses = tracer.pause(session_name)) print_account(options, *losses);
+      if (const std::optional<LossAccount> losses = tracer.pause(session_name)) {
+        print_account(options, *losses);
+      }
       return;
     case TraceVerb::kResume:
       print_line("resuming tracing session");
-      if (options.dual_session) tracer.record_snapshot(snapshot_half(options.config).lttng_session_name());
+      if (options.dual_session) {
+        tracer.record_snapshot(snapshot_half(options.config).lttng_session_name());
+      }
       return tracer.resume(session_name);
     case TraceVerb::kStop: {
       std::optional<CounterDirectory> counters;
-      if (!options.config.event_counters.empty()) counters.emplace(options.config.event_counters);
+      if (!options.config.event_counters.empty()) {
+        counters.emplace(options.config.event_counters);
+      }
       if (options.created_since && is_older(session_name, *options.created_since, tracer)) {
         print_line(fmt::format("trace session '{}' is left as it is: it is older", session_name));
         return;

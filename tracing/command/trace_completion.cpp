@@ -52,7 +52,9 @@ Words options(const Words& verb) {
   for (const std::string& entry : entries(help_of(arguments), "Options:")) {
     std::istringstream parts(entry);
     for (std::string name; std::getline(parts, name, ',');) {
-      if (name.starts_with("--")) names.push_back(name);
+      if (name.starts_with("--")) {
+        names.push_back(name);
+      }
     }
   }
   return names;
@@ -64,29 +66,45 @@ bool daemon_answers() {
 
 Words userspace_events() {
   Words names = default_ros_events();
-  if (!daemon_answers()) return names;
-  for (const TraceableEvent& event : list_traceable_events().userspace) names.push_back(event.name);
+  if (!daemon_answers()) {
+    return names;
+  }
+  for (const TraceableEvent& event : list_traceable_events().userspace) {
+    names.push_back(event.name);
+  }
   return names;
 }
 
 Words context_fields() {
   Words names = context_field_names(LTTNG_DOMAIN_UST);
-  for (std::string& name : context_field_names(LTTNG_DOMAIN_KERNEL)) names.push_back(std::move(name));
+  for (std::string& name : context_field_names(LTTNG_DOMAIN_KERNEL)) {
+    names.push_back(std::move(name));
+  }
   return names;
 }
 
 // Of an option that takes names, any number of them.
 Words names_for(const std::string& option) {
-  if (option == "-u" || option == "--ust") return userspace_events();
-  if (option == "-c" || option == "--context") return context_fields();
-  if (option == "-k" || option == "--kernel") return daemon_answers() ? kernel_event_names() : Words{};
-  if (option == "--syscall") return daemon_answers() ? syscall_names() : Words{};
+  if (option == "-u" || option == "--ust") {
+    return userspace_events();
+  }
+  if (option == "-c" || option == "--context") {
+    return context_fields();
+  }
+  if (option == "-k" || option == "--kernel") {
+    return daemon_answers() ? kernel_event_names() : Words{};
+  }
+  if (option == "--syscall") {
+    return daemon_answers() ? syscall_names() : Words{};
+  }
   return {};
 }
 
 Words session_names() {
   Words names;
-  for (const SessionSummary& session : list_sessions()) names.push_back(session.name);
+  for (const SessionSummary& session : list_sessions()) {
+    names.push_back(session.name);
+  }
   return names;
 }
 
@@ -94,13 +112,19 @@ Words candidates(const Words& words) {
   const Words all = verbs();
   const bool has_verb = words.size() > 1 && std::find(all.begin(), all.end(), words.front()) != all.end();
   const Words verb = has_verb ? Words{words.front()} : Words{};
-  if (words.back().starts_with('-')) return options(verb);
+  if (words.back().starts_with('-')) {
+    return options(verb);
+  }
   const auto option =
       std::find_if(words.rbegin() + 1, words.rend(), [](const std::string& word) { return word.starts_with('-'); });
   if (option != words.rend()) {
-    if (Words names = names_for(*option); !names.empty()) return names;
+    if (Words names = names_for(*option); !names.empty()) {
+      return names;
+    }
   }
-  if (words.size() == 1) return all;
+  if (words.size() == 1) {
+    return all;
+  }
   static const std::set<std::string> kOnSessions = {"pause", "resume", "stop", "record_snapshot", "status", "save"};
   return has_verb && kOnSessions.contains(words.front()) ? session_names() : Words{};
 }
@@ -108,7 +132,9 @@ Words candidates(const Words& words) {
 }  // namespace
 
 std::vector<std::string> trace_completions(const std::vector<std::string>& words) {
-  if (words.empty()) return {};
+  if (words.empty()) {
+    return {};
+  }
   try {
     const Words found = candidates(words);
     const std::set<std::string> unique(found.begin(), found.end());

@@ -209,7 +209,9 @@ std::variant<TraceOptions, ParserMessage> parse_trace_options(const std::vector<
     return ParserMessage{launch::kWrongCommandLine, launch::usage_error_of(command, error)};
   }
   for (const auto& [verb, value] : verbs) {
-    if (!verb->parsed()) continue;
+    if (!verb->parsed()) {
+      continue;
+    }
     options.verb = value;
     options.command += " " + verb->get_name();
   }

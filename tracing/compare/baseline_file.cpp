@@ -25,7 +25,9 @@ Json json_of(const Measurement& one) {
             {"quantity", one.quantity},
             {"count", one.count},
             {"doubtful", one.doubtful}};
-  if (!one.steps.empty()) json["steps"] = one.steps;
+  if (!one.steps.empty()) {
+    json["steps"] = one.steps;
+  }
   json["samples_ns"] = one.samples;
   return json;
 }
@@ -34,15 +36,21 @@ Measurement measurement_of(const Json& json) {
   Measurement one;
   const std::string kind = json.at("kind");
   const std::optional<Kind> known = kind_of(kind);
-  if (!known) throw BaselineError(fmt::format("'{}' is no kind of subject", kind));
+  if (!known) {
+    throw BaselineError(fmt::format("'{}' is no kind of subject", kind));
+  }
   one.kind = *known;
   json.at("subject").get_to(one.subject);
   json.at("quantity").get_to(one.quantity);
   json.at("count").get_to(one.count);
   json.at("doubtful").get_to(one.doubtful);
-  if (json.contains("steps")) json.at("steps").get_to(one.steps);
+  if (json.contains("steps")) {
+    json.at("steps").get_to(one.steps);
+  }
   json.at("samples_ns").get_to(one.samples);
-  if (one.samples.empty()) throw BaselineError(fmt::format("'{}' has no samples", one.subject));
+  if (one.samples.empty()) {
+    throw BaselineError(fmt::format("'{}' has no samples", one.subject));
+  }
   return one;
 }
 
@@ -53,7 +61,9 @@ RunSummary run_of(const Json& json) {
   json.at("duration_ns").get_to(run.duration_ns);
   json.at("events").get_to(run.events);
   json.at("remark").get_to(run.remark);
-  for (const Json& one : json.at("measurements")) run.measurements.push_back(measurement_of(one));
+  for (const Json& one : json.at("measurements")) {
+    run.measurements.push_back(measurement_of(one));
+  }
   return run;
 }
 
@@ -61,7 +71,9 @@ std::string content_of(const std::filesystem::path& file) {
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
-  if (stream && stream.peek() != std::ifstream::traits_type::eof()) text << stream.rdbuf();
+  if (stream && stream.peek() != std::ifstream::traits_type::eof()) {
+    text << stream.rdbuf();
+  }
   if (!stream && errno != 0) {
     throw BaselineError(fmt::format("cannot read the baseline {}: {}", file.native(), std::strerror(errno)));
   }
@@ -74,7 +86,9 @@ std::string baseline_text(const std::vector<RunSummary>& runs) {
   Json list = Json::array();
   for (const RunSummary& run : runs) {
     Json measurements = Json::array();
-    for (const Measurement& one : run.measurements) measurements.push_back(json_of(one));
+    for (const Measurement& one : run.measurements) {
+      measurements.push_back(json_of(one));
+    }
     list.push_back({{"directory", run.directory},
                     {"begin_ns", run.begin_ns},
                     {"duration_ns", run.duration_ns},
@@ -100,7 +114,9 @@ Runs read_baseline(const std::filesystem::path& file) {
                                       file.native(), version, kBaselineVersion));
     }
     try {
-      for (const Json& run : json.at("runs")) baseline.runs.push_back(run_of(run));
+      for (const Json& run : json.at("runs")) {
+        baseline.runs.push_back(run_of(run));
+      }
     } catch (const BaselineError& error) {
       throw BaselineError(fmt::format("{} is damaged: {}", file.native(), error.what()));
     }
@@ -111,7 +127,9 @@ Runs read_baseline(const std::filesystem::path& file) {
     const std::string reason = error.what();
     throw BaselineError(fmt::format("{} is damaged: {}", file.native(), reason.substr(reason.find("] ") + 2)));
   }
-  if (baseline.runs.empty()) throw BaselineError(fmt::format("{} has no run", file.native()));
+  if (baseline.runs.empty()) {
+    throw BaselineError(fmt::format("{} has no run", file.native()));
+  }
   return baseline;
 }
 

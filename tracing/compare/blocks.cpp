@@ -37,14 +37,18 @@ std::optional<BlockPair> cut_into_blocks(const std::vector<std::int64_t>& before
                                          const std::vector<std::int64_t>& after, double share,
                                          std::size_t least_length) {
   const std::size_t fewer = std::min(before.size(), after.size());
-  if (fewer < kLeastBlocks * least_length) return std::nullopt;
+  if (fewer < kLeastBlocks * least_length) {
+    return std::nullopt;
+  }
   std::size_t length = std::max(least_length, (fewer + kMostBlocks - 1) / kMostBlocks);
   BlockPair pair;
   while (true) {
     pair.before = values_of_blocks(before, share, length);
     pair.after = values_of_blocks(after, share, length);
     const double resemblance = std::max(rank_autocorrelation(pair.before), rank_autocorrelation(pair.after));
-    if (resemblance <= kMostResemblance || fewer < kLeastBlocks * length * 2) break;
+    if (resemblance <= kMostResemblance || fewer < kLeastBlocks * length * 2) {
+      break;
+    }
     length *= 2;
   }
   pair.own_spread = std::max(spread_of_tenths(before, share), spread_of_tenths(after, share));

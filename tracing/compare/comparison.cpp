@@ -21,14 +21,18 @@ using Found = std::vector<const Measurement*>;  // of one side, one for each run
 std::map<Key, Found> by_key(const Runs& side) {
   std::map<Key, Found> found;
   for (const RunSummary& run : side.runs) {
-    for (const Measurement& one : run.measurements) found[{one.kind, one.subject, one.quantity}].push_back(&one);
+    for (const Measurement& one : run.measurements) {
+      found[{one.kind, one.subject, one.quantity}].push_back(&one);
+    }
   }
   return found;
 }
 
 double value_of(const Found& side, double share) {
   std::vector<double> samples;
-  for (const Measurement* one : side) samples.insert(samples.end(), one->samples.begin(), one->samples.end());
+  for (const Measurement* one : side) {
+    samples.insert(samples.end(), one->samples.begin(), one->samples.end());
+  }
   return quantile(samples, share);
 }
 
@@ -42,7 +46,9 @@ double share_of(Statistic statistic) {
 
 // Late calls are no change of a rate, and a busy machine has many of them.
 std::vector<Statistic> statistics_of(const std::string& quantity) {
-  if (quantity == "interval") return {Statistic::kMedian};
+  if (quantity == "interval") {
+    return {Statistic::kMedian};
+  }
   return {Statistic::kMedian, Statistic::kP90};
 }
 
@@ -71,7 +77,9 @@ bool cut(Tested& tested) {
     for (const Measurement* later : *tested.after) {
       std::optional<BlockPair> blocks =
           cut_into_blocks(earlier->samples, later->samples, share_of(tested.statistic), least_length);
-      if (!blocks) return false;
+      if (!blocks) {
+        return false;
+      }
       std::vector<double> before = blocks->before;
       std::vector<double> after = blocks->after;
       PairTest pair{std::move(*blocks), quantile(before, 0.5), 0};
@@ -83,7 +91,9 @@ bool cut(Tested& tested) {
 }
 
 std::vector<double> moved(std::vector<double> values, double by) {
-  for (double& value : values) value += by;
+  for (double& value : values) {
+    value += by;
+  }
   return values;
 }
 
@@ -93,7 +103,9 @@ void test_pair(const std::vector<Tested*>& sort, std::size_t place, const Compar
   // distribution has more outliers than a normal one.
   constexpr double kSpreads = 6;
   std::vector<Shifted> shifts;
-  for (const Tested* tested : sort) shifts.push_back({tested->pairs[place].before, tested->pairs[place].shift});
+  for (const Tested* tested : sort) {
+    shifts.push_back({tested->pairs[place].before, tested->pairs[place].shift});
+  }
   const std::vector<PeerShift> peers = shifts_of_peers(shifts);
   for (std::size_t i = 0; i < sort.size(); ++i) {
     const PairTest& pair = sort[i]->pairs[place];
@@ -114,7 +126,9 @@ void test_all(std::vector<Tested>& tests, const CompareOptions& options) {
     sorts[{kind, quantity, tested.statistic, tested.pairs.size()}].push_back(&tested);
   }
   for (const auto& [sort, members] : sorts) {
-    for (std::size_t place = 0; place < std::get<3>(sort); ++place) test_pair(members, place, options);
+    for (std::size_t place = 0; place < std::get<3>(sort); ++place) {
+      test_pair(members, place, options);
+    }
   }
 }
 
@@ -130,8 +144,12 @@ Change change_of(const Tested& tested, double probability, const CompareOptions&
   std::optional<Shift> told;
   for (const PairTest& pair : tested.pairs) {
     const Shift shift = shift_between(pair.blocks.before, pair.blocks.after, options.confidence);
-    if (!told) told = shift;
-    if (std::abs(shift.estimate) < std::abs(told->estimate)) told->estimate = shift.estimate;
+    if (!told) {
+      told = shift;
+    }
+    if (std::abs(shift.estimate) < std::abs(told->estimate)) {
+      told->estimate = shift.estimate;
+    }
     told->low = std::min(told->low, shift.low);
     told->high = std::max(told->high, shift.high);
   }
@@ -144,16 +162,22 @@ std::optional<Overall> overall_of(const std::vector<Tested>& tests, const Compar
   std::vector<double> ratios;
   for (const Tested& tested : tests) {
     const bool is_duration = std::get<Kind>(tested.key) == Kind::kCallback && std::get<2>(tested.key) == "duration";
-    if (!is_duration || tested.statistic != Statistic::kMedian) continue;
+    if (!is_duration || tested.statistic != Statistic::kMedian) {
+      continue;
+    }
     std::vector<double> of_pairs;
-    for (const PairTest& pair : tested.pairs) of_pairs.push_back(pair.shift / std::max(pair.before, 1.0));
+    for (const PairTest& pair : tested.pairs) {
+      of_pairs.push_back(pair.shift / std::max(pair.before, 1.0));
+    }
     ratios.push_back(quantile(of_pairs, 0.5));
   }
   Overall overall;
   overall.callbacks = ratios.size();
   overall.slower =
       static_cast<std::size_t>(std::count_if(ratios.begin(), ratios.end(), [](double r) { return r > 0; }));
-  if (ratios.size() < kLeastPeers) return std::nullopt;
+  if (ratios.size() < kLeastPeers) {
+    return std::nullopt;
+  }
   overall.ratio = quantile(ratios, 0.5);
   const std::size_t same_way = overall.ratio > 0 ? overall.slower : overall.callbacks - overall.slower;
   const bool holds = sign_probability(same_way, overall.callbacks) <= 1 - options.confidence;
@@ -164,14 +188,20 @@ std::optional<Overall> overall_of(const std::vector<Tested>& tests, const Compar
 std::vector<Lone> lone_subjects(const Runs& side, const Runs& other) {
   std::map<std::pair<Kind, std::string>, std::set<const RunSummary*>> runs_with;
   for (const RunSummary& run : side.runs) {
-    for (const Measurement& one : run.measurements) runs_with[{one.kind, one.subject}].insert(&run);
+    for (const Measurement& one : run.measurements) {
+      runs_with[{one.kind, one.subject}].insert(&run);
+    }
   }
   for (const RunSummary& run : other.runs) {
-    for (const Measurement& one : run.measurements) runs_with.erase({one.kind, one.subject});
+    for (const Measurement& one : run.measurements) {
+      runs_with.erase({one.kind, one.subject});
+    }
   }
   std::vector<Lone> lone;
   for (const auto& [subject, runs] : runs_with) {
-    if (runs.size() == side.runs.size()) lone.push_back({subject.first, subject.second});
+    if (runs.size() == side.runs.size()) {
+      lone.push_back({subject.first, subject.second});
+    }
   }
   return lone;
 }
@@ -179,19 +209,27 @@ std::vector<Lone> lone_subjects(const Runs& side, const Runs& other) {
 void find_changed_steps(std::vector<Change>& changes, const Runs& before) {
   std::map<std::string, bool> slower;  // callbacks whose durations have changed
   for (const Change& change : changes) {
-    if (change.kind == Kind::kCallback && change.quantity == "duration") slower[change.subject] = change.is_slower();
+    if (change.kind == Kind::kCallback && change.quantity == "duration") {
+      slower[change.subject] = change.is_slower();
+    }
   }
   std::map<std::string, const std::vector<std::string>*> steps;
   for (const RunSummary& run : before.runs) {
     for (const Measurement& one : run.measurements) {
-      if (one.kind == Kind::kChain) steps[one.subject] = &one.steps;
+      if (one.kind == Kind::kChain) {
+        steps[one.subject] = &one.steps;
+      }
     }
   }
   for (Change& change : changes) {
-    if (change.kind != Kind::kChain) continue;
+    if (change.kind != Kind::kChain) {
+      continue;
+    }
     for (const std::string& step : *steps[change.subject]) {
       const auto found = slower.find(step);
-      if (found != slower.end() && found->second == change.is_slower()) change.changed_steps.push_back(step);
+      if (found != slower.end() && found->second == change.is_slower()) {
+        change.changed_steps.push_back(step);
+      }
     }
   }
 }
@@ -210,27 +248,37 @@ Comparison compare(const Runs& before, const Runs& after, const CompareOptions& 
   std::vector<Tested> tests;
   for (const auto& [key, found] : earlier) {
     const auto other = later.find(key);
-    if (other == later.end()) continue;
+    if (other == later.end()) {
+      continue;
+    }
     const auto& [kind, subject, quantity] = key;
     subjects.insert({kind, subject});
     bool enough = false;
     for (const Statistic statistic : statistics_of(quantity)) {
       Tested tested{key, &found, &other->second, statistic};
-      if (!cut(tested)) continue;
+      if (!cut(tested)) {
+        continue;
+      }
       enough = true;
       tests.push_back(std::move(tested));
     }
-    if (!enough) ++result.too_few_samples;
+    if (!enough) {
+      ++result.too_few_samples;
+    }
   }
   result.compared = subjects.size();
   result.tests = tests.size();
 
   test_all(tests, options);
   std::vector<double> probabilities;
-  for (const Tested& tested : tests) probabilities.push_back(std::min(1.0, 2 * std::min(tested.more, tested.less)));
+  for (const Tested& tested : tests) {
+    probabilities.push_back(std::min(1.0, 2 * std::min(tested.more, tested.less)));
+  }
   probabilities = corrected_for_many(probabilities);
   for (std::size_t i = 0; i < tests.size(); ++i) {
-    if (probabilities[i] > 1 - options.confidence) continue;
+    if (probabilities[i] > 1 - options.confidence) {
+      continue;
+    }
     result.changes.push_back(change_of(tests[i], probabilities[i], options));
   }
   find_changed_steps(result.changes, before);

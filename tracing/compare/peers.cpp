@@ -16,7 +16,9 @@ constexpr std::size_t kPeers = 20;
 PeerShift spread_of(std::vector<double> shifts) {
   PeerShift result;
   result.usual = quantile(shifts, 0.5);
-  for (double& shift : shifts) shift = std::abs(shift - result.usual);
+  for (double& shift : shifts) {
+    shift = std::abs(shift - result.usual);
+  }
   // Four fifths of a normal distribution lie within so many standard deviations. The last fifth may have changed.
   constexpr double kOfNormalDistribution = 1.2816;
   result.spread = quantile(shifts, 0.8) / kOfNormalDistribution;
@@ -27,7 +29,9 @@ PeerShift spread_of(std::vector<double> shifts) {
 
 std::vector<PeerShift> shifts_of_peers(const std::vector<Shifted>& quantities) {
   std::vector<PeerShift> result(quantities.size());
-  if (quantities.size() <= kLeastPeers) return result;
+  if (quantities.size() <= kLeastPeers) {
+    return result;
+  }
   std::vector<std::size_t> order(quantities.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
@@ -46,7 +50,9 @@ std::vector<PeerShift> shifts_of_peers(const std::vector<Shifted>& quantities) {
     std::vector<double> shifts;
     std::vector<double> scaled;  // to the size of this quantity
     for (std::size_t peer = first; peer < last; ++peer) {
-      if (peer == place) continue;
+      if (peer == place) {
+        continue;
+      }
       const Shifted& other = quantities[order[peer]];
       shifts.push_back(other.shift);
       scaled.push_back(other.shift / std::max(other.before, 1.0) * before);

@@ -21,8 +21,12 @@ std::vector<double> u_distribution(std::size_t n, std::size_t m) {
   std::vector<double> orders(half + 1, 0);
   orders[0] = 1;
   for (std::size_t i = 1; i <= n; ++i) {
-    for (std::size_t u = half; u >= m + i && u <= half; --u) orders[u] -= orders[u - m - i];
-    for (std::size_t u = i; u <= half; ++u) orders[u] += orders[u - i];
+    for (std::size_t u = half; u >= m + i && u <= half; --u) {
+      orders[u] -= orders[u - m - i];
+    }
+    for (std::size_t u = i; u <= half; ++u) {
+      orders[u] += orders[u - i];
+    }
   }
   std::vector<double> result(most + 1);
   double all = 0;
@@ -30,7 +34,9 @@ std::vector<double> u_distribution(std::size_t n, std::size_t m) {
     result[u] = std::max(orders[std::min(u, most - u)], 0.0);
     all += result[u];
   }
-  for (double& probability : result) probability /= all;
+  for (double& probability : result) {
+    probability /= all;
+  }
   return result;
 }
 
@@ -41,7 +47,9 @@ const std::vector<double>& u_tail(std::size_t n, std::size_t m) {
   if (is_new) {
     found->second = u_distribution(std::min(n, m), std::max(n, m));
     // From the small probabilities on, so that they keep their digits.
-    for (std::size_t u = found->second.size() - 1; u > 0; --u) found->second[u - 1] += found->second[u];
+    for (std::size_t u = found->second.size() - 1; u > 0; --u) {
+      found->second[u - 1] += found->second[u];
+    }
   }
   return found->second;
 }
@@ -53,8 +61,12 @@ std::vector<double> ranks_of(const std::vector<double>& values) {
   std::vector<double> ranks(values.size());
   for (std::size_t first = 0; first < order.size();) {
     std::size_t last = first;
-    while (last + 1 < order.size() && values[order[last + 1]] == values[order[first]]) ++last;
-    for (std::size_t at = first; at <= last; ++at) ranks[order[at]] = static_cast<double>(first + last) / 2;
+    while (last + 1 < order.size() && values[order[last + 1]] == values[order[first]]) {
+      ++last;
+    }
+    for (std::size_t at = first; at <= last; ++at) {
+      ranks[order[at]] = static_cast<double>(first + last) / 2;
+    }
     first = last + 1;
   }
   return ranks;
@@ -89,7 +101,9 @@ Shift shift_between(const std::vector<double>& before, const std::vector<double>
   std::vector<double> differences;
   differences.reserve(before.size() * after.size());
   for (const double earlier : before) {
-    for (const double later : after) differences.push_back(later - earlier);
+    for (const double later : after) {
+      differences.push_back(later - earlier);
+    }
   }
   std::sort(differences.begin(), differences.end());
   const std::size_t count = differences.size();
@@ -97,7 +111,9 @@ Shift shift_between(const std::vector<double>& before, const std::vector<double>
   // small samples have none.
   const std::vector<double>& tail = u_tail(before.size(), after.size());
   std::size_t outside = 0;
-  while (2 * (outside + 1) < count && tail[count - outside - 1] <= (1 - confidence) / 2) ++outside;
+  while (2 * (outside + 1) < count && tail[count - outside - 1] <= (1 - confidence) / 2) {
+    ++outside;
+  }
   const double middle = (differences[(count - 1) / 2] + differences[count / 2]) / 2;
   return {middle, differences[outside], differences[count - 1 - outside]};
 }
@@ -131,7 +147,9 @@ double rank_autocorrelation(const std::vector<double>& values) {
   double alone = 0;
   for (std::size_t i = 0; i < ranks.size(); ++i) {
     alone += (ranks[i] - mean) * (ranks[i] - mean);
-    if (i + 1 < ranks.size()) together += (ranks[i] - mean) * (ranks[i + 1] - mean);
+    if (i + 1 < ranks.size()) {
+      together += (ranks[i] - mean) * (ranks[i + 1] - mean);
+    }
   }
   return alone == 0 ? 0 : together / alone;
 }

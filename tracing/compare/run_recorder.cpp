@@ -15,7 +15,9 @@ namespace {
 
 template <class Record>
 Record& at(std::vector<Record>& records, std::size_t id) {
-  if (id >= records.size()) records.resize(id + 1);
+  if (id >= records.size()) {
+    records.resize(id + 1);
+  }
   return records[id];
 }
 
@@ -26,7 +28,9 @@ class Writer {
       : objects_(analysis.objects()), places_(analysis.places()), results_(results), run_(run) {}
 
   bool is_doubtful(ProcessId process) const {
-    if (process >= places_.size() || !places_[process]) return false;
+    if (process >= places_.size() || !places_[process]) {
+      return false;
+    }
     return results_.overview.processes[*places_[process]].doubtful;
   }
   bool is_node_doubtful(ObjectId node) const {
@@ -34,7 +38,9 @@ class Writer {
   }
   Measurement* add(Kind kind, const std::string& subject, const char* quantity, const KeptSamples& samples,
                    bool doubtful) {
-    if (samples.count() == 0) return nullptr;
+    if (samples.count() == 0) {
+      return nullptr;
+    }
     const int number = ++seen_[{kind, subject, quantity}];
     const std::string name = number == 1 ? subject : fmt::format("{} #{}", subject, number);
     run_.measurements.push_back({kind, name, quantity, {}, samples.count(), samples.values(), doubtful});
@@ -58,27 +64,39 @@ void RunRecorder::Chains::on_response(PathId path, std::int64_t response_ns) {
 void RunRecorder::on_callback_begin(const CallbackInstance& instance) {
   chains_.on_callback_begin(instance);
   Callback& callback = at(callbacks_, instance.callback);
-  if (callback.last_begin_ns != 0) callback.intervals.add(instance.begin_ns - callback.last_begin_ns);
+  if (callback.last_begin_ns != 0) {
+    callback.intervals.add(instance.begin_ns - callback.last_begin_ns);
+  }
   callback.last_begin_ns = instance.begin_ns;
 }
 
 void RunRecorder::on_callback(const CallbackInstance& instance) {
   chains_.on_callback(instance);
-  if (instance.finished) at(callbacks_, instance.callback).durations.add(instance.end_ns - instance.begin_ns);
+  if (instance.finished) {
+    at(callbacks_, instance.callback).durations.add(instance.end_ns - instance.begin_ns);
+  }
 }
 
 void RunRecorder::on_message(const MessageFlow& message) {
   chains_.on_message(message);
-  if (message.publication.number == 0 || message.callback == kNoObject) return;
+  if (message.publication.number == 0 || message.callback == kNoObject) {
+    return;
+  }
   const HopTimes times = hop_times(message);
   Hop& hop = at(hops_, message.subscription);
   hop.latency.add(times.latency_ns);
-  if (times.transport_ns) hop.transport.add(*times.transport_ns);
-  if (times.executor_ns) hop.executor.add(*times.executor_ns);
+  if (times.transport_ns) {
+    hop.transport.add(*times.transport_ns);
+  }
+  if (times.executor_ns) {
+    hop.executor.add(*times.executor_ns);
+  }
 }
 
 void RunRecorder::on_call(const ServiceCall& call) {
-  if (call.client == kNoObject) return;
+  if (call.client == kNoObject) {
+    return;
+  }
   calls_[{call.client, call.service}].add(call.received_ns - call.sent_ns);
 }
 
@@ -108,7 +126,9 @@ RunSummary RunRecorder::finish(const TraceAnalysis& analysis, const TraceResults
   }
   for (PathId path = 0; path < chains_.responses.size(); ++path) {
     const ChainRecord& last = chains_.paths()[path];
-    if (last.goes_on || last.length < 2) continue;
+    if (last.goes_on || last.length < 2) {
+      continue;
+    }
     std::vector<std::string> steps;
     std::string subject;
     bool doubtful = false;
@@ -119,7 +139,9 @@ RunSummary RunRecorder::finish(const TraceAnalysis& analysis, const TraceResults
       doubtful = doubtful || writer.is_doubtful(objects.callbacks()[callback].process);
     }
     Measurement* const chain = writer.add(Kind::kChain, subject, "response", chains_.responses[path], doubtful);
-    if (chain != nullptr) chain->steps = std::move(steps);
+    if (chain != nullptr) {
+      chain->steps = std::move(steps);
+    }
   }
   const auto key = [](const Measurement& one) { return std::tie(one.kind, one.subject, one.quantity); };
   std::stable_sort(run.measurements.begin(), run.measurements.end(),

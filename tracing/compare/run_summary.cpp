@@ -19,7 +19,9 @@ const char* kind_name(Kind kind) {
 
 std::optional<Kind> kind_of(const std::string& name) {
   for (const Kind kind : {Kind::kCallback, Kind::kHop, Kind::kChain, Kind::kCall}) {
-    if (name == kind_name(kind)) return kind;
+    if (name == kind_name(kind)) {
+      return kind;
+    }
   }
   return std::nullopt;
 }

@@ -40,18 +40,24 @@ std::string SubjectNames::node_of(ObjectId node) const {
 // The node, or the program if the trace does not tell the node.
 std::string SubjectNames::owner_of(const CallbackObject& callback) const {
   const std::string node = node_name(objects_, callback);
-  if (!node.empty()) return node;
+  if (!node.empty()) {
+    return node;
+  }
   const std::string program = callback.process < processes_.size() ? processes_[callback.process].name : "";
   return program.empty() ? "an unknown node" : program;
 }
 
 std::string SubjectNames::source_of(const CallbackObject& callback) const {
   using Owner = CallbackObject::Owner;
-  if (objects_.subscription_of(callback) != kNoObject) return callback_source(objects_, callback);
+  if (objects_.subscription_of(callback) != kNoObject) {
+    return callback_source(objects_, callback);
+  }
   const bool has_owner =
       callback.owner_id != kNoObject &&
       (callback.owner == Owner::kTimer || callback.owner == Owner::kService || callback.owner == Owner::kClient);
-  if (has_owner) return callback_source(objects_, callback);
+  if (has_owner) {
+    return callback_source(objects_, callback);
+  }
   const std::string symbol = readable_symbol(callback.symbol);
   return symbol.empty() ? "a callback without a name" : symbol;
 }

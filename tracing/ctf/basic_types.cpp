@@ -13,7 +13,9 @@ constexpr std::uint32_t kByte = 8;  // bits
 
 NumberAccess access_of(const FieldClass& number) {
   const bool native = number.is_big_endian == (std::endian::native == std::endian::big) || number.size == kByte;
-  if (number.kind == FieldKind::kReal || number.alignment % kByte != 0 || !native) return NumberAccess::kBits;
+  if (number.kind == FieldKind::kReal || number.alignment % kByte != 0 || !native) {
+    return NumberAccess::kBits;
+  }
   switch (number.size) {
     case 8:
       return number.is_signed ? NumberAccess::kSigned8 : NumberAccess::kUnsigned8;
@@ -29,11 +31,19 @@ NumberAccess access_of(const FieldClass& number) {
 }
 
 std::uint8_t base_of(const TsdlEntry& entry) {
-  if (entry.value.kind == TsdlValue::Kind::kNumber) return static_cast<std::uint8_t>(entry.value.number);
+  if (entry.value.kind == TsdlValue::Kind::kNumber) {
+    return static_cast<std::uint8_t>(entry.value.number);
+  }
   const std::string& name = entry.value.text;
-  if (name == "hexadecimal" || name == "hex" || name == "x" || name == "X" || name == "p") return 16;
-  if (name == "octal" || name == "oct" || name == "o") return 8;
-  if (name == "binary" || name == "b") return 2;
+  if (name == "hexadecimal" || name == "hex" || name == "x" || name == "X" || name == "p") {
+    return 16;
+  }
+  if (name == "octal" || name == "oct" || name == "o") {
+    return 8;
+  }
+  if (name == "binary" || name == "b") {
+    return 2;
+  }
   return 10;
 }
 
@@ -65,9 +75,15 @@ std::uint32_t checked_alignment(std::uint64_t alignment, std::size_t line) {
 }
 
 bool is_big_endian(const std::string& order, bool native_is_big_endian, std::size_t line) {
-  if (order == "le") return false;
-  if (order == "be" || order == "network") return true;
-  if (order == "native") return native_is_big_endian;
+  if (order == "le") {
+    return false;
+  }
+  if (order == "be" || order == "network") {
+    return true;
+  }
+  if (order == "native") {
+    return native_is_big_endian;
+  }
   fail_at_line(line, fmt::format("unknown byte order '{}'", order));
 }
 
@@ -77,18 +93,34 @@ FieldClassPtr integer_type(const std::vector<TsdlEntry>& entries, bool native_is
   integer.alignment = 0;
   for (const TsdlEntry& entry : entries) {
     const std::string& text = entry.value.text;
-    if (entry.name == "size") integer.size = static_cast<std::uint32_t>(number_of(entry));
-    if (entry.name == "align") integer.alignment = checked_alignment(number_of(entry), entry.line);
-    if (entry.name == "signed")
+    if (entry.name == "size") {
+      integer.size = static_cast<std::uint32_t>(number_of(entry));
+    }
+    if (entry.name == "align") {
+      integer.alignment = checked_alignment(number_of(entry), entry.line);
+    }
+    if (entry.name == "signed") {
       integer.is_signed = text.empty() ? entry.value.number != 0 : text == "true" || text == "TRUE";
-    if (entry.name == "byte_order") integer.is_big_endian = is_big_endian(text, native_is_big_endian, entry.line);
-    if (entry.name == "encoding")
+    }
+    if (entry.name == "byte_order") {
+      integer.is_big_endian = is_big_endian(text, native_is_big_endian, entry.line);
+    }
+    if (entry.name == "encoding") {
       integer.is_text = text == "UTF8" || text == "utf8" || text == "ASCII" || text == "ascii";
-    if (entry.name == "base") integer.base = base_of(entry);
-    if (entry.name == "map") integer.clock = clock_of(entry);
+    }
+    if (entry.name == "base") {
+      integer.base = base_of(entry);
+    }
+    if (entry.name == "map") {
+      integer.clock = clock_of(entry);
+    }
   }
-  if (integer.size == 0 || integer.size > 64) fail_at_line(line, fmt::format("an integer of {} bits", integer.size));
-  if (integer.alignment == 0) integer.alignment = integer.size % kByte == 0 ? kByte : 1;
+  if (integer.size == 0 || integer.size > 64) {
+    fail_at_line(line, fmt::format("an integer of {} bits", integer.size));
+  }
+  if (integer.alignment == 0) {
+    integer.alignment = integer.size % kByte == 0 ? kByte : 1;
+  }
   integer.access = access_of(integer);
   return complete(std::move(integer));
 }
@@ -98,13 +130,19 @@ FieldClassPtr real_type(const std::vector<TsdlEntry>& entries, bool native_is_bi
   real.kind = FieldKind::kReal;
   real.is_big_endian = native_is_big_endian;
   for (const TsdlEntry& entry : entries) {
-    if (entry.name == "exp_dig" || entry.name == "mant_dig") real.size += static_cast<std::uint32_t>(number_of(entry));
-    if (entry.name == "align") real.alignment = checked_alignment(number_of(entry), entry.line);
+    if (entry.name == "exp_dig" || entry.name == "mant_dig") {
+      real.size += static_cast<std::uint32_t>(number_of(entry));
+    }
+    if (entry.name == "align") {
+      real.alignment = checked_alignment(number_of(entry), entry.line);
+    }
     if (entry.name == "byte_order") {
       real.is_big_endian = is_big_endian(entry.value.text, native_is_big_endian, entry.line);
     }
   }
-  if (real.size != 32 && real.size != 64) fail_at_line(line, fmt::format("a number of {} bits", real.size));
+  if (real.size != 32 && real.size != 64) {
+    fail_at_line(line, fmt::format("a number of {} bits", real.size));
+  }
   return complete(std::move(real));
 }
 

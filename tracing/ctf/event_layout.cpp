@@ -22,9 +22,13 @@ HeaderLayout::Form form_of(const FieldClass& structure, std::uint32_t bit, std::
   HeaderLayout::Form form;
   bit = aligned(bit, structure.alignment);
   for (const FieldMember& member : structure.members) {
-    if (!member.type->is_number() || member.type->kind == FieldKind::kReal) refuse("not only integers");
+    if (!member.type->is_number() || member.type->kind == FieldKind::kReal) {
+      refuse("not only integers");
+    }
     bit = aligned(bit, member.type->alignment);
-    if (member.name == "id") form.id = {bit, member.type->size};
+    if (member.name == "id") {
+      form.id = {bit, member.type->size};
+    }
     if (!member.type->clock.empty()) {
       form.time = {bit, member.type->size};
       clock = member.type->clock;
@@ -43,7 +47,9 @@ HeaderLayout header_layout(const FieldClass& structure, bool is_big_endian) {
   FieldClass numbers;  // the structure before the variant
   numbers.kind = FieldKind::kStructure;
   for (const FieldMember& member : structure.members) {
-    if (variant != nullptr) refuse("a field behind a variant");
+    if (variant != nullptr) {
+      refuse("a field behind a variant");
+    }
     if (member.type->kind == FieldKind::kVariant) {
       variant = &member;
     } else {
@@ -54,20 +60,28 @@ HeaderLayout header_layout(const FieldClass& structure, bool is_big_endian) {
   layout.first_id = before.id;
   layout.short_form = before;
   layout.short_form.id = {};
-  if (variant == nullptr) return layout;
+  if (variant == nullptr) {
+    return layout;
+  }
 
   if (variant->type->path != "id" || numbers.members.empty() || numbers.members.back().name != "id") {
     refuse("a variant that is not selected by the number of the event");
   }
   const FieldClass& selector = *numbers.members.back().type;
   for (const FieldMember& option : variant->type->members) {
-    if (option.type->kind != FieldKind::kStructure) refuse("a variant of something else than structures");
+    if (option.type->kind != FieldKind::kStructure) {
+      refuse("a variant of something else than structures");
+    }
     // Places count from the beginning of the header, so no part may have a larger alignment than the header.
-    if (structure.alignment % option.type->alignment != 0) refuse("a part with an alignment of its own");
+    if (structure.alignment % option.type->alignment != 0) {
+      refuse("a part with an alignment of its own");
+    }
     const HeaderLayout::Form form = form_of(*option.type, before.end, layout.clock);
     const auto range = std::find_if(selector.ranges.begin(), selector.ranges.end(),
                                     [&](const EnumerationRange& each) { return each.label == option.name; });
-    if (range == selector.ranges.end()) refuse("an option that no value selects");
+    if (range == selector.ranges.end()) {
+      refuse("an option that no value selects");
+    }
     if (form.id.size > 0) {
       layout.has_long_form = true;
       layout.long_form = form;
@@ -92,19 +106,29 @@ bool is_simple(const StructureDecoder& decoder) {
 
 StreamLayout::StreamLayout(const TraceClass& trace, const StreamDeclaration& stream)
     : event_context_(stream.event_context) {
-  if (!stream.event_header) refuse("there is none");
+  if (!stream.event_header) {
+    refuse("there is none");
+  }
   header_ = header_layout(*stream.event_header, trace.is_big_endian);
-  if (header_.short_form.time.size == 0) refuse("it has no time");
+  if (header_.short_form.time.size == 0) {
+    refuse("it has no time");
+  }
   const auto clock = trace.clocks.find(header_.clock);
-  if (clock == trace.clocks.end()) refuse("its clock is not declared");
+  if (clock == trace.clocks.end()) {
+    refuse("its clock is not declared");
+  }
   clock_ = &clock->second;
   for (std::size_t i = 0; i < trace.events.size(); ++i) {
     const EventDeclaration& event = trace.events[i];
-    if (event.stream_id != stream.id) continue;
+    if (event.stream_id != stream.id) {
+      continue;
+    }
     auto layout = std::make_unique<EventLayout>(event, i);
     layout->is_simple = is_simple(event_context_) && is_simple(layout->context) && is_simple(layout->payload);
     if (event.id < kDenseIds) {
-      if (event.id >= dense_.size()) dense_.resize(event.id + 1);
+      if (event.id >= dense_.size()) {
+        dense_.resize(event.id + 1);
+      }
       dense_[event.id] = std::move(layout);
     } else {
       sparse_[event.id] = std::move(layout);

@@ -58,7 +58,9 @@ class StreamLayout {
   const StructureDecoder& event_context() const { return event_context_; }
   // Null when no event has this number.
   const EventLayout* event(std::uint64_t id) const {
-    if (id < dense_.size()) return dense_[id].get();
+    if (id < dense_.size()) {
+      return dense_[id].get();
+    }
     const auto found = sparse_.find(id);
     return found == sparse_.end() ? nullptr : found->second.get();
   }

@@ -77,9 +77,13 @@ inline std::optional<std::uint64_t> Field::unsigned_integer() const {
 }
 
 inline std::optional<std::int64_t> Field::integer() const {
-  if (type->kind != FieldKind::kInteger && type->kind != FieldKind::kEnumeration) return std::nullopt;
+  if (type->kind != FieldKind::kInteger && type->kind != FieldKind::kEnumeration) {
+    return std::nullopt;
+  }
   const auto value = static_cast<std::int64_t>(raw());
-  if (!type->is_signed && value < 0) return std::nullopt;
+  if (!type->is_signed && value < 0) {
+    return std::nullopt;
+  }
   return value;
 }
 

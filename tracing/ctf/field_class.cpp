@@ -20,11 +20,15 @@ std::uint64_t least_bits_of(const FieldClass& type) {
     case FieldKind::kString:
       return 8;  // its end
     case FieldKind::kStructure:
-      for (const FieldMember& member : type.members) bits = std::min(kHuge, bits + member.type->least_bits);
+      for (const FieldMember& member : type.members) {
+        bits = std::min(kHuge, bits + member.type->least_bits);
+      }
       return bits;
     case FieldKind::kVariant:
       bits = type.members.empty() ? 0 : kHuge;
-      for (const FieldMember& option : type.members) bits = std::min(bits, option.type->least_bits);
+      for (const FieldMember& option : type.members) {
+        bits = std::min(bits, option.type->least_bits);
+      }
       return bits;
     case FieldKind::kArray:
       bits = type.element->least_bits;
@@ -44,8 +48,12 @@ FieldClassPtr complete(FieldClass type) {
     type.depth = std::max(type.depth, inner.depth + 1);
     type.fields += inner.fields;
   };
-  for (const FieldMember& member : type.members) add(*member.type);
-  if (type.element) add(*type.element);
+  for (const FieldMember& member : type.members) {
+    add(*member.type);
+  }
+  if (type.element) {
+    add(*type.element);
+  }
   type.least_bits = least_bits_of(type);
   return std::make_shared<const FieldClass>(std::move(type));
 }

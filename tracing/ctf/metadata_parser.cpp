@@ -31,7 +31,9 @@ class MetadataParser {
         types_(cursor_, trace_.is_big_endian) {}
 
   TraceClass parse() {
-    while (cursor_.peek().kind != Token::Kind::kEnd) parse_top_level();
+    while (cursor_.peek().kind != Token::Kind::kEnd) {
+      parse_top_level();
+    }
     check_references();
     return std::move(trace_);
   }
@@ -40,7 +42,9 @@ class MetadataParser {
   void parse_top_level() {
     const std::string word = cursor_.at_name() ? cursor_.peek().text : "";
     const bool is_block = cursor_.peek(1).is("{");
-    if (cursor_.take_if(";")) return;
+    if (cursor_.take_if(";")) {
+      return;
+    }
     if (word == "typealias") {
       types_.parse_type_alias();
     } else if (word == "typedef") {
@@ -73,8 +77,12 @@ class MetadataParser {
 
   void parse_trace() {
     for (const TsdlEntry& entry : types_.parse_block()) {
-      if (entry.name == "uuid") trace_.uuid = entry.value.text;
-      if (entry.name == "packet.header") trace_.packet_header = structure_of(entry);
+      if (entry.name == "uuid") {
+        trace_.uuid = entry.value.text;
+      }
+      if (entry.name == "packet.header") {
+        trace_.packet_header = structure_of(entry);
+      }
       if ((entry.name == "major" && entry.value.number != 1) || (entry.name == "minor" && entry.value.number != 8)) {
         fail_at_line(entry.line, "not CTF 1.8");
       }
@@ -92,23 +100,43 @@ class MetadataParser {
   void parse_clock() {
     Clock clock;
     for (const TsdlEntry& entry : types_.parse_block()) {
-      if (entry.name == "name") clock.name = entry.value.text;
-      if (entry.name == "uuid") clock.uuid = entry.value.text;
-      if (entry.name == "freq") clock.frequency = number_of(entry);
-      if (entry.name == "offset_s") clock.offset_s = entry.value.number;
-      if (entry.name == "offset") clock.offset = entry.value.number;
+      if (entry.name == "name") {
+        clock.name = entry.value.text;
+      }
+      if (entry.name == "uuid") {
+        clock.uuid = entry.value.text;
+      }
+      if (entry.name == "freq") {
+        clock.frequency = number_of(entry);
+      }
+      if (entry.name == "offset_s") {
+        clock.offset_s = entry.value.number;
+      }
+      if (entry.name == "offset") {
+        clock.offset = entry.value.number;
+      }
     }
-    if (clock.frequency == 0) cursor_.fail("a clock has the frequency 0");
+    if (clock.frequency == 0) {
+      cursor_.fail("a clock has the frequency 0");
+    }
     trace_.clocks[clock.name] = clock;
   }
 
   void parse_stream() {
     StreamDeclaration stream;
     for (const TsdlEntry& entry : types_.parse_block()) {
-      if (entry.name == "id") stream.id = number_of(entry);
-      if (entry.name == "packet.context") stream.packet_context = structure_of(entry);
-      if (entry.name == "event.header") stream.event_header = structure_of(entry);
-      if (entry.name == "event.context") stream.event_context = structure_of(entry);
+      if (entry.name == "id") {
+        stream.id = number_of(entry);
+      }
+      if (entry.name == "packet.context") {
+        stream.packet_context = structure_of(entry);
+      }
+      if (entry.name == "event.header") {
+        stream.event_header = structure_of(entry);
+      }
+      if (entry.name == "event.context") {
+        stream.event_context = structure_of(entry);
+      }
     }
     trace_.streams[stream.id] = stream;
   }
@@ -116,11 +144,21 @@ class MetadataParser {
   void parse_event() {
     EventDeclaration event;
     for (const TsdlEntry& entry : types_.parse_block()) {
-      if (entry.name == "name") event.name = entry.value.text;
-      if (entry.name == "id") event.id = number_of(entry);
-      if (entry.name == "stream_id") event.stream_id = number_of(entry);
-      if (entry.name == "context") event.context = structure_of(entry);
-      if (entry.name == "fields") event.payload = structure_of(entry);
+      if (entry.name == "name") {
+        event.name = entry.value.text;
+      }
+      if (entry.name == "id") {
+        event.id = number_of(entry);
+      }
+      if (entry.name == "stream_id") {
+        event.stream_id = number_of(entry);
+      }
+      if (entry.name == "context") {
+        event.context = structure_of(entry);
+      }
+      if (entry.name == "fields") {
+        event.payload = structure_of(entry);
+      }
     }
     trace_.events.push_back(std::move(event));
   }

@@ -31,16 +31,24 @@ std::uint32_t word(const std::string& bytes, std::size_t place, bool swapped) {
 
 MetadataText read_metadata_text(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw UnsupportedTrace(fmt::format("'{}' can't be opened", file.string()));
+  if (!stream) {
+    throw UnsupportedTrace(fmt::format("'{}' can't be opened", file.string()));
+  }
   const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  if (bytes.size() < sizeof kMagic) return {bytes};
+  if (bytes.size() < sizeof kMagic) {
+    return {bytes};
+  }
   const bool swapped = word(bytes, 0, true) == kMagic;
-  if (!swapped && word(bytes, 0, false) != kMagic) return {bytes};
+  if (!swapped && word(bytes, 0, false) != kMagic) {
+    return {bytes};
+  }
 
   MetadataText read;
   std::size_t begin = 0;
   while (begin + kHeaderSize <= bytes.size()) {
-    if (word(bytes, begin, swapped) != kMagic) throw UnsupportedTrace("a packet of the metadata has no magic number");
+    if (word(bytes, begin, swapped) != kMagic) {
+      throw UnsupportedTrace("a packet of the metadata has no magic number");
+    }
     if (bytes[begin + kVersionPlace] != 1 || bytes[begin + kVersionPlace + 1] != 8) {
       throw UnsupportedTrace("the metadata are not CTF 1.8");
     }
@@ -49,7 +57,9 @@ MetadataText read_metadata_text(const std::filesystem::path& file) {
     }
     const std::size_t content = word(bytes, begin + kContentSizePlace, swapped) / 8;
     const std::size_t size = word(bytes, begin + kPacketSizePlace, swapped) / 8;
-    if (content < kHeaderSize || size < content || begin + content > bytes.size()) break;
+    if (content < kHeaderSize || size < content || begin + content > bytes.size()) {
+      break;
+    }
     read.text.append(bytes, begin + kHeaderSize, content - kHeaderSize);
     begin += size;
   }

@@ -22,14 +22,18 @@ constexpr std::size_t kReadAhead = 1 << 18;  // bytes
 
 const Field* member(const Field& structure, std::string_view name) {
   for (std::size_t i = 0; i < structure.type->members.size(); ++i) {
-    if (structure.type->members[i].name == name) return &structure.children[i];
+    if (structure.type->members[i].name == name) {
+      return &structure.children[i];
+    }
   }
   return nullptr;
 }
 
 std::optional<std::uint64_t> number(const Field& structure, std::string_view name) {
   const Field* const field = member(structure, name);
-  if (field == nullptr || field->type->kind != FieldKind::kInteger) return std::nullopt;
+  if (field == nullptr || field->type->kind != FieldKind::kInteger) {
+    return std::nullopt;
+  }
   return field->raw();
 }
 
@@ -41,9 +45,13 @@ bool sizes_contradict(const Packet& packet) {
 class OpenFile {
  public:
   explicit OpenFile(const std::filesystem::path& path) : file_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
-    if (file_ >= 0 && fstat(file_, &status_) == 0) return;
+    if (file_ >= 0 && fstat(file_, &status_) == 0) {
+      return;
+    }
     const int error = errno;
-    if (file_ >= 0) close(file_);
+    if (file_ >= 0) {
+      close(file_);
+    }
     throw std::system_error(error, std::generic_category(), path.string());
   }
   ~OpenFile() { close(file_); }
@@ -76,7 +84,9 @@ std::uint64_t read_header(const TraceClass& trace, const std::uint8_t* begin, st
   Field header;
   if (trace.packet_header) {
     header = decode_structure(*trace.packet_header, begin, 0, limit, scopes, arena, at);
-    if (number(header, "magic").value_or(kMagic) != kMagic) throw DamagedPacket("it has no magic number");
+    if (number(header, "magic").value_or(kMagic) != kMagic) {
+      throw DamagedPacket("it has no magic number");
+    }
     packet.stream_id = number(header, "stream_id").value_or(0);
     packet.stream_instance_id = number(header, "stream_instance_id");
     scopes.push_back({"trace.packet.header", &header});
@@ -85,7 +95,9 @@ std::uint64_t read_header(const TraceClass& trace, const std::uint8_t* begin, st
   if (stream == trace.streams.end()) {
     throw UndescribedPacket(fmt::format("it has the unknown stream {}", packet.stream_id));
   }
-  if (!stream->second.packet_context) return at;
+  if (!stream->second.packet_context) {
+    return at;
+  }
   const Field context = decode_structure(*stream->second.packet_context, begin, at, limit, scopes, arena, at);
   packet.content_bits = number(context, "content_size").value_or(packet.content_bits);
   packet.size_bits = number(context, "packet_size").value_or(packet.content_bits);
@@ -93,7 +105,9 @@ std::uint64_t read_header(const TraceClass& trace, const std::uint8_t* begin, st
   packet.time_end = number(context, "timestamp_end");
   packet.sequence_number = number(context, "packet_seq_num");
   packet.discarded_events = number(context, "events_discarded");
-  if (const Field* const cpu = member(context, "cpu_id")) packet.cpu_id = cpu->integer();
+  if (const Field* const cpu = member(context, "cpu_id")) {
+    packet.cpu_id = cpu->integer();
+  }
   return at;
 }
 
@@ -114,8 +128,12 @@ void StreamFile::read(std::uint8_t* to, std::size_t count, std::size_t at) const
     }
     while (count > 0) {
       const ssize_t got = file.read(to, count, at);
-      if (got < 0) throw DamagedPacket(std::strerror(errno));
-      if (got == 0) throw DamagedPacket("the file has become shorter meanwhile");
+      if (got < 0) {
+        throw DamagedPacket(std::strerror(errno));
+      }
+      if (got == 0) {
+        throw DamagedPacket("the file has become shorter meanwhile");
+      }
       to += got;
       at += static_cast<std::size_t>(got);
       count -= static_cast<std::size_t>(got);

@@ -27,7 +27,9 @@ StreamCursor::StreamCursor(const StreamLayout& layout, std::vector<Packet> packe
       nanosecond_clock_(layout.clock().frequency == 1'000'000'000),
       packets_(std::move(packets)),
       places_(3 * EventLayout::kMostSimpleFields) {
-  if (nanosecond_clock_) nanosecond_offset_ = static_cast<std::uint64_t>(layout.clock().nanoseconds(0));
+  if (nanosecond_clock_) {
+    nanosecond_offset_ = static_cast<std::uint64_t>(layout.clock().nanoseconds(0));
+  }
 }
 
 StreamCursor::Item StreamCursor::next() {
@@ -50,7 +52,9 @@ StreamCursor::Item StreamCursor::next() {
       }
       return Item::kEvent;
     }
-    if (!open_packet()) return Item::kEnd;
+    if (!open_packet()) {
+      return Item::kEnd;
+    }
   }
 }
 
@@ -67,7 +71,9 @@ bool StreamCursor::open_packet() {
   at_ = packet.events_bit;
   limit_ = at_;
   is_last_window_ = packet.content_bits == packet.events_bit;
-  if (packet.time_begin) cycles_ = *packet.time_begin;
+  if (packet.time_begin) {
+    cycles_ = *packet.time_begin;
+  }
   return true;
 }
 
@@ -78,7 +84,9 @@ void StreamCursor::move_window(std::size_t size) {
   const std::uint64_t offset = (window_offset_ + at_ / kByte) / kBlock * kBlock;
   const std::uint64_t count = std::min<std::uint64_t>(size, content_bytes - offset);
   // Numbers are read as whole words, also at the end of the window.
-  if (window_.size() < count + sizeof(std::uint64_t)) window_.resize(count + sizeof(std::uint64_t));
+  if (window_.size() < count + sizeof(std::uint64_t)) {
+    window_.resize(count + sizeof(std::uint64_t));
+  }
   packet().file->read(window_.data(), count, packet().offset + offset);
   at_ -= (offset - window_offset_) * kByte;
   window_offset_ = offset;
@@ -98,7 +106,9 @@ void StreamCursor::find_losses(const Packet& packet) {
     const std::uint64_t now = *packet.discarded_events;
     if (before == nullptr) {
       // A running total: it is not known how much of it belongs to this trace.
-      if (now > 0) losses_.push_back({Item::kDiscardedEvents, std::nullopt, begin, end});
+      if (now > 0) {
+        losses_.push_back({Item::kDiscardedEvents, std::nullopt, begin, end});
+      }
     } else if (before->discarded_events && now > *before->discarded_events) {
       losses_.push_back({Item::kDiscardedEvents, now - *before->discarded_events, end_before, end});
     }
@@ -135,14 +145,18 @@ void StreamCursor::advance_clock(std::uint64_t value, std::uint32_t bits) {
 }
 
 void StreamCursor::read_event() {
-  if (!is_last_window_ && limit_ - at_ < kMargin * kByte) move_window(kWindow);
+  if (!is_last_window_ && limit_ - at_ < kMargin * kByte) {
+    move_window(kWindow);
+  }
   const std::uint64_t cycles = cycles_;
   // Where a large event does not fit into the window, a larger window is tried.
   for (std::size_t size = 2 * kWindow;; size *= 2) {
     try {
       return decode_event();
     } catch (const DamagedPacket&) {
-      if (is_last_window_ || size > kLargest) throw;
+      if (is_last_window_ || size > kLargest) {
+        throw;
+      }
     }
     cycles_ = cycles;
     move_window(size);
@@ -157,13 +171,21 @@ void StreamCursor::read_event() {
     throw DamagedPacket("an event goes beyond the end of its packet");
   }
   std::uint64_t id = layout.first_id.size > 0 ? number(header, layout.first_id) : 0;
-  if (layout.has_long_form && id >= layout.long_first && id <= layout.long_last) form = &layout.long_form;
-  if (header + form->end > limit_) throw DamagedPacket("an event goes beyond the end of its packet");
-  if (form->id.size > 0) id = number(header, form->id);
+  if (layout.has_long_form && id >= layout.long_first && id <= layout.long_last) {
+    form = &layout.long_form;
+  }
+  if (header + form->end > limit_) {
+    throw DamagedPacket("an event goes beyond the end of its packet");
+  }
+  if (form->id.size > 0) {
+    id = number(header, form->id);
+  }
   advance_clock(number(header, form->time), form->time.size);
   time_ns_ = nanoseconds(cycles_);
   event_ = layout_.event(id);
-  if (event_ == nullptr) throw UndescribedPacket(fmt::format("an event has the unknown number {}", id));
+  if (event_ == nullptr) {
+    throw UndescribedPacket(fmt::format("an event has the unknown number {}", id));
+  }
   read_structures(header + form->end);
 }
 
@@ -174,13 +196,17 @@ inline const std::uint8_t* StreamCursor::read_simple(const StructureDecoder& dec
   record.base = at;
   record.fields = nullptr;
   if (const auto size = decoder.fixed_size()) {
-    if (*size > static_cast<std::size_t>(end_ - at)) throw DamagedPacket("an event goes beyond the end of its packet");
+    if (*size > static_cast<std::size_t>(end_ - at)) {
+      throw DamagedPacket("an event goes beyond the end of its packet");
+    }
     record.places = decoder.fixed_places();
     return at + *size;
   }
   record.places = places;
   const std::uint8_t* const behind = decoder.decode(at, end_, places);
-  if (behind == nullptr) throw DamagedPacket("an event goes beyond the end of its packet");
+  if (behind == nullptr) {
+    throw DamagedPacket("an event goes beyond the end of its packet");
+  }
   return behind;
 }
 
@@ -208,7 +234,9 @@ void StreamCursor::read_structures(std::uint64_t bit) {
   structures.reserve(std::size(parts));
   for (const Part& part : parts) {
     part.record = {};
-    if (part.decoder.type() == nullptr) continue;
+    if (part.decoder.type() == nullptr) {
+      continue;
+    }
     structures.push_back(decode_structure(*part.decoder.type(), begin_, bit, limit_, scopes, arena_, bit));
     part.record.decoder = &part.decoder;
     part.record.fields = structures.back().children;

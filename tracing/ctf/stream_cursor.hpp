@@ -23,7 +23,9 @@ struct Record {
 
   std::size_t size() const { return decoder == nullptr ? 0 : decoder->size(); }
   Field operator[](std::size_t index) const {  // index < size()
-    if (places == nullptr) return fields[index];
+    if (places == nullptr) {
+      return fields[index];
+    }
     return {decoder->type()->members[index].type.get(), base, std::uint64_t{places[index].offset} * 8,
             places[index].length, nullptr};
   }

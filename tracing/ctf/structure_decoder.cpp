@@ -11,7 +11,9 @@ constexpr std::uint32_t kByte = 8;  // bits
 
 const FieldMember* member_named(const FieldClass& structure, std::string_view name) {
   for (const FieldMember& member : structure.members) {
-    if (member.name == name) return &member;
+    if (member.name == name) {
+      return &member;
+    }
   }
   return nullptr;
 }
@@ -20,7 +22,9 @@ const FieldMember* member_named(const FieldClass& structure, std::string_view na
 
 StructureDecoder::StructureDecoder(FieldClassPtr structure) : structure_(std::move(structure)) {
   is_simple_ = !structure_ || make_steps();
-  if (!is_simple_) return;
+  if (!is_simple_) {
+    return;
+  }
   if (steps_.empty()) {
     fixed_size_ = 0;
   } else if (steps_.size() == 1 && steps_[0].kind == Step::Kind::kFixed) {
@@ -30,8 +34,12 @@ StructureDecoder::StructureDecoder(FieldClassPtr structure) : structure_(std::mo
 
 // The size in bytes of a type that always has the same size and can begin at any byte.
 std::optional<std::uint32_t> StructureDecoder::fixed_bytes(const FieldClass& type) const {
-  if (type.alignment > kByte) return std::nullopt;
-  if (type.is_number() && type.size % kByte == 0 && type.alignment == kByte) return type.size / kByte;
+  if (type.alignment > kByte) {
+    return std::nullopt;
+  }
+  if (type.is_number() && type.size % kByte == 0 && type.alignment == kByte) {
+    return type.size / kByte;
+  }
   if (type.kind == FieldKind::kArray && type.element->is_number()) {
     if (const auto element = fixed_bytes(*type.element); element && type.length < (1U << 20)) {
       return *element * static_cast<std::uint32_t>(type.length);
@@ -42,13 +50,16 @@ std::optional<std::uint32_t> StructureDecoder::fixed_bytes(const FieldClass& typ
 
 bool StructureDecoder::make_steps() {
   const std::vector<FieldMember>& members = structure_->members;
-  if (!members.empty() && structure_->alignment != kByte) return false;
+  if (!members.empty() && structure_->alignment != kByte) {
+    return false;
+  }
   fixed_places_.resize(members.size());
   for (std::uint32_t i = 0; i < members.size(); ++i) {
     const FieldClass& type = *members[i].type;
     if (const auto bytes = fixed_bytes(type)) {
-      if (steps_.empty() || steps_.back().kind != Step::Kind::kFixed)
+      if (steps_.empty() || steps_.back().kind != Step::Kind::kFixed) {
         steps_.push_back({Step::Kind::kFixed, i, 0, 0, 0});
+      }
       Step& step = steps_.back();
       fixed_places_[i] = {step.size, static_cast<std::uint32_t>(type.length)};
       step.size += *bytes;
@@ -61,7 +72,9 @@ bool StructureDecoder::make_steps() {
       std::uint32_t length_member = i;
       while (length_member-- > 0 && members[length_member].name != type.path) {
       }
-      if (!element || length_member >= i || members[length_member].type->kind != FieldKind::kInteger) return false;
+      if (!element || length_member >= i || members[length_member].type->kind != FieldKind::kInteger) {
+        return false;
+      }
       steps_.push_back({Step::Kind::kSequence, i, 1, *element, length_member});
     } else {
       return false;
@@ -77,7 +90,9 @@ const std::uint8_t* StructureDecoder::decode(const std::uint8_t* begin, const st
     const auto left = static_cast<std::size_t>(end - at);
     switch (step.kind) {
       case Step::Kind::kFixed:
-        if (step.size > left) return nullptr;
+        if (step.size > left) {
+          return nullptr;
+        }
         for (std::uint32_t i = step.first; i < step.first + step.count; ++i) {
           places[i] = {offset + fixed_places_[i].offset, fixed_places_[i].length};
         }
@@ -85,7 +100,9 @@ const std::uint8_t* StructureDecoder::decode(const std::uint8_t* begin, const st
         break;
       case Step::Kind::kString: {
         const void* const nul = std::memchr(at, 0, left);
-        if (nul == nullptr) return nullptr;
+        if (nul == nullptr) {
+          return nullptr;
+        }
         const auto length = static_cast<std::uint32_t>(static_cast<const std::uint8_t*>(nul) - at);
         places[step.first] = {offset, length};
         at += length + 1;
@@ -95,7 +112,9 @@ const std::uint8_t* StructureDecoder::decode(const std::uint8_t* begin, const st
         const Field length{structure_->members[step.length_member].type.get(), begin,
                            std::uint64_t{places[step.length_member].offset} * kByte, 0, nullptr};
         const std::uint64_t count = length.raw();
-        if (count > left || count * step.size > left) return nullptr;
+        if (count > left || count * step.size > left) {
+          return nullptr;
+        }
         places[step.first] = {offset, static_cast<std::uint32_t>(count)};
         at += count * step.size;
         break;
@@ -106,17 +125,27 @@ const std::uint8_t* StructureDecoder::decode(const std::uint8_t* begin, const st
 }
 
 std::optional<std::size_t> StructureDecoder::index_of(std::string_view member) const {
-  if (!structure_) return std::nullopt;
+  if (!structure_) {
+    return std::nullopt;
+  }
   const FieldMember* const found = member_named(*structure_, member);
-  if (found == nullptr) return std::nullopt;
+  if (found == nullptr) {
+    return std::nullopt;
+  }
   return static_cast<std::size_t>(found - structure_->members.data());
 }
 
 Field* FieldArena::allocate(std::size_t count) {
-  if (count > kBlock) return large_.emplace_back(std::make_unique<Field[]>(count)).get();
+  if (count > kBlock) {
+    return large_.emplace_back(std::make_unique<Field[]>(count)).get();
+  }
   if (blocks_.empty() || used_ + count > kBlock) {
-    if (!blocks_.empty()) ++block_;
-    if (block_ == blocks_.size()) blocks_.push_back(std::make_unique<Field[]>(kBlock));
+    if (!blocks_.empty()) {
+      ++block_;
+    }
+    if (block_ == blocks_.size()) {
+      blocks_.push_back(std::make_unique<Field[]>(kBlock));
+    }
     used_ = 0;
   }
   Field* const allocated = &blocks_[block_][used_];
@@ -174,7 +203,9 @@ class GeneralDecoder {
 
   void align(std::uint32_t alignment) { at_ = (at_ + alignment - 1) / alignment * alignment; }
   void advance(std::uint64_t bits) {
-    if (bits > limit_ || at_ > limit_ - bits) throw DamagedPacket("an event goes beyond the end of its packet");
+    if (bits > limit_ || at_ > limit_ - bits) {
+      throw DamagedPacket("an event goes beyond the end of its packet");
+    }
     at_ += bits;
   }
 
@@ -188,7 +219,9 @@ class GeneralDecoder {
     const std::uint8_t* const bytes = packet_ + at_ / kByte;
     const std::size_t left = at_ < limit_ ? (limit_ - at_) / kByte : 0;
     const void* const nul = left > 0 ? std::memchr(bytes, 0, left) : nullptr;
-    if (nul == nullptr) throw DamagedPacket("a string goes beyond the end of its packet");
+    if (nul == nullptr) {
+      throw DamagedPacket("a string goes beyond the end of its packet");
+    }
     const auto length = static_cast<std::uint64_t>(static_cast<const std::uint8_t*>(nul) - bytes);
     const Field field{&type, packet_, at_, length, nullptr};
     advance((length + 1) * kByte);
@@ -201,7 +234,9 @@ class GeneralDecoder {
     field.children = members;
     Open open{&type, members, 0, open_};
     open_ = &open;
-    for (; open.count < type.members.size(); ++open.count) members[open.count] = decode(*type.members[open.count].type);
+    for (; open.count < type.members.size(); ++open.count) {
+      members[open.count] = decode(*type.members[open.count].type);
+    }
     open_ = open.outer;
     return field;
   }
@@ -209,8 +244,12 @@ class GeneralDecoder {
   Field variant(const FieldClass& type) {
     const std::string_view label = find(type.path).label();
     const FieldMember* option = member_named(type, label);
-    if (option == nullptr && label.starts_with('_')) option = member_named(type, label.substr(1));
-    if (option == nullptr) throw DamagedPacket("a variant has no option for its selector");
+    if (option == nullptr && label.starts_with('_')) {
+      option = member_named(type, label.substr(1));
+    }
+    if (option == nullptr) {
+      throw DamagedPacket("a variant has no option for its selector");
+    }
     Field* const chosen = arena_.allocate(1);
     Field field{&type, packet_, at_, 1, chosen};
     *chosen = decode(*option->type);
@@ -220,16 +259,22 @@ class GeneralDecoder {
   Field elements(const FieldClass& type, std::uint64_t count) {
     Field field{&type, packet_, at_, count, nullptr};
     const FieldClass& element = *type.element;
-    if (count > limit_) throw DamagedPacket("an array goes beyond the end of its packet");
+    if (count > limit_) {
+      throw DamagedPacket("an array goes beyond the end of its packet");
+    }
     if (element.is_number()) {
       const std::uint64_t step = (element.size + element.alignment - 1) / element.alignment * element.alignment;
-      if (count > 0) advance((count - 1) * step + element.size);
+      if (count > 0) {
+        advance((count - 1) * step + element.size);
+      }
       return field;
     }
     check_count(element, count);
     Field* const elements = arena_.allocate(count);
     field.children = elements;
-    for (std::uint64_t i = 0; i < count; ++i) elements[i] = decode(element);
+    for (std::uint64_t i = 0; i < count; ++i) {
+      elements[i] = decode(element);
+    }
     return field;
   }
 
@@ -240,7 +285,9 @@ class GeneralDecoder {
       throw DamagedPacket("an array goes beyond the end of its packet");
     }
     std::uint64_t& left = bits == 0 ? empty_left_ : elements_left_;
-    if (count > left) throw DamagedPacket("an array has too many elements");
+    if (count > left) {
+      throw DamagedPacket("an array has too many elements");
+    }
     left -= count;
   }
 
@@ -250,11 +297,15 @@ class GeneralDecoder {
     const std::string_view first = path.substr(0, dot);
     for (const Open* open = open_; open != nullptr; open = open->outer) {
       for (std::size_t i = open->count; i-- > 0;) {
-        if (open->type->members[i].name == first) return inside(open->members[i], path.substr(first.size()));
+        if (open->type->members[i].name == first) {
+          return inside(open->members[i], path.substr(first.size()));
+        }
       }
     }
     for (const FieldScope& scope : scopes_) {
-      if (scope.structure == nullptr) continue;
+      if (scope.structure == nullptr) {
+        continue;
+      }
       if (path.starts_with(scope.path) && path.substr(scope.path.size()).starts_with('.')) {
         return inside(*scope.structure, path.substr(scope.path.size()));
       }
@@ -269,7 +320,9 @@ class GeneralDecoder {
       const std::string_view name = path.substr(0, path.find('.'));
       const FieldMember* const member =
           field.type->kind == FieldKind::kStructure ? member_named(*field.type, name) : nullptr;
-      if (member == nullptr) throw DamagedPacket("there is no field " + std::string(name));
+      if (member == nullptr) {
+        throw DamagedPacket("there is no field " + std::string(name));
+      }
       field = field.children[member - field.type->members.data()];
       path.remove_prefix(name.size());
     }

@@ -17,14 +17,18 @@ std::int64_t Clock::nanoseconds(std::uint64_t cycles) const {
 
 std::optional<std::int64_t> TraceClass::environment_number(const std::string& name) const {
   const auto found = environment.find(name);
-  if (found == environment.end()) return std::nullopt;
+  if (found == environment.end()) {
+    return std::nullopt;
+  }
   const auto* const number = std::get_if<std::int64_t>(&found->second);
   return number ? std::optional(*number) : std::nullopt;
 }
 
 std::string TraceClass::environment_text(const std::string& name) const {
   const auto found = environment.find(name);
-  if (found == environment.end()) return {};
+  if (found == environment.end()) {
+    return {};
+  }
   const auto* const text = std::get_if<std::string>(&found->second);
   return text ? *text : std::string();
 }

@@ -23,31 +23,45 @@ const Token& TsdlCursor::peek(std::size_t ahead) const {
 
 const Token& TsdlCursor::take() {
   const Token& token = peek();
-  if (at_ + 1 < tokens_.size()) ++at_;
+  if (at_ + 1 < tokens_.size()) {
+    ++at_;
+  }
   return token;
 }
 
 bool TsdlCursor::take_if(std::string_view text) {
-  if (!peek().is(text)) return false;
+  if (!peek().is(text)) {
+    return false;
+  }
   take();
   return true;
 }
 
 void TsdlCursor::expect(std::string_view text) {
-  if (!take_if(text)) fail(fmt::format("expected '{}', found '{}'", text, peek().text));
+  if (!take_if(text)) {
+    fail(fmt::format("expected '{}', found '{}'", text, peek().text));
+  }
 }
 
 std::string TsdlCursor::take_path() {
-  if (!at_name()) fail(fmt::format("expected a name, found '{}'", peek().text));
+  if (!at_name()) {
+    fail(fmt::format("expected a name, found '{}'", peek().text));
+  }
   std::string path = take().text;
-  while (take_if(".")) path += "." + take().text;
+  while (take_if(".")) {
+    path += "." + take().text;
+  }
   return path;
 }
 
 std::string TsdlCursor::take_field_path() {
-  if (!at_name()) fail(fmt::format("expected a field, found '{}'", peek().text));
+  if (!at_name()) {
+    fail(fmt::format("expected a field, found '{}'", peek().text));
+  }
   std::string path = without_underscore(take().text);
-  while (take_if(".")) path += "." + without_underscore(take().text);
+  while (take_if(".")) {
+    path += "." + without_underscore(take().text);
+  }
   return path;
 }
 
@@ -55,7 +69,9 @@ TsdlValue TsdlCursor::take_value() {
   TsdlValue value;
   if (peek().kind == Token::Kind::kString) {
     value.kind = TsdlValue::Kind::kString;
-    while (peek().kind == Token::Kind::kString) value.text += take().text;
+    while (peek().kind == Token::Kind::kString) {
+      value.text += take().text;
+    }
   } else if (at_name()) {
     value.kind = TsdlValue::Kind::kPath;
     value.text = take_path();
@@ -67,8 +83,12 @@ TsdlValue TsdlCursor::take_value() {
 
 std::int64_t TsdlCursor::take_number() {
   const bool negative = take_if("-");
-  if (!negative) take_if("+");
-  if (peek().kind != Token::Kind::kNumber) fail(fmt::format("expected a number, found '{}'", peek().text));
+  if (!negative) {
+    take_if("+");
+  }
+  if (peek().kind != Token::Kind::kNumber) {
+    fail(fmt::format("expected a number, found '{}'", peek().text));
+  }
   const std::uint64_t number = take().number;
   return static_cast<std::int64_t>(negative ? 0 - number : number);
 }

@@ -30,7 +30,9 @@ class Scanner {
     skip_space();
     Token token;
     token.line = line_;
-    if (at_ == text_.size()) return token;
+    if (at_ == text_.size()) {
+      return token;
+    }
     const char c = text_[at_];
     if (starts_name(c)) {
       token.kind = Token::Kind::kName;
@@ -64,7 +66,9 @@ class Scanner {
         line_ += static_cast<std::size_t>(std::count(rest.begin(), rest.begin() + static_cast<long>(length), '\n'));
         at_ += length;
       } else if (rest[0] == ' ' || rest[0] == '\t' || rest[0] == '\r' || rest[0] == '\n' || rest[0] == '\0') {
-        if (rest[0] == '\n') ++line_;
+        if (rest[0] == '\n') {
+          ++line_;
+        }
         ++at_;
       } else {
         return;
@@ -74,7 +78,9 @@ class Scanner {
 
   std::string take_while(bool (*belongs)(char)) {
     const std::size_t begin = at_;
-    while (at_ < text_.size() && belongs(text_[at_])) ++at_;
+    while (at_ < text_.size() && belongs(text_[at_])) {
+      ++at_;
+    }
     return std::string(text_.substr(begin, at_ - begin));
   }
 
@@ -91,7 +97,9 @@ class Scanner {
     }
     std::uint64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, base);
-    if (error != std::errc() || end != text.data() + text.size()) fail(fmt::format("'{}' is not a number", text));
+    if (error != std::errc() || end != text.data() + text.size()) {
+      fail(fmt::format("'{}' is not a number", text));
+    }
     return value;
   }
 
@@ -105,8 +113,12 @@ class Scanner {
       }
       if (c == '\\' && at_ + 1 < text_.size()) {
         c = text_[++at_];
-        if (c == 'n') c = '\n';
-        if (c == 't') c = '\t';
+        if (c == 'n') {
+          c = '\n';
+        }
+        if (c == 't') {
+          c = '\t';
+        }
       } else if (c == '\n') {
         ++line_;
       }
@@ -124,7 +136,9 @@ class Scanner {
       }
     }
     constexpr std::string_view kSingle = "{}[]()<>;:,=.+-*";
-    if (kSingle.find(text_[at_]) == std::string_view::npos) fail(fmt::format("unexpected '{}'", text_[at_]));
+    if (kSingle.find(text_[at_]) == std::string_view::npos) {
+      fail(fmt::format("unexpected '{}'", text_[at_]));
+    }
     return std::string(1, text_[at_++]);
   }
 

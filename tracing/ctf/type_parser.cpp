@@ -11,7 +11,9 @@ namespace tracing::ctf {
 class TypeParser::Level {
  public:
   explicit Level(TypeParser& parser) : level_(parser.level_) {
-    if (level_ == kMostLevels) parser.cursor_.fail(fmt::format("more than {} types inside one another", kMostLevels));
+    if (level_ == kMostLevels) {
+      parser.cursor_.fail(fmt::format("more than {} types inside one another", kMostLevels));
+    }
     ++level_;
   }
   ~Level() { --level_; }
@@ -29,8 +31,12 @@ std::vector<TsdlEntry> TypeParser::parse_block() {
   scopes_.emplace_back();
   std::vector<TsdlEntry> entries;
   while (!cursor_.take_if("}")) {
-    if (cursor_.peek().kind == Token::Kind::kEnd) cursor_.fail("a block has no end");
-    if (cursor_.take_if(";")) continue;
+    if (cursor_.peek().kind == Token::Kind::kEnd) {
+      cursor_.fail("a block has no end");
+    }
+    if (cursor_.take_if(";")) {
+      continue;
+    }
     if (cursor_.peek().is("typealias")) {
       parse_type_alias();
       continue;
@@ -57,7 +63,9 @@ void TypeParser::parse_type_alias() {
   FieldClassPtr type = parse_type();
   cursor_.expect(":=");
   std::string name;
-  while (cursor_.at_name()) name += (name.empty() ? "" : " ") + cursor_.take().text;
+  while (cursor_.at_name()) {
+    name += (name.empty() ? "" : " ") + cursor_.take().text;
+  }
   cursor_.expect(";");
   scopes_.back()[name] = std::move(type);
 }
@@ -73,10 +81,18 @@ FieldClassPtr TypeParser::parse_type() {
     const std::vector<TsdlEntry> entries = parse_block();
     return real_type(entries, is_big_endian_, cursor_.line());
   }
-  if (word.is("string")) return parse_string();
-  if (word.is("struct")) return parse_structure();
-  if (word.is("variant")) return parse_variant();
-  if (word.is("enum")) return parse_enumeration();
+  if (word.is("string")) {
+    return parse_string();
+  }
+  if (word.is("struct")) {
+    return parse_structure();
+  }
+  if (word.is("variant")) {
+    return parse_variant();
+  }
+  if (word.is("enum")) {
+    return parse_enumeration();
+  }
   return parse_named_type();
 }
 
@@ -85,7 +101,9 @@ FieldClassPtr TypeParser::parse_named_type() {
   while (cursor_.at_name()) {
     const std::string longer = name + (name.empty() ? "" : " ") + cursor_.peek().text;
     // `unsigned long x;`: all names but the last, unless all of them are the type.
-    if (!name.empty() && known_type(name) && !known_type(longer)) break;
+    if (!name.empty() && known_type(name) && !known_type(longer)) {
+      break;
+    }
     name = longer;
     cursor_.take();
   }
@@ -106,7 +124,9 @@ FieldClassPtr TypeParser::parse_string() {
 FieldClassPtr TypeParser::parse_structure() {
   cursor_.take();
   const std::string name = cursor_.at_name() ? "struct " + cursor_.take().text : "";
-  if (!cursor_.peek().is("{")) return named(name);
+  if (!cursor_.peek().is("{")) {
+    return named(name);
+  }
   FieldClass structure;
   structure.kind = FieldKind::kStructure;
   structure.members = parse_members();
@@ -138,7 +158,9 @@ FieldClassPtr TypeParser::parse_variant() {
   } else {
     variant = *named(name);
   }
-  if (!path.empty()) variant.path = path;
+  if (!path.empty()) {
+    variant.path = path;
+  }
   return declare(name, std::move(variant));
 }
 
@@ -147,10 +169,18 @@ FieldClassPtr TypeParser::parse_enumeration() {
   cursor_.take();
   const std::string name = cursor_.at_name() ? "enum " + cursor_.take().text : "";
   FieldClassPtr container;
-  if (cursor_.take_if(":")) container = parse_type();
-  if (!cursor_.peek().is("{")) return named(name);
-  if (!container) container = known_type("int");
-  if (!container || container->kind != FieldKind::kInteger) cursor_.fail("an enumeration of an unknown integer");
+  if (cursor_.take_if(":")) {
+    container = parse_type();
+  }
+  if (!cursor_.peek().is("{")) {
+    return named(name);
+  }
+  if (!container) {
+    container = known_type("int");
+  }
+  if (!container || container->kind != FieldKind::kInteger) {
+    cursor_.fail("an enumeration of an unknown integer");
+  }
   FieldClass enumeration = *container;
   enumeration.kind = FieldKind::kEnumeration;
   enumeration.ranges = parse_ranges();
@@ -163,15 +193,21 @@ std::vector<EnumerationRange> TypeParser::parse_ranges() {
   std::vector<EnumerationRange> ranges;
   std::int64_t next = 0;
   while (!cursor_.take_if("}")) {
-    if (!cursor_.at_name() && cursor_.peek().kind != Token::Kind::kString) cursor_.fail("expected a label");
+    if (!cursor_.at_name() && cursor_.peek().kind != Token::Kind::kString) {
+      cursor_.fail("expected a label");
+    }
     EnumerationRange range{cursor_.take().text, next, next};
     if (cursor_.take_if("=")) {
       range.first = range.last = cursor_.take_number();
-      if (cursor_.take_if("...")) range.last = cursor_.take_number();
+      if (cursor_.take_if("...")) {
+        range.last = cursor_.take_number();
+      }
     }
     next = static_cast<std::int64_t>(static_cast<std::uint64_t>(range.last) + 1);
     ranges.push_back(std::move(range));
-    if (!cursor_.peek().is("}")) cursor_.expect(",");
+    if (!cursor_.peek().is("}")) {
+      cursor_.expect(",");
+    }
   }
   return ranges;
 }
@@ -181,7 +217,9 @@ std::vector<FieldMember> TypeParser::parse_members() {
   scopes_.emplace_back();
   std::vector<FieldMember> members;
   while (!cursor_.take_if("}")) {
-    if (cursor_.peek().kind == Token::Kind::kEnd) cursor_.fail("a structure has no end");
+    if (cursor_.peek().kind == Token::Kind::kEnd) {
+      cursor_.fail("a structure has no end");
+    }
     if (cursor_.peek().is("typealias")) {
       parse_type_alias();
       continue;
@@ -225,19 +263,25 @@ FieldMember TypeParser::parse_declarator(FieldClassPtr type) {
 
 FieldClassPtr TypeParser::known_type(const std::string& name) const {
   for (auto scope = scopes_.rbegin(); scope != scopes_.rend(); ++scope) {
-    if (const auto found = scope->find(name); found != scope->end()) return found->second;
+    if (const auto found = scope->find(name); found != scope->end()) {
+      return found->second;
+    }
   }
   return nullptr;
 }
 
 FieldClassPtr TypeParser::named(const std::string& name) const {
-  if (FieldClassPtr type = known_type(name)) return type;
+  if (FieldClassPtr type = known_type(name)) {
+    return type;
+  }
   cursor_.fail(fmt::format("unknown type '{}'", name));
 }
 
 FieldClassPtr TypeParser::declare(const std::string& name, FieldClass type) {
   FieldClassPtr declared = checked(std::move(type));
-  if (!name.empty()) scopes_.back()[name] = declared;
+  if (!name.empty()) {
+    scopes_.back()[name] = declared;
+  }
   return declared;
 }
 
@@ -246,7 +290,9 @@ FieldClassPtr TypeParser::checked(FieldClass type) const {
   if (complete_type->depth > kMostLevels) {
     cursor_.fail(fmt::format("more than {} types inside one another", kMostLevels));
   }
-  if (complete_type->fields > kMostFields) cursor_.fail(fmt::format("a type with more than {} fields", kMostFields));
+  if (complete_type->fields > kMostFields) {
+    cursor_.fail(fmt::format("a type with more than {} fields", kMostFields));
+  }
   return complete_type;
 }
 

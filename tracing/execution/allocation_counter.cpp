@@ -6,7 +6,9 @@
 namespace tracing {
 
 void AllocationCounter::add(std::vector<AllocationCount>& counts, std::size_t id, std::uint64_t bytes) {
-  if (id >= counts.size()) counts.resize(id + 1);
+  if (id >= counts.size()) {
+    counts.resize(id + 1);
+  }
   ++counts[id].calls;
   counts[id].bytes += bytes;
 }
@@ -18,15 +20,21 @@ void AllocationCounter::on_callback_begin(const CallbackInstance& instance) {
 void AllocationCounter::on_callback(const CallbackInstance& instance) {
   std::vector<ObjectId>& active = active_[instance.thread];
   const auto innermost = std::find(active.rbegin(), active.rend(), instance.callback);
-  if (innermost != active.rend()) active.erase(std::next(innermost).base());
+  if (innermost != active.rend()) {
+    active.erase(std::next(innermost).base());
+  }
 }
 
 void AllocationCounter::on_allocation(const Allocation& allocation) {
   add(processes_, allocation.thread.process, allocation.bytes);
   const std::vector<ObjectId>* const active = active_.find(allocation.thread);
-  if (active == nullptr || active->empty()) return;
+  if (active == nullptr || active->empty()) {
+    return;
+  }
   const ObjectId node = model_.node_of(model_.callbacks()[active->back()]);
-  if (node != kNoObject) add(nodes_, node, allocation.bytes);
+  if (node != kNoObject) {
+    add(nodes_, node, allocation.bytes);
+  }
 }
 
 }  // namespace tracing

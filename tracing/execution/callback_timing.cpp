@@ -7,7 +7,9 @@
 namespace tracing {
 
 CallbackTimingRecord& CallbackTiming::record(ObjectId callback) {
-  if (callback >= records_.size()) records_.resize(callback + 1);
+  if (callback >= records_.size()) {
+    records_.resize(callback + 1);
+  }
   return records_[callback];
 }
 
@@ -28,10 +30,14 @@ void CallbackTiming::on_callback_begin(const CallbackInstance& instance) {
   timing.last_begin_ns = instance.begin_ns;
   timing.intervals.add(interval);
   const std::int64_t period = period_of(instance.callback);
-  if (period <= 0) return;
+  if (period <= 0) {
+    return;
+  }
   timing.jitter.add(std::abs(interval - period));
   // An interval of one and a half periods still is one late call.
-  if (interval > period + period / 2) timing.missed += static_cast<std::uint64_t>((interval + period / 2) / period - 1);
+  if (interval > period + period / 2) {
+    timing.missed += static_cast<std::uint64_t>((interval + period / 2) / period - 1);
+  }
 }
 
 void CallbackTiming::on_callback(const CallbackInstance& instance) {
@@ -42,7 +48,9 @@ void CallbackTiming::on_callback(const CallbackInstance& instance) {
   Thread& thread = threads_[instance.thread];
   const auto innermost = std::find_if(thread.active.rbegin(), thread.active.rend(),
                                       [&](const Active& active) { return active.callback == instance.callback; });
-  if (innermost == thread.active.rend()) return;
+  if (innermost == thread.active.rend()) {
+    return;
+  }
   if (thread.is_scheduled && instance.finished) {
     CallbackTimingRecord& timing = record(instance.callback);
     timing.running.add(instance.end_ns - instance.begin_ns - innermost->runnable_ns - innermost->blocked_ns);
@@ -55,7 +63,9 @@ void CallbackTiming::on_callback(const CallbackInstance& instance) {
 void CallbackTiming::on_allocation(const Allocation& allocation) {
   has_allocations_ = true;
   const Thread* const thread = threads_.find(allocation.thread);
-  if (thread == nullptr || thread->active.empty()) return;
+  if (thread == nullptr || thread->active.empty()) {
+    return;
+  }
   CallbackTimingRecord& timing = record(thread->active.back().callback);
   ++timing.allocations;
   timing.allocated_bytes += allocation.bytes;
@@ -65,7 +75,9 @@ void CallbackTiming::on_allocation(const Allocation& allocation) {
 void CallbackTiming::on_thread_state(const ThreadInterval& interval) {
   Thread& thread = threads_[interval.thread];
   thread.is_scheduled = true;
-  if (interval.state == ThreadInterval::State::kRunning) return;
+  if (interval.state == ThreadInterval::State::kRunning) {
+    return;
+  }
   for (Active& active : thread.active) {
     const std::int64_t took = interval.end_ns - std::max(interval.begin_ns, active.begin_ns);
     if (interval.state == ThreadInterval::State::kBlocked) {

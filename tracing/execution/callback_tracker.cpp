@@ -31,21 +31,29 @@ std::optional<ActiveCallback> CallbackTracker::start(std::vector<ActiveCallback>
 std::optional<ActiveCallback> CallbackTracker::end(std::vector<ActiveCallback>& thread, ros2::Handle address,
                                                    std::int64_t time_ns) {
   const auto active = find_active(thread, address);
-  if (active == thread.end()) return std::nullopt;
+  if (active == thread.end()) {
+    return std::nullopt;
+  }
   const ActiveCallback instance = *active;
   CallbackRecord& ended = record(instance.callback);
   ended.durations.add(time_ns - instance.start_ns);
-  if (instance.intra_process) ++ended.intra_process;
+  if (instance.intra_process) {
+    ++ended.intra_process;
+  }
   thread.erase(active);
   return instance;
 }
 
 void CallbackTracker::abandon(const std::vector<ActiveCallback>& thread) {
-  for (const ActiveCallback& active : thread) ++record(active.callback).unfinished;
+  for (const ActiveCallback& active : thread) {
+    ++record(active.callback).unfinished;
+  }
 }
 
 CallbackRecord& CallbackTracker::record(ObjectId callback) {
-  if (callback >= records_.size()) records_.resize(callback + 1);
+  if (callback >= records_.size()) {
+    records_.resize(callback + 1);
+  }
   return records_[callback];
 }
 

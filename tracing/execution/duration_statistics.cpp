@@ -15,14 +15,18 @@ constexpr std::uint64_t kBucketsOfADoubling = std::uint64_t{1} << kBits;
 
 std::size_t bucket_of(std::int64_t duration_ns) {
   const auto value = static_cast<std::uint64_t>(std::max<std::int64_t>(duration_ns, 0));
-  if (value < kBucketsOfADoubling) return value;
+  if (value < kBucketsOfADoubling) {
+    return value;
+  }
   const unsigned shift = static_cast<unsigned>(std::bit_width(value)) - kBits - 1;
   return shift * kBucketsOfADoubling + (value >> shift);
 }
 
 // The value in the middle of a bucket.
 std::int64_t middle_of(std::size_t bucket) {
-  if (bucket < 2 * kBucketsOfADoubling) return static_cast<std::int64_t>(bucket);
+  if (bucket < 2 * kBucketsOfADoubling) {
+    return static_cast<std::int64_t>(bucket);
+  }
   const auto shift = static_cast<unsigned>(bucket / kBucketsOfADoubling - 1);
   const std::uint64_t lowest = (bucket % kBucketsOfADoubling + kBucketsOfADoubling) << shift;
   return static_cast<std::int64_t>(lowest + (std::uint64_t{1} << (shift - 1)));
@@ -43,7 +47,9 @@ void DurationStatistics::add(std::int64_t duration_ns) {
     return;
   }
   if (histogram_.empty()) {
-    for (const std::int64_t kept : kept_) count_in_histogram(kept);
+    for (const std::int64_t kept : kept_) {
+      count_in_histogram(kept);
+    }
     kept_ = {};
   }
   count_in_histogram(duration_ns);
@@ -51,14 +57,20 @@ void DurationStatistics::add(std::int64_t duration_ns) {
 
 void DurationStatistics::add(const DurationStatistics& other) {
   if (other.histogram_.empty()) {
-    for (const std::int64_t duration : other.kept_) add(duration);
+    for (const std::int64_t duration : other.kept_) {
+      add(duration);
+    }
     return;
   }
   if (histogram_.empty()) {
-    for (const std::int64_t kept : kept_) count_in_histogram(kept);
+    for (const std::int64_t kept : kept_) {
+      count_in_histogram(kept);
+    }
     kept_ = {};
   }
-  if (histogram_.size() < other.histogram_.size()) histogram_.resize(other.histogram_.size());
+  if (histogram_.size() < other.histogram_.size()) {
+    histogram_.resize(other.histogram_.size());
+  }
   for (std::size_t bucket = 0; bucket < other.histogram_.size(); ++bucket) {
     histogram_[bucket] += other.histogram_[bucket];
   }
@@ -75,23 +87,31 @@ void DurationStatistics::add(const DurationStatistics& other) {
 
 void DurationStatistics::count_in_histogram(std::int64_t duration_ns) {
   const std::size_t bucket = bucket_of(duration_ns);
-  if (bucket >= histogram_.size()) histogram_.resize(bucket + 1);
+  if (bucket >= histogram_.size()) {
+    histogram_.resize(bucket + 1);
+  }
   ++histogram_[bucket];
 }
 
 std::int64_t DurationStatistics::percentile(std::uint64_t per_ten_thousand,
                                             const std::vector<std::int64_t>& sorted) const {
   const std::uint64_t rank = (count_ * per_ten_thousand + 9'999) / 10'000;  // rounded up, from 1
-  if (histogram_.empty()) return sorted[rank - 1];
+  if (histogram_.empty()) {
+    return sorted[rank - 1];
+  }
   std::uint64_t below = 0;
   std::size_t bucket = 0;
-  while (below + histogram_[bucket] < rank) below += histogram_[bucket++];
+  while (below + histogram_[bucket] < rank) {
+    below += histogram_[bucket++];
+  }
   return std::clamp(middle_of(bucket), min_, max_);
 }
 
 DurationSummary DurationStatistics::summary() const {
   DurationSummary result;
-  if (count_ == 0) return result;
+  if (count_ == 0) {
+    return result;
+  }
   std::vector<std::int64_t> sorted = kept_;
   std::sort(sorted.begin(), sorted.end());
   result.count = count_;

@@ -10,7 +10,9 @@ void ExecutionTracker::start(std::optional<ActiveExecution>& thread, const Serve
 
 void ExecutionTracker::end(std::optional<ActiveExecution>& thread, ros2::ExecutionEvent::Kind kind,
                            std::int64_t time_ns) {
-  if (!thread || thread->served.kind != kind) return;
+  if (!thread || thread->served.kind != kind) {
+    return;
+  }
   records_[thread->served].durations.add(time_ns - thread->start_ns);
   thread.reset();
 }

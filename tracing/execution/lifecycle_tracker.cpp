@@ -38,7 +38,9 @@ void LifecycleTracker::change(const Origin& origin, ros2::Handle state_machine, 
   const auto [found, is_new] = current_.try_emplace({origin.process, state_machine});
   LifecycleRecord& current = found->second;
   // An event between was lost when the node was not in the state that it leaves.
-  if (!is_new && current.state == from) leave(current, origin.process, origin.time_ns, true, sink);
+  if (!is_new && current.state == from) {
+    leave(current, origin.process, origin.time_ns, true, sink);
+  }
   enter(current, origin.process, current.node, to, origin.time_ns);
 }
 
@@ -46,22 +48,30 @@ void LifecycleTracker::state(const Origin& origin, ros2::Handle state_machine, s
                              ExecutionSink* sink) {
   const auto [found, is_new] = current_.try_emplace({origin.process, state_machine});
   LifecycleRecord& current = found->second;
-  if (!is_new && current.state == state) return;
+  if (!is_new && current.state == state) {
+    return;
+  }
   // The state dump announces the state machine just before: nothing is known about the time since it began.
   const bool just_announced = !is_new && current.state == "unconfigured";
-  if (!is_new && !just_announced) leave(current, origin.process, origin.time_ns, true, sink);
+  if (!is_new && !just_announced) {
+    leave(current, origin.process, origin.time_ns, true, sink);
+  }
   enter(current, origin.process, current.node, state, origin.time_ns);
 }
 
 void LifecycleTracker::end(const Origin& origin, ros2::Handle state_machine, ExecutionSink* sink) {
   const auto found = current_.find({origin.process, state_machine});
-  if (found == current_.end()) return;
+  if (found == current_.end()) {
+    return;
+  }
   leave(found->second, origin.process, origin.time_ns, true, sink);
   current_.erase(found);
 }
 
 void LifecycleTracker::finish(std::int64_t end_ns, ExecutionSink* sink) {
-  for (auto& [key, current] : current_) leave(current, key.first, end_ns, false, sink);
+  for (auto& [key, current] : current_) {
+    leave(current, key.first, end_ns, false, sink);
+  }
   current_.clear();
 }
 

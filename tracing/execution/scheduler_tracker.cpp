@@ -22,11 +22,15 @@ SchedulerTracker::Plan SchedulerTracker::plan_of(const EventClass& event_class) 
     const auto previous_state = event_class.index_of("prev_state");
     const auto previous_name = event_class.index_of("prev_comm");
     const auto next_tid = event_class.index_of("next_tid");
-    if (!previous_tid || !previous_state || !previous_name || !next_tid) return plan;
+    if (!previous_tid || !previous_state || !previous_name || !next_tid) {
+      return plan;
+    }
     plan = {Kind::kSwitch, *previous_tid, *previous_state, *previous_name, *next_tid, 0};
   } else if (event_class.name == "sched_wakeup" || event_class.name == "sched_waking" ||
              event_class.name == "sched_wakeup_new") {
-    if (const auto tid = event_class.index_of("tid")) plan = {Kind::kWakeup, 0, 0, 0, 0, *tid};
+    if (const auto tid = event_class.index_of("tid")) {
+      plan = {Kind::kWakeup, 0, 0, 0, 0, *tid};
+    }
   }
   return plan;
 }
@@ -53,7 +57,9 @@ void SchedulerTracker::on_switch(const Event& event, const Plan& plan, ProcessId
   const std::int64_t cpu = event.cpu_id.value_or(0);
   if (previous_tid != 0) {  // the idle thread of each processor has number 0
     KernelThread& previous = thread(previous_tid);
-    if (!previous.id) previous.id = ThreadId{process, event.vtid.value_or(previous_tid)};
+    if (!previous.id) {
+      previous.id = ThreadId{process, event.vtid.value_or(previous_tid)};
+    }
     const std::int64_t state = number(event, plan.previous_state);
     previous.cpu = cpu;
     change(previous, state == kRunning || state == kPreempted ? State::kRunnable : State::kBlocked, event.timestamp_ns,
@@ -71,10 +77,16 @@ void SchedulerTracker::on_switch(const Event& event, const Plan& plan, ProcessId
 
 bool SchedulerTracker::on_event(const Event& event, ProcessId process) {
   const std::size_t id = event.event_class->id;
-  if (id >= plans_.size()) plans_.resize(id + 1);
-  if (!plans_[id]) plans_[id] = plan_of(*event.event_class);
+  if (id >= plans_.size()) {
+    plans_.resize(id + 1);
+  }
+  if (!plans_[id]) {
+    plans_[id] = plan_of(*event.event_class);
+  }
   const Plan& plan = *plans_[id];
-  if (plan.kind == Kind::kOther) return false;
+  if (plan.kind == Kind::kOther) {
+    return false;
+  }
   if (plan.kind == Kind::kSwitch) {
     on_switch(event, plan, process);
     return true;

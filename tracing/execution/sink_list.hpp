@@ -29,7 +29,9 @@ class SinkList : public ExecutionSink {
  private:
   template <class Fact>
   void tell(void (ExecutionSink::*what)(const Fact&), const Fact& fact) {
-    for (ExecutionSink* sink : sinks_) (sink->*what)(fact);
+    for (ExecutionSink* sink : sinks_) {
+      (sink->*what)(fact);
+    }
   }
 
   std::vector<ExecutionSink*> sinks_;

@@ -21,9 +21,13 @@ class ThreadMap {
   }
   // Null when nothing is known.
   State* find(const ThreadId& thread) {
-    if (last_ != nullptr && thread == last_id_) return last_;
+    if (last_ != nullptr && thread == last_id_) {
+      return last_;
+    }
     const auto found = states_.find(thread);
-    if (found == states_.end()) return nullptr;
+    if (found == states_.end()) {
+      return nullptr;
+    }
     last_ = &found->second;
     last_id_ = thread;
     return last_;

@@ -56,7 +56,9 @@ void append(std::string& line, const Cell& cell) {
     fmt::format_to(std::back_inserter(line), "{}", cell);
   } else if constexpr (std::is_same_v<Cell, ros2::Gid>) {
     std::string list = "[";
-    for (std::size_t i = 0; i < cell.size; ++i) list += fmt::format("{}{}", i == 0 ? "" : ", ", cell.bytes[i]);
+    for (std::size_t i = 0; i < cell.size; ++i) {
+      list += fmt::format("{}{}", i == 0 ? "" : ", ", cell.bytes[i]);
+    }
     append_csv_text(line, list + "]");
   } else {
     append_csv_text(line, cell);
@@ -71,7 +73,9 @@ AnalysisModelWriter::AnalysisModelWriter(const std::filesystem::path& directory,
   static_assert(std::size(kTableTexts) == kTables);
   std::error_code failed;
   std::filesystem::create_directories(directory, failed);
-  if (failed) throw OutputError(directory, failed.message());
+  if (failed) {
+    throw OutputError(directory, failed.message());
+  }
   for (std::size_t table = 0; table < kTables; ++table) {
     files_[table] = std::make_unique<OutputFile>(directory / fmt::format("{}.csv", kTableTexts[table].name));
     files_[table]->write(fmt::format("{}\n", kTableTexts[table].columns));
@@ -79,7 +83,9 @@ AnalysisModelWriter::AnalysisModelWriter(const std::filesystem::path& directory,
 }
 
 void AnalysisModelWriter::finish() {
-  for (const std::unique_ptr<OutputFile>& file : files_) file->finish();
+  for (const std::unique_ptr<OutputFile>& file : files_) {
+    file->finish();
+  }
 }
 
 bool AnalysisModelWriter::is_in_window(std::int64_t time_ns) const {
@@ -144,7 +150,9 @@ void AnalysisModelWriter::on(const Event& event, const Struct& e) {
     std::vector<Active>& active = active_[{processes_.of(event), tid}];
     const auto ended =
         std::find_if(active.begin(), active.end(), [&e](const Active& one) { return one.callback == e.callback; });
-    if (ended == active.end()) return;
+    if (ended == active.end()) {
+      return;
+    }
     if (is_in_window(ended->begin_ns)) {
       row(kCallbackInstances, e.callback, ended->begin_ns, time - ended->begin_ns, ended->intra_process, vpid);
     }
@@ -170,8 +178,12 @@ void AnalysisModelWriter::on(const Event& event, const Struct& e) {
 }
 
 void AnalysisModelWriter::on_event(const Event& event) {
-  if (!window_ && event.name().starts_with("launch:")) return;  // no part of the traced system
-  if (!window_) window_ = choose_window_ ? choose_window_(event.timestamp_ns) : Window();
+  if (!window_ && event.name().starts_with("launch:")) {
+    return;  // no part of the traced system
+  }
+  if (!window_) {
+    window_ = choose_window_ ? choose_window_(event.timestamp_ns) : Window();
+  }
   if (const ros2::AnyEvent* const decoded = decoder_.decode(event)) {
     std::visit([&](const auto& fields) { on(event, fields); }, *decoded);
   }

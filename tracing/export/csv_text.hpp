@@ -15,7 +15,9 @@ inline void append_csv_text(std::string& line, std::string_view text) {
   }
   line += '"';
   for (const char c : text) {
-    if (c == '"') line += '"';
+    if (c == '"') {
+      line += '"';
+    }
     line += c;
   }
   line += '"';

@@ -15,7 +15,9 @@ namespace {
 std::string dot_string(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
+    if (c == '"' || c == '\\') {
+      result += '\\';
+    }
     result += c;
   }
   return result + '"';
@@ -26,7 +28,9 @@ std::string milliseconds(std::int64_t nanoseconds) {
 }
 
 std::string label_of(const timeline::GraphEdge& edge, const timeline::Timeline& timeline) {
-  if (edge.messages == 0) return "none";
+  if (edge.messages == 0) {
+    return "none";
+  }
   const double rate = timeline::messages_per_second(timeline, edge.messages);
   std::string label = rate == 0 ? fmt::format("{}", edge.messages) : fmt::format("{:.3g} Hz", rate);
   if (edge.latency.count > 0) {
@@ -48,7 +52,9 @@ std::string dot_text(const TracedSystem& system) {
   for (std::size_t id = 0; id < timeline.nodes.size(); ++id) {
     text += fmt::format("  n{} [label={}];\n", id, dot_string(timeline.nodes[id].name));
   }
-  for (const timeline::GraphEdge& edge : edges) topics.insert(edge.topic);
+  for (const timeline::GraphEdge& edge : edges) {
+    topics.insert(edge.topic);
+  }
   for (const timeline::Index id : topics) {
     text += fmt::format("  t{} [shape=box, label={}];\n", id, dot_string(timeline.topics[id]));
   }

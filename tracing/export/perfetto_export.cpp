@@ -36,7 +36,9 @@ class PerfettoWriter {
   PerfettoWriter(const TracedSystem& system, const std::filesystem::path& file)
       : system_(system), timeline_(system.timeline), file_(file), origin_ns_(timeline_.begin_ns) {
     // Processes start before the first event.
-    for (const StartResult& start : system_.results.starts) origin_ns_ = std::min(origin_ns_, start.exec_ns);
+    for (const StartResult& start : system_.results.starts) {
+      origin_ns_ = std::min(origin_ns_, start.exec_ns);
+    }
   }
 
   void write() {
@@ -61,7 +63,9 @@ class PerfettoWriter {
  private:
   // Takes the members of the event's object, without braces.
   void event(const std::string& members) {
-    if (!first_) file_.write(",\n");
+    if (!first_) {
+      file_.write(",\n");
+    }
     first_ = false;
     file_.write("{");
     file_.write(members);
@@ -83,7 +87,9 @@ class PerfettoWriter {
     std::set<std::int64_t> taken;
     for (const timeline::Process& process : timeline_.processes) {
       std::int64_t pid = process.vpid;
-      while (!taken.insert(pid).second) pid += 1'000'000'000;
+      while (!taken.insert(pid).second) {
+        pid += 1'000'000'000;
+      }
       pids_.push_back(pid);
       several_hosts_ = several_hosts_ || process.host != timeline_.processes.front().host;
     }
@@ -111,7 +117,9 @@ class PerfettoWriter {
   // Of the process on its own machine, if it recorded something.
   std::int64_t pid_of(const StartResult& start) const {
     for (std::size_t id = 0; start.place && id < timeline_.processes.size(); ++id) {
-      if (timeline_.processes[id].place == start.place) return pids_[id];
+      if (timeline_.processes[id].place == start.place) {
+        return pids_[id];
+      }
     }
     return start.vpid;
   }
@@ -122,8 +130,12 @@ class PerfettoWriter {
       const std::string from = fmt::format("\"process\":{},\"file\":{},\"line\":{}", json_text(start.process),
                                            json_text(start.file), start.line);
       instant(pid, start.exec_ns, "exec", from);
-      if (start.node_after_ns) instant(pid, start.exec_ns + *start.node_after_ns, "first node", from);
-      if (start.ready_after_ns) instant(pid, start.exec_ns + *start.ready_after_ns, "ready", from);
+      if (start.node_after_ns) {
+        instant(pid, start.exec_ns + *start.node_after_ns, "first node", from);
+      }
+      if (start.ready_after_ns) {
+        instant(pid, start.exec_ns + *start.ready_after_ns, "ready", from);
+      }
     }
   }
 
@@ -153,8 +165,12 @@ class PerfettoWriter {
     }
     for (const Instance& instance : timeline_.instances) {
       std::string more;
-      if (!instance.finished) more += R"(,"unfinished":true)";
-      if (instance.intra_process) more += R"(,"intra_process":true)";
+      if (!instance.finished) {
+        more += R"(,"unfinished":true)";
+      }
+      if (instance.intra_process) {
+        more += R"(,"intra_process":true)";
+      }
       const std::int64_t duration = instance.end_ns - instance.start_ns;
       event(fmt::format(R"("ph":"X","cat":"callback",{},"ts":{},"dur":{}.{:03},{}{}}})", place(instance.thread),
                         time(instance.start_ns), duration / 1000, duration % 1000, descriptions[instance.callback],
@@ -164,11 +180,17 @@ class PerfettoWriter {
 
   void write_messages() {
     std::vector<std::string> names;
-    for (const std::string& topic : timeline_.topics) names.push_back(json_text(topic));
+    for (const std::string& topic : timeline_.topics) {
+      names.push_back(json_text(topic));
+    }
     for (std::size_t id = 0; id < timeline_.messages.size(); ++id) {
       const Message& message = timeline_.messages[id];
-      if (!message.repeated) write_publication(message);
-      if (message.receiving_instance == kNone) continue;
+      if (!message.repeated) {
+        write_publication(message);
+      }
+      if (message.receiving_instance == kNone) {
+        continue;
+      }
       const Instance& receiver = timeline_.instances[message.receiving_instance];
       const std::string flow =
           fmt::format("\"cat\":\"message\",\"name\":{},\"id\":\"{:#x}\"", names[message.topic], id);
@@ -230,7 +252,9 @@ class PerfettoWriter {
   void write_waiting() {
     std::multimap<std::int64_t, std::pair<Index, int>> changes;  // by time: the process, one more or one less
     for (const ThreadState& state : timeline_.states) {
-      if (state.state != ThreadState::State::kRunnable) continue;
+      if (state.state != ThreadState::State::kRunnable) {
+        continue;
+      }
       const Index process = timeline_.threads[state.thread].process;
       changes.insert({state.begin_ns, {process, 1}});
       changes.insert({state.end_ns, {process, -1}});

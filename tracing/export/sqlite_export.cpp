@@ -48,8 +48,12 @@ class Database {
     check(sqlite3_prepare_v2(database_.get(), insert.c_str(), -1, &prepared, nullptr));
     const std::unique_ptr<sqlite3_stmt, FinalizeStatement> statement(prepared);
     table.for_each_row([&](const Row& row) {
-      for (std::size_t i = 0; i < row.size(); ++i) bind(statement.get(), static_cast<int>(i) + 1, row[i]);
-      if (sqlite3_step(statement.get()) != SQLITE_DONE) check(sqlite3_errcode(database_.get()));
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        bind(statement.get(), static_cast<int>(i) + 1, row[i]);
+      }
+      if (sqlite3_step(statement.get()) != SQLITE_DONE) {
+        check(sqlite3_errcode(database_.get()));
+      }
       sqlite3_reset(statement.get());
     });
   }
@@ -66,7 +70,9 @@ class Database {
   }
 
   void check(int result) const {
-    if (result != SQLITE_OK) throw OutputError(file_, sqlite3_errmsg(database_.get()));
+    if (result != SQLITE_OK) {
+      throw OutputError(file_, sqlite3_errmsg(database_.get()));
+    }
   }
 
   std::filesystem::path file_;
@@ -96,7 +102,9 @@ void export_sqlite(const TracedSystem& system, const std::filesystem::path& file
     Database database(file, output.unfinished());
     // The file gets its name only when it is complete, so a journal would protect nothing.
     database.execute("PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF; BEGIN");
-    for (const Table& table : tables_of(system)) database.add(table);
+    for (const Table& table : tables_of(system)) {
+      database.add(table);
+    }
     database.execute(kViews);
     database.execute("COMMIT");
   }

@@ -22,7 +22,9 @@ namespace {
 class UnnamedFile {
  public:
   UnnamedFile() : stream_(std::tmpfile()) {
-    if (stream_ == nullptr) throw OutputError("a temporary file", std::strerror(errno));
+    if (stream_ == nullptr) {
+      throw OutputError("a temporary file", std::strerror(errno));
+    }
   }
   ~UnnamedFile() { std::fclose(stream_); }
   UnnamedFile(const UnnamedFile&) = delete;
@@ -30,7 +32,9 @@ class UnnamedFile {
 
   int descriptor() const { return fileno(stream_); }
   void write(const std::string& text) {
-    if (std::fwrite(text.data(), 1, text.size(), stream_) == text.size() && std::fflush(stream_) == 0) return;
+    if (std::fwrite(text.data(), 1, text.size(), stream_) == text.size() && std::fflush(stream_) == 0) {
+      return;
+    }
     throw OutputError("a temporary file", std::strerror(errno));
   }
   void rewind() { lseek(descriptor(), 0, SEEK_SET); }
@@ -38,7 +42,9 @@ class UnnamedFile {
     std::string text;
     char bytes[1 << 14];
     std::rewind(stream_);
-    for (std::size_t count = 0; (count = std::fread(bytes, 1, sizeof bytes, stream_)) > 0;) text.append(bytes, count);
+    for (std::size_t count = 0; (count = std::fread(bytes, 1, sizeof bytes, stream_)) > 0;) {
+      text.append(bytes, count);
+    }
     return text;
   }
 
@@ -67,7 +73,9 @@ void export_svg(const TracedSystem& system, const std::filesystem::path& path) {
                                                              {STDOUT_FILENO, picture.descriptor()},
                                                              {STDERR_FILENO, messages.descriptor()}}}));
   } catch (const launch::SpawnError& error) {
-    if (error.code().value() != ENOENT) throw OutputError(path, error.what());
+    if (error.code().value() != ENOENT) {
+      throw OutputError(path, error.what());
+    }
     throw OutputError(path,
                       "Graphviz draws it, and there is no program dot in PATH; install the package graphviz, or "
                       "use --dot and draw the graph elsewhere");

@@ -194,9 +194,13 @@ std::vector<Table> result_tables(const TraceResults& results) {
        {{"vpid"}, {"event", kText}, {"events"}},
        [&overview = results.overview](const Emit& emit) {
          for (const EventCount& event : overview.event_counts) {
-           if (event.name.starts_with("launch:")) emit({Cell(), std::string_view(event.name), number(event.total)});
+           if (event.name.starts_with("launch:")) {
+             emit({Cell(), std::string_view(event.name), number(event.total)});
+           }
            for (std::size_t process = 0; process < event.by_process.size(); ++process) {
-             if (event.by_process[process] == 0) continue;
+             if (event.by_process[process] == 0) {
+               continue;
+             }
              emit({optional(overview.processes[process].vpid), std::string_view(event.name),
                    number(event.by_process[process])});
            }
@@ -209,12 +213,16 @@ std::vector<Table> result_tables(const TraceResults& results) {
 
 std::vector<Table> tables_of(const TracedSystem& system) {
   std::vector<Table> tables{trace_table(system)};
-  for (Table& table : object_tables(system.timeline)) tables.push_back(std::move(table));
+  for (Table& table : object_tables(system.timeline)) {
+    tables.push_back(std::move(table));
+  }
   tables.push_back(instance_table(system.timeline));
   tables.push_back(message_table(system.timeline));
   tables.push_back(lifecycle_table(system.timeline));
   tables.push_back(state_table(system.timeline));
-  for (Table& table : result_tables(system.results)) tables.push_back(std::move(table));
+  for (Table& table : result_tables(system.results)) {
+    tables.push_back(std::move(table));
+  }
   return tables;
 }
 

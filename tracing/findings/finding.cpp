@@ -45,7 +45,9 @@ std::string label(const Hosts& hosts, const SubscriptionResult& subscription) {
 
 // Keeps the finding with the greatest weight.
 void offer(std::optional<Finding>& best, Finding finding) {
-  if (!best || finding.weight > best->weight) best = std::move(finding);
+  if (!best || finding.weight > best->weight) {
+    best = std::move(finding);
+  }
 }
 
 std::optional<Finding> slowest_chain(const TraceResults& results) {
@@ -55,7 +57,9 @@ std::optional<Finding> slowest_chain(const TraceResults& results) {
     return std::pair(a.response.count >= kFrequent, a.response.p99_ns) <
            std::pair(b.response.count >= kFrequent, b.response.p99_ns);
   });
-  if (slowest == chains.end()) return std::nullopt;
+  if (slowest == chains.end()) {
+    return std::nullopt;
+  }
   const ChainResult& chain = *slowest;
   return Finding{
       Finding::Kind::kSlowestChain, 45, Hosts(results.overview).before(chain) + chain_label(chain),
@@ -67,7 +71,9 @@ std::optional<Finding> over_budget(const TraceResults& results) {
   const Hosts hosts(results.overview);
   std::optional<Finding> best;
   for (const ChainResult& chain : results.ros2.chains) {
-    if (!chain.budget_ns || chain.over_budget == 0 || chain.response.count == 0) continue;
+    if (!chain.budget_ns || chain.over_budget == 0 || chain.response.count == 0) {
+      continue;
+    }
     const double share = static_cast<double>(chain.over_budget) / static_cast<double>(chain.response.count);
     const double weight = (chain.response.count >= kFrequent ? 70 : 50) + 25 * share;
     offer(best, {Finding::Kind::kOverBudget, weight, hosts.before(chain) + chain_label(chain),
@@ -82,7 +88,9 @@ std::optional<Finding> overrun(const TraceResults& results) {
   const Hosts hosts(results.overview);
   std::optional<Finding> best;
   for (const CallbackResult& callback : results.ros2.callbacks) {
-    if (callback.overruns == 0) continue;
+    if (callback.overruns == 0) {
+      continue;
+    }
     const double share = static_cast<double>(callback.overruns) / static_cast<double>(callback.durations.count);
     offer(best, {Finding::Kind::kOverrun, 60 + 30 * share, label(hosts, callback),
                  fmt::format("{} of {} took longer than the period, at most {}{}", callback.overruns,
@@ -97,13 +105,18 @@ std::optional<Finding> worst_jitter(const TraceResults& results) {
   const Hosts hosts(results.overview);
   std::optional<Finding> best;
   for (const CallbackResult& callback : results.ros2.callbacks) {
-    if (callback.owner != CallbackResult::Owner::kTimer || callback.jitter.count < 2 || callback.period_ns <= 0)
+    if (callback.owner != CallbackResult::Owner::kTimer || callback.jitter.count < 2 || callback.period_ns <= 0) {
       continue;
+    }
     const double ratio = static_cast<double>(callback.jitter.max_ns) / static_cast<double>(callback.period_ns);
-    if (ratio < kNotableJitter) continue;
+    if (ratio < kNotableJitter) {
+      continue;
+    }
     std::string figures = fmt::format("up to {} off its period, at p99 {}", duration(callback.jitter.max_ns),
                                       duration(callback.jitter.p99_ns));
-    if (callback.missed > 0) figures += fmt::format("; {} missed", format_count(callback.missed, "period"));
+    if (callback.missed > 0) {
+      figures += fmt::format("; {} missed", format_count(callback.missed, "period"));
+    }
     const double weight = 20 + 50 * std::min(1.0, ratio) + (callback.missed > 0 ? 20 : 0) + std::min(ratio, 9.0);
     offer(best, {Finding::Kind::kWorstJitter, weight, label(hosts, callback), figures + mark(callback.doubtful),
                  callback.id});
@@ -115,11 +128,15 @@ std::optional<Finding> busiest_executor(const TraceResults& results) {
   const Hosts hosts(results.overview);
   std::optional<Finding> best;
   for (const ExecutorResult& executor : results.ros2.executors) {
-    if (executor.callbacks < 2 || executor.process >= results.overview.processes.size()) continue;
+    if (executor.callbacks < 2 || executor.process >= results.overview.processes.size()) {
+      continue;
+    }
     std::string figures = fmt::format("{:.3g} % busy", executor.utilisation * 100);
     if (executor.longest_busy_ns > 0) {
       figures += fmt::format(", once for {}", duration(executor.longest_busy_ns));
-      if (!executor.longest_callback.empty()) figures += " in " + executor.longest_callback;
+      if (!executor.longest_callback.empty()) {
+        figures += " in " + executor.longest_callback;
+      }
     }
     offer(best,
           {Finding::Kind::kBusiestExecutor, 90 * std::min(1.0, executor.utilisation),
@@ -134,12 +151,16 @@ std::optional<Finding> dropped_messages(const TraceResults& results) {
   std::uint64_t most = 0;
   for (const SubscriptionResult& subscription : results.ros2.subscriptions) {
     const std::uint64_t dropped = subscription.dropped();
-    if (dropped <= most) continue;
+    if (dropped <= most) {
+      continue;
+    }
     most = dropped;
     const std::uint64_t sent = subscription.delivered + dropped;
     std::string places;
     const auto place = [&places](std::uint64_t count, const char* where) {
-      if (count > 0) places += fmt::format("{}{} {}", places.empty() ? "" : ", ", count, where);
+      if (count > 0) {
+        places += fmt::format("{}{} {}", places.empty() ? "" : ", ", count, where);
+      }
     };
     place(subscription.overwritten, "pushed out of its queue");
     place(subscription.overwritten_in_buffer, "pushed out of its buffer");
@@ -161,7 +182,9 @@ std::optional<Finding> longest_wait(const TraceResults& results) {
   const Hosts hosts(results.overview);
   std::optional<Finding> best;
   for (const SubscriptionResult& subscription : results.ros2.subscriptions) {
-    if (subscription.executor.count == 0 || subscription.executor.p99_ns < kLongWait) continue;
+    if (subscription.executor.count == 0 || subscription.executor.p99_ns < kLongWait) {
+      continue;
+    }
     const double share = static_cast<double>(subscription.executor.p99_ns) /
                          static_cast<double>(std::max<std::int64_t>(subscription.latency.p99_ns, 1));
     const double milliseconds = static_cast<double>(subscription.executor.p99_ns) / 1e6;
@@ -181,10 +204,14 @@ std::optional<Finding> long_tail(const TraceResults& results) {
   const Hosts hosts(results.overview);
   std::optional<Finding> best;
   for (const CallbackResult& callback : results.ros2.callbacks) {
-    if (callback.durations.count < 10 || callback.durations.max_ns < kLongTail) continue;
+    if (callback.durations.count < 10 || callback.durations.max_ns < kLongTail) {
+      continue;
+    }
     const double ratio = static_cast<double>(callback.durations.max_ns) /
                          static_cast<double>(std::max<std::int64_t>(callback.durations.p50_ns, 1));
-    if (ratio < kLongTailRatio) continue;
+    if (ratio < kLongTailRatio) {
+      continue;
+    }
     offer(best, {Finding::Kind::kLongTail, std::min(60.0, 20 + 10 * std::log10(ratio)), label(hosts, callback),
                  fmt::format("usually takes {}, at p99 {}, at most {}{}", duration(callback.durations.p50_ns),
                              duration(callback.durations.p99_ns), duration(callback.durations.max_ns),
@@ -198,7 +225,9 @@ std::optional<Finding> starved(const TraceResults& results) {
   const Hosts hosts(results.overview);
   std::optional<Finding> best;
   for (const CallbackResult& callback : results.ros2.callbacks) {
-    if (callback.longest_runnable_ns < kLongTail) continue;
+    if (callback.longest_runnable_ns < kLongTail) {
+      continue;
+    }
     const std::string other = callback.ran_instead.empty() ? "" : fmt::format(" while '{}' ran", callback.ran_instead);
     const double milliseconds = static_cast<double>(callback.longest_runnable_ns) / 1e6;
     offer(best, {Finding::Kind::kStarvedCallback, std::min(95.0, 50 + 15 * std::log10(1 + milliseconds)),
@@ -213,7 +242,9 @@ std::optional<Finding> starved(const TraceResults& results) {
 std::optional<Finding> slowest_start(const TraceResults& results) {
   std::optional<Finding> best;
   for (const StartResult& start : results.starts) {
-    if (!start.ready_after_ns || *start.ready_after_ns < kSlowStart) continue;
+    if (!start.ready_after_ns || *start.ready_after_ns < kSlowStart) {
+      continue;
+    }
     const double seconds = static_cast<double>(*start.ready_after_ns) / 1e9;
     offer(best, {Finding::Kind::kSlowestStart, std::min(40.0, 15 + 5 * seconds),
                  fmt::format("{} [{}]", start.process, start.vpid),
@@ -227,7 +258,9 @@ std::optional<Finding> memory_in_active(const TraceResults& results) {
   const Hosts hosts(results.overview);
   std::optional<Finding> best;
   for (const LifecycleResult& state : results.ros2.lifecycle) {
-    if (state.state != "active" || state.allocations.value_or(0) == 0) continue;
+    if (state.state != "active" || state.allocations.value_or(0) == 0) {
+      continue;
+    }
     const double milliseconds = static_cast<double>(state.end_ns - state.begin_ns) / 1e6;
     offer(best, {Finding::Kind::kMemoryInActive,
                  std::min(50.0, 30 + 5 * std::log10(1 + static_cast<double>(*state.allocations) / milliseconds)),
@@ -243,7 +276,9 @@ std::optional<Finding> unanswered(const TraceResults& results) {
   std::optional<Finding> best;
   for (const CallResult& call : results.ros2.calls) {
     const std::uint64_t open = call.requests - call.responses;
-    if (open == 0) continue;
+    if (open == 0) {
+      continue;
+    }
     offer(best, {Finding::Kind::kUnanswered, 40 + 40 * static_cast<double>(open) / static_cast<double>(call.requests),
                  call.service,
                  fmt::format("{} of {} from {}{} got no response", open, format_count(call.requests, "request"),
@@ -256,7 +291,9 @@ std::optional<Finding> unfinished(const TraceResults& results) {
   const Hosts hosts(results.overview);
   std::optional<Finding> best;
   for (const CallbackResult& callback : results.ros2.callbacks) {
-    if (callback.unfinished < 2) continue;  // one may be the last one of the trace
+    if (callback.unfinished < 2) {
+      continue;  // one may be the last one of the trace
+    }
     offer(best,
           {Finding::Kind::kUnfinished, 50 + std::min(30.0, static_cast<double>(callback.unfinished)),
            label(hosts, callback),
@@ -336,7 +373,9 @@ std::vector<Finding> find_worth_a_look(const TraceResults& results) {
   std::vector<Finding> findings;
   for (const auto find : {slowest_chain, over_budget, overrun, worst_jitter, busiest_executor, dropped_messages,
                           longest_wait, long_tail, unanswered, unfinished, starved, slowest_start, memory_in_active}) {
-    if (std::optional<Finding> finding = find(results)) findings.push_back(std::move(*finding));
+    if (std::optional<Finding> finding = find(results)) {
+      findings.push_back(std::move(*finding));
+    }
   }
   std::stable_sort(findings.begin(), findings.end(),
                    [](const Finding& a, const Finding& b) { return a.weight > b.weight; });

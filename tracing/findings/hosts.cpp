@@ -15,11 +15,15 @@ std::string Hosts::before(const std::optional<ProcessIndex>& process) const {
 }
 
 std::string Hosts::before(const ChainResult& chain) const {
-  if (!several_) return "";
+  if (!several_) {
+    return "";
+  }
   std::string text;
   std::string last;
   for (const ChainResult::Step& step : chain.steps) {
-    if (step.process >= processes_.size() || processes_[step.process].host == last) continue;
+    if (step.process >= processes_.size() || processes_[step.process].host == last) {
+      continue;
+    }
     last = processes_[step.process].host;
     text += (text.empty() ? "" : " -> ") + last;
   }

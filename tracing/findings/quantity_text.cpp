@@ -38,8 +38,12 @@ std::string format_count(std::uint64_t count, const std::string& noun) {
 }
 
 std::string format_size(std::uint64_t bytes) {
-  if (bytes < 1000) return fmt::format("{} bytes", bytes);
-  if (bytes < 1'000'000) return fmt::format("{:.1f} kB", static_cast<double>(bytes) / 1e3);
+  if (bytes < 1000) {
+    return fmt::format("{} bytes", bytes);
+  }
+  if (bytes < 1'000'000) {
+    return fmt::format("{:.1f} kB", static_cast<double>(bytes) / 1e3);
+  }
   return fmt::format("{:.1f} MB", static_cast<double>(bytes) / 1e6);
 }
 

@@ -43,20 +43,30 @@ std::string chain_label(const ChainResult& chain) {
   const std::size_t steps = chain.steps.size();
   constexpr std::size_t kShown = 3;
   std::string text = chain.name.empty() ? "" : chain.name + ": ";
-  if (steps > kShown) return text + fmt::format("{} -> {} more -> {}", name(0), steps - 2, name(steps - 1));
-  for (std::size_t step = 0; step < steps; ++step) text += (step == 0 ? "" : " -> ") + name(step);
+  if (steps > kShown) {
+    return text + fmt::format("{} -> {} more -> {}", name(0), steps - 2, name(steps - 1));
+  }
+  for (std::size_t step = 0; step < steps; ++step) {
+    text += (step == 0 ? "" : " -> ") + name(step);
+  }
   return text;
 }
 
 std::string executor_label(const ExecutorResult& executor, const TraceResults& results) {
-  if (executor.process >= results.overview.processes.size()) return fmt::format("thread {}", executor.vtid);
+  if (executor.process >= results.overview.processes.size()) {
+    return fmt::format("thread {}", executor.vtid);
+  }
   const ProcessResult& process = results.overview.processes[executor.process];
   std::set<std::string> nodes;
   for (const CallbackResult& callback : results.ros2.callbacks) {
-    if (callback.process == executor.process && !callback.node.empty()) nodes.insert(callback.node);
+    if (callback.process == executor.process && !callback.node.empty()) {
+      nodes.insert(callback.node);
+    }
   }
   std::string label = process_label(process);
-  if (nodes.size() == 1 && process.vpid) label = fmt::format("{} [{}]", *nodes.begin(), *process.vpid);
+  if (nodes.size() == 1 && process.vpid) {
+    label = fmt::format("{} [{}]", *nodes.begin(), *process.vpid);
+  }
   return process.vpid == executor.vtid ? label : fmt::format("{}, thread {}", label, executor.vtid);
 }
 

@@ -46,7 +46,9 @@ std::string host_name() {
 void write(const fs::path& path, const std::string& bytes, std::ios::openmode mode) {
   std::ofstream file(path, std::ios::binary | mode);
   file << bytes << std::flush;
-  if (!file) throw std::system_error(errno, std::generic_category(), path.string());
+  if (!file) {
+    throw std::system_error(errno, std::generic_category(), path.string());
+  }
 }
 
 // The text of a metadata file: the content of its packets, or the file itself when it has none.
@@ -61,7 +63,9 @@ std::string metadata_text(const fs::path& path) {
     std::memcpy(&magic, bytes.data() + at, sizeof magic);
     std::memcpy(&content_bits, bytes.data() + at + 24, sizeof content_bits);
     std::memcpy(&packet_bits, bytes.data() + at + 28, sizeof packet_bits);
-    if (magic != kMetadataMagic || packet_bits / 8 < kMetadataHeader || content_bits / 8 < kMetadataHeader) break;
+    if (magic != kMetadataMagic || packet_bits / 8 < kMetadataHeader || content_bits / 8 < kMetadataHeader) {
+      break;
+    }
     text += bytes.substr(at + kMetadataHeader, content_bits / 8 - kMetadataHeader);
     at += packet_bits / 8;
   }
@@ -70,7 +74,9 @@ std::string metadata_text(const fs::path& path) {
 
 std::string after(const std::string& text, const std::string& key, std::size_t from) {
   const std::size_t found = text.find(key, from);
-  if (found == std::string::npos) return {};
+  if (found == std::string::npos) {
+    return {};
+  }
   const std::size_t begin = found + key.size();
   return text.substr(begin, text.find(';', begin) - begin);
 }
@@ -99,7 +105,9 @@ std::string describe(const EventField& field) {
 void append_field(std::string& packet, const EventField& field, std::span<const std::uint8_t> record) {
   if (field.kind == EventField::Kind::kDynamicText) {
     std::uint32_t place = 0;
-    if (field.offset + sizeof place <= record.size()) std::memcpy(&place, record.data() + field.offset, sizeof place);
+    if (field.offset + sizeof place <= record.size()) {
+      std::memcpy(&place, record.data() + field.offset, sizeof place);
+    }
     const std::size_t begin = place & 0xFFFF;
     const std::size_t length = place >> 16;
     if (begin + length <= record.size()) {
@@ -120,12 +128,16 @@ void append_field(std::string& packet, const EventField& field, std::span<const 
 TraceClock clock_beside(const fs::path& directory) {
   std::error_code none;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(directory, none)) {
-    if (entry.path().filename() != "metadata") continue;
+    if (entry.path().filename() != "metadata") {
+      continue;
+    }
     const std::string text = metadata_text(entry.path());
     const std::size_t clock = text.find("clock {");
     const std::string uuid = after(text, "uuid = \"", clock);
     const std::string offset = after(text, "offset = ", clock);
-    if (clock == std::string::npos || uuid.empty() || offset.empty()) continue;
+    if (clock == std::string::npos || uuid.empty() || offset.empty()) {
+      continue;
+    }
     return {.uuid = uuid.substr(0, uuid.find('"')), .offset = std::stoll(offset)};
   }
   timespec monotonic{};
@@ -139,7 +151,9 @@ TraceClock clock_beside(const fs::path& directory) {
 TraceUuid random_uuid() {
   TraceUuid uuid{};
   std::random_device random;
-  for (std::uint8_t& byte : uuid) byte = static_cast<std::uint8_t>(random());
+  for (std::uint8_t& byte : uuid) {
+    byte = static_cast<std::uint8_t>(random());
+  }
   return uuid;
 }
 
@@ -149,13 +163,19 @@ CtfWriter::CtfWriter(fs::path directory, const TraceUuid& uuid, const std::vecto
   const auto given = [this](const char* field) {
     return std::find(context_fields_.begin(), context_fields_.end(), field) != context_fields_.end();
   };
-  if (!given("tid") && !given("vtid")) context_fields_.emplace_back("tid");
-  for (const EventFormat& format : formats) formats_.emplace(format.id, format);
+  if (!given("tid") && !given("vtid")) {
+    context_fields_.emplace_back("tid");
+  }
+  for (const EventFormat& format : formats) {
+    formats_.emplace(format.id, format);
+  }
 }
 
 void CtfWriter::append_context(std::string& packet, unsigned cpu, std::uint64_t time, std::int32_t thread) const {
   Thread who = threads_.find(thread, time);
-  if (thread == 0) who = {.process = 0, .name = fmt::format("swapper/{}", cpu)};  // the idle thread of each processor
+  if (thread == 0) {
+    who = {.process = 0, .name = fmt::format("swapper/{}", cpu)};  // the idle thread of each processor
+  }
   for (const std::string& field : context_fields_) {
     if (field == "procname") {
       packet.append(who.name.c_str(), who.name.size() + 1);
@@ -169,15 +189,21 @@ void CtfWriter::append_record(std::string& packet, unsigned cpu, std::uint64_t t
                               std::span<const std::uint8_t> record) {
   std::uint16_t id = 0;
   std::int32_t thread = 0;
-  if (record.size() < kPidOffset + sizeof thread) return;
+  if (record.size() < kPidOffset + sizeof thread) {
+    return;
+  }
   std::memcpy(&id, record.data(), sizeof id);
   std::memcpy(&thread, record.data() + kPidOffset, sizeof thread);
   const auto format = formats_.find(id);
-  if (format == formats_.end()) return;
+  if (format == formats_.end()) {
+    return;
+  }
   append(packet, id);
   append(packet, time);
   append_context(packet, cpu, time, thread);
-  for (const EventField& field : format->second.fields) append_field(packet, field, record);
+  for (const EventField& field : format->second.fields) {
+    append_field(packet, field, record);
+  }
   ++events_;
 }
 
@@ -193,7 +219,9 @@ CtfWriter::Content CtfWriter::content_of(unsigned cpu, std::span<const std::uint
 
 void CtfWriter::write_page(unsigned cpu, std::span<const std::uint8_t> page) {
   const Content content = content_of(cpu, page);
-  if (content.events.empty() && content.page.lost_records == 0) return;
+  if (content.events.empty() && content.page.lost_records == 0) {
+    return;
+  }
   write_packet(cpu, packet_of(cpu, streams_[cpu].packets++, content));
 }
 
@@ -229,7 +257,9 @@ void CtfWriter::write_metadata(const TraceClock& clock) const {
   std::string events;
   for (const auto& [id, format] : formats_) {
     std::string fields;
-    for (const EventField& field : format.fields) fields += describe(field);
+    for (const EventField& field : format.fields) {
+      fields += describe(field);
+    }
     events +=
         fmt::format("event {{\n\tname = \"{}\";\n\tid = {};\n\tstream_id = 0;\n\tfields := struct {{\n{}\t}};\n}};\n\n",
                     format.name, id, fields);

@@ -15,7 +15,9 @@ namespace {
 // The value of "key:value;" in a line, "" when it isn't there.
 std::string value_of(const std::string& line, const std::string& key) {
   const std::size_t found = line.find(key + ":");
-  if (found == std::string::npos) return {};
+  if (found == std::string::npos) {
+    return {};
+  }
   const std::size_t begin = found + key.size() + 1;
   return line.substr(begin, line.find(';', begin) - begin);
 }
@@ -34,7 +36,9 @@ std::uint32_t element_size(std::string_view type) {
                                  Known{"u16", 2},  Known{"s16", 2}, Known{"u32", 4},  Known{"s32", 4},
                                  Known{"u64", 8},  Known{"s64", 8}, Known{"long", 8}, Known{"int", 4}};
   for (const Known& known : kKnown) {
-    if (type.find(known.word) != std::string_view::npos) return known.size;
+    if (type.find(known.word) != std::string_view::npos) {
+      return known.size;
+    }
   }
   return 0;
 }
@@ -49,18 +53,24 @@ std::optional<EventField> parse_field(const std::string& declaration, const std:
   const bool dynamic = declaration.starts_with("__data_loc ");
   const std::string left = dynamic ? declaration : declaration.substr(0, bracket);
   const std::size_t space = left.find_last_of(" *");
-  if (space == std::string::npos) return std::nullopt;
+  if (space == std::string::npos) {
+    return std::nullopt;
+  }
   field.name = left.substr(space + 1);
   const std::string type = left.substr(0, space + 1);
   field.hexadecimal = type.find('*') != std::string::npos;
 
   if (dynamic) {
-    if (type.find("char[]") == std::string::npos) return std::nullopt;
+    if (type.find("char[]") == std::string::npos) {
+      return std::nullopt;
+    }
     field.kind = EventField::Kind::kDynamicText;
     return field;
   }
   if (bracket == std::string::npos) {
-    if (declaration.starts_with("__rel_loc ") || !is_size(field.size)) return std::nullopt;
+    if (declaration.starts_with("__rel_loc ") || !is_size(field.size)) {
+      return std::nullopt;
+    }
     return field;
   }
   if (type.starts_with("char") || type.starts_with("const char")) {
@@ -69,7 +79,9 @@ std::optional<EventField> parse_field(const std::string& declaration, const std:
   }
   field.kind = EventField::Kind::kIntegers;
   field.element_size = element_size(type);
-  if (field.element_size == 0 || field.size % field.element_size != 0) return std::nullopt;
+  if (field.element_size == 0 || field.size % field.element_size != 0) {
+    return std::nullopt;
+  }
   return field;
 }
 
@@ -95,9 +107,13 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kNamesOf
 
 void name_as_lttng(EventFormat& format) {
   format.name = lttng_name(format.name);
-  if (!format.name.starts_with("sched_")) return;
+  if (!format.name.starts_with("sched_")) {
+    return;
+  }
   for (EventField& field : format.fields) {
-    if (field.name.ends_with("pid")) field.name.replace(field.name.size() - 3, 3, "tid");
+    if (field.name.ends_with("pid")) {
+      field.name.replace(field.name.size() - 3, 3, "tid");
+    }
   }
 }
 
@@ -105,7 +121,9 @@ void name_as_lttng(EventFormat& format) {
 
 std::string lttng_name(const std::string& kernel_name) {
   for (const auto& [from, to] : kNamesOfLttng) {
-    if (kernel_name.starts_with(from)) return std::string(to) + kernel_name.substr(from.size());
+    if (kernel_name.starts_with(from)) {
+      return std::string(to) + kernel_name.substr(from.size());
+    }
   }
   return kernel_name;
 }
@@ -122,10 +140,14 @@ EventFormat parse_event_format(const std::string& text) {
       has_id = true;
     } else if (const std::string declaration = value_of(line, "field"); !declaration.empty()) {
       auto field = parse_field(declaration, line);
-      if (field && !field->name.starts_with("common_")) format.fields.push_back(std::move(*field));
+      if (field && !field->name.starts_with("common_")) {
+        format.fields.push_back(std::move(*field));
+      }
     }
   }
-  if (format.name.empty() || !has_id) throw std::runtime_error("this describes no event: " + text.substr(0, 80));
+  if (format.name.empty() || !has_id) {
+    throw std::runtime_error("this describes no event: " + text.substr(0, 80));
+  }
   name_as_lttng(format);
   return format;
 }

@@ -40,16 +40,30 @@ std::vector<std::string> arguments_of(const fs::path& program, const std::string
                                       const std::vector<ChannelPlan>& plans, KernelRecording what,
                                       const std::vector<pid_t>& left_out) {
   std::vector<std::string> arguments = {program.string(), "launch-" + session, (recording / kFolder).string()};
-  if (what == KernelRecording::kSnapshots) arguments.emplace_back("snapshots");
-  for (const pid_t process : left_out) arguments.insert(arguments.end(), {"leave-out", std::to_string(process)});
+  if (what == KernelRecording::kSnapshots) {
+    arguments.emplace_back("snapshots");
+  }
+  for (const pid_t process : left_out) {
+    arguments.insert(arguments.end(), {"leave-out", std::to_string(process)});
+  }
   std::set<std::string> fields;  // the fields of all channels, because there is one trace for all of them
   for (const ChannelPlan& plan : plans) {
-    if (plan.domain != LTTNG_DOMAIN_KERNEL) continue;
-    for (const EventRule& rule : plan.events) arguments.insert(arguments.end(), {"event", rule.pattern, rule.filter});
-    for (const std::string& name : plan.syscalls) arguments.insert(arguments.end(), {"syscall", name});
-    for (const std::string& field : plan.context_fields) fields.insert(field);
+    if (plan.domain != LTTNG_DOMAIN_KERNEL) {
+      continue;
+    }
+    for (const EventRule& rule : plan.events) {
+      arguments.insert(arguments.end(), {"event", rule.pattern, rule.filter});
+    }
+    for (const std::string& name : plan.syscalls) {
+      arguments.insert(arguments.end(), {"syscall", name});
+    }
+    for (const std::string& field : plan.context_fields) {
+      fields.insert(field);
+    }
   }
-  for (const std::string& field : fields) arguments.insert(arguments.end(), {"context", field});
+  for (const std::string& field : fields) {
+    arguments.insert(arguments.end(), {"context", field});
+  }
   return arguments;
 }
 
@@ -72,7 +86,9 @@ std::string start_and_listen(const std::vector<std::string>& arguments) {
     });
     pipe.write.reset();
     std::string said = launch::read_to_end(pipe.read);
-    if (!said.starts_with("ready")) launch::wait_for(pid);
+    if (!said.starts_with("ready")) {
+      launch::wait_for(pid);
+    }
     return said;
   } catch (const std::system_error& error) {
     throw TraceError(fmt::format("cannot start {}: {}", arguments[0], error.code().message()));
@@ -82,7 +98,9 @@ std::string start_and_listen(const std::vector<std::string>& arguments) {
 // The rest of the line that begins with `key`.
 std::string line_after(const std::string& text, const std::string& key) {
   const std::size_t found = text.find(key);
-  if (found == std::string::npos) return {};
+  if (found == std::string::npos) {
+    return {};
+  }
   const std::size_t begin = found + key.size();
   return text.substr(begin, text.find('\n', begin) - begin);
 }
@@ -108,7 +126,9 @@ Recorder recorder_of(const fs::path& recording) {
 // number.
 launch::UniqueFd process_of(const Recorder& recorder) {
   launch::UniqueFd process(static_cast<int>(syscall(SYS_pidfd_open, recorder.pid, 0)));
-  if (process && launch::read_process_stat(recorder.pid).started != recorder.started) process.reset();
+  if (process && launch::read_process_stat(recorder.pid).started != recorder.started) {
+    process.reset();
+  }
   return process;
 }
 
@@ -119,7 +139,9 @@ bool send_signal(const launch::UniqueFd& process, int signal) {
 // Sends the signal and waits until the recorder reports that state.
 void bring_to(const std::string& state, int signal, const fs::path& recording) {
   const Recorder recorder = recorder_of(recording);
-  if (recorder.pid <= 0 || recorder.state == state) return;
+  if (recorder.pid <= 0 || recorder.state == state) {
+    return;
+  }
   const launch::UniqueFd changes(inotify_init1(IN_CLOEXEC));
   inotify_add_watch(changes.get(), recording.c_str(), IN_MOVED_TO);
   if (!send_signal(process_of(recorder), signal)) {
@@ -133,8 +155,12 @@ void bring_to(const std::string& state, int signal, const fs::path& recording) {
     }
     const int ready = poll(&change, 1, kLongestEnd);
     std::array<char, 4096> event{};
-    if (ready > 0 && read(changes.get(), event.data(), event.size()) > 0) continue;
-    if (ready < 0 && errno == EINTR) continue;
+    if (ready > 0 && read(changes.get(), event.data(), event.size()) > 0) {
+      continue;
+    }
+    if (ready < 0 && errno == EINTR) {
+      continue;
+    }
     throw TraceError(fmt::format("the kernel recorder (process {}) does not answer", recorder.pid),
                      "kernel events go on as they were");
   }
@@ -164,7 +190,9 @@ void resume_kernel_recorder(const fs::path& recording) {
 }
 
 void take_kernel_snapshot(const fs::path& recording, const fs::path& snapshot, bool clear) {
-  if (recorder_of(recording).pid <= 0) return;
+  if (recorder_of(recording).pid <= 0) {
+    return;
+  }
   const fs::path request = recording / "kernel-recorder.request";
   try {
     launch::replace_file(request, snapshot.string() + "\n" + (clear ? "clear\n" : "keep\n"));
@@ -178,7 +206,9 @@ std::string start_kernel_recorder(const fs::path& program, const std::string& se
                                   const std::vector<ChannelPlan>& plans, KernelRecording what,
                                   const std::vector<pid_t>& left_out) {
   const std::string said = start_and_listen(arguments_of(program, session, recording, plans, what, left_out));
-  if (said.starts_with("ready")) return line_after(said, "warning: ");
+  if (said.starts_with("ready")) {
+    return line_after(said, "warning: ");
+  }
   const std::string reason = line_after(said, "error: ");
   throw TraceError(
       fmt::format("kernel events cannot be recorded: {}", reason.empty() ? "their recorder ended at once" : reason),
@@ -192,7 +222,9 @@ pid_t kernel_recorder_process(const fs::path& recording) {
 
 std::optional<std::uint64_t> finish_kernel_recorder(const fs::path& recording) {
   const Recorder recorder = recorder_of(recording);
-  if (recorder.pid <= 0) return std::nullopt;
+  if (recorder.pid <= 0) {
+    return std::nullopt;
+  }
   if (const launch::UniqueFd process = process_of(recorder); send_signal(process, SIGTERM)) {
     pollfd end{process.get(), POLLIN, 0};
     while (poll(&end, 1, kLongestEnd) < 0 && errno == EINTR) {

@@ -15,7 +15,9 @@ constexpr std::size_t kPidOffset = 4;  // of common_pid in a record
 template <typename T>
 T load(std::span<const std::uint8_t> bytes, std::size_t offset) {
   T value{};
-  if (offset + sizeof value <= bytes.size()) std::memcpy(&value, bytes.data() + offset, sizeof value);
+  if (offset + sizeof value <= bytes.size()) {
+    std::memcpy(&value, bytes.data() + offset, sizeof value);
+  }
   return value;
 }
 

@@ -10,7 +10,9 @@ namespace tracing::kernel {
 bool PageHistory::add(unsigned cpu, Page page) {
   Processor& processor = processors_[cpu];
   const bool has_gap = forget_lost_records(page);
-  if (has_gap) processor = {.pages = {}, .bytes = 0, .next_number = processor.next_number + 1};
+  if (has_gap) {
+    processor = {.pages = {}, .bytes = 0, .next_number = processor.next_number + 1};
+  }
   processor.bytes += page.size();
   processor.pages.push_back({.number = processor.next_number++, .size = page.size(), .bytes = std::move(page)});
   while (processor.bytes > limit_ && processor.pages.size() > 1) {
@@ -21,8 +23,9 @@ bool PageHistory::add(unsigned cpu, Page page) {
 }
 
 void PageHistory::clear() {
-  for (auto& [cpu, processor] : processors_)
+  for (auto& [cpu, processor] : processors_) {
     processor = {.pages = {}, .bytes = 0, .next_number = processor.next_number};
+  }
 }
 
 }  // namespace tracing::kernel

@@ -58,7 +58,9 @@ class Descriptor {
   Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
   Descriptor& operator=(Descriptor&&) = delete;
   ~Descriptor() {
-    if (fd_ >= 0) close(fd_);
+    if (fd_ >= 0) {
+      close(fd_);
+    }
   }
   int get() const { return fd_; }
 
@@ -75,7 +77,9 @@ struct RingBuffer {
 int control_signals() {
   sigset_t signals;
   sigemptyset(&signals);
-  for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGUSR1, SIGUSR2, SIGRTMIN}) sigaddset(&signals, signal);
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGUSR1, SIGUSR2, SIGRTMIN}) {
+    sigaddset(&signals, signal);
+  }
   sigprocmask(SIG_BLOCK, &signals, nullptr);
   return signalfd(-1, &signals, SFD_CLOEXEC);
 }
@@ -84,7 +88,9 @@ std::vector<RingBuffer> open_buffers(const TracefsInstance& instance) {
   std::vector<RingBuffer> buffers;
   for (const auto& [cpu, path] : instance.ring_buffers()) {
     Descriptor file(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
-    if (file.get() < 0) throw KernelTraceError(fmt::format("cannot read {}: {}", path.string(), std::strerror(errno)));
+    if (file.get() < 0) {
+      throw KernelTraceError(fmt::format("cannot read {}: {}", path.string(), std::strerror(errno)));
+    }
     buffers.push_back({cpu, std::move(file)});
   }
   return buffers;
@@ -98,7 +104,9 @@ void read_buffers(const std::vector<RingBuffer>& buffers, Take&& take) {
   for (const RingBuffer& buffer : buffers) {
     for (std::size_t pages = 0; pages < kPagesOfABuffer; ++pages) {
       const ssize_t length = read(buffer.file.get(), page.data(), page.size());
-      if (length <= 0) break;
+      if (length <= 0) {
+        break;
+      }
       take(buffer.cpu, std::vector<std::uint8_t>(page.begin(), page.begin() + length));
     }
   }
@@ -113,8 +121,12 @@ void drain(const std::vector<RingBuffer>& buffers, CtfWriter& writer, ThreadTabl
   std::vector<std::pair<unsigned, std::vector<std::uint8_t>>> pages;
   read_buffers(buffers,
                [&](unsigned cpu, std::vector<std::uint8_t> page) { pages.emplace_back(cpu, std::move(page)); });
-  for (const auto& [cpu, bytes] : pages) learn(threads, bytes);
-  for (const auto& [cpu, bytes] : pages) writer.write_page(cpu, bytes);
+  for (const auto& [cpu, bytes] : pages) {
+    learn(threads, bytes);
+  }
+  for (const auto& [cpu, bytes] : pages) {
+    writer.write_page(cpu, bytes);
+  }
   threads.forget_the_past();
 }
 
@@ -134,7 +146,9 @@ Options enable(TracefsInstance& instance, int argc, char** argv) {
     try {
       enable_it();
     } catch (const UnknownNameError& error) {
-      if (!unknown) unknown = error;
+      if (!unknown) {
+        unknown = error;
+      }
       options.warning += (options.warning.empty() ? "not recorded, for the kernel has no " : ", no ") + name;
     }
   };
@@ -160,7 +174,9 @@ Options enable(TracefsInstance& instance, int argc, char** argv) {
       throw KernelTraceError("launch-kernel-recorder: bad arguments");
     }
   }
-  if (unknown && instance.formats().empty()) throw UnknownNameError(*unknown);
+  if (unknown && instance.formats().empty()) {
+    throw UnknownNameError(*unknown);
+  }
   instance.leave_out(left_out);
   return options;
 }
@@ -202,7 +218,9 @@ void record(TracefsInstance& instance, const fs::path& directory, const Options&
   CtfWriter writer(directory, random_uuid(), instance.formats(), options.context_fields, threads);
   const std::vector<RingBuffer> buffers = open_buffers(instance);
   std::vector<pollfd> watched = {{signals, POLLIN, 0}};
-  for (const RingBuffer& buffer : buffers) watched.push_back({buffer.file.get(), POLLIN, 0});
+  for (const RingBuffer& buffer : buffers) {
+    watched.push_back({buffer.file.get(), POLLIN, 0});
+  }
   instance.start();
   tell_state(beside, "recording");
   say(ready(options));
@@ -214,7 +232,9 @@ void record(TracefsInstance& instance, const fs::path& directory, const Options&
   };
   for (bool ended = false; !ended;) {
     if (poll(watched.data(), watched.size(), -1) < 0) {
-      if (errno == EINTR) continue;
+      if (errno == EINTR) {
+        continue;
+      }
       break;
     }
     if ((watched[0].revents & POLLIN) == 0) {
@@ -269,7 +289,9 @@ void keep_for_snapshots(TracefsInstance& instance, const fs::path& beside, const
         read_buffers(buffers, [&](unsigned cpu, PageHistory::Page page) { writer.add(cpu, std::move(page)); });
         fs::create_directories(snapshot / "kernel");
         writer.write(snapshot / "kernel", clock_beside(snapshot / "ust"));
-        if (clear) writer.clear();
+        if (clear) {
+          writer.clear();
+        }
         tell_state(beside, snapshot.filename());
       } catch (const std::exception& error) {
         tell_state(beside, fmt::format("failed {}: {}", snapshot.filename().string(), error.what()));
@@ -291,7 +313,9 @@ void keep_for_snapshots(TracefsInstance& instance, const fs::path& beside, const
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 3) return 2;
+  if (argc < 3) {
+    return 2;
+  }
   const int signals = control_signals();
   try {
     TracefsInstance instance(argv[1]);

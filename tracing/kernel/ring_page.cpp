@@ -25,7 +25,9 @@ constexpr std::uint64_t kTopTimeBits = ~((std::uint64_t{1} << 59) - 1);  // an a
 RingPage read_ring_page(std::span<const std::uint8_t> page,
                         const std::function<void(std::uint64_t, std::span<const std::uint8_t>)>& record) {
   RingPage read;
-  if (page.size() < kHeaderSize) return read;
+  if (page.size() < kHeaderSize) {
+    return read;
+  }
   std::uint64_t time = load<std::uint64_t>(page, 0);
   const auto commit = load<std::uint64_t>(page, 8);
   const std::size_t committed = commit & kCommittedBytes;
@@ -42,7 +44,9 @@ RingPage read_ring_page(std::span<const std::uint8_t> page,
     const auto word = load<std::uint32_t>(data, at + 4);
     at += sizeof header;
     if (type == kPadding) {
-      if (delta == 0) break;  // padding to the end of the page
+      if (delta == 0) {
+        break;  // padding to the end of the page
+      }
       at += word;
       time += delta;
       continue;
@@ -61,9 +65,15 @@ RingPage read_ring_page(std::span<const std::uint8_t> page,
     // With type 0 the first word is the length of the data, itself included.
     const std::size_t begin = type == 0 ? at + sizeof word : at;
     const std::size_t length = type == 0 ? word - sizeof word : std::size_t{type} * 4;
-    if (type == 0 && word < sizeof word) break;
-    if (begin + length > data.size()) break;
-    if (first) read.begin = time;
+    if (type == 0 && word < sizeof word) {
+      break;
+    }
+    if (begin + length > data.size()) {
+      break;
+    }
+    if (first) {
+      read.begin = time;
+    }
     first = false;
     read.end = time;
     record(time, data.subspan(begin, length));
@@ -74,7 +84,9 @@ RingPage read_ring_page(std::span<const std::uint8_t> page,
 
 bool forget_lost_records(std::span<std::uint8_t> page) {
   auto commit = load<std::uint64_t>(page, 8);
-  if (page.size() < kHeaderSize || (commit & kMissedEvents) == 0) return false;
+  if (page.size() < kHeaderSize || (commit & kMissedEvents) == 0) {
+    return false;
+  }
   commit &= ~(kMissedEvents | kMissedStored);
   std::memcpy(page.data() + 8, &commit, sizeof commit);
   return true;

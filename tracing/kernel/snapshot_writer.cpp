@@ -19,7 +19,9 @@ SnapshotWriter::SnapshotWriter(std::size_t limit, std::vector<EventFormat> forma
 
 void SnapshotWriter::add(unsigned cpu, PageHistory::Page page) {
   // In what was overwritten, the number of a thread may have passed to another one. /proc tells of those that run.
-  if (history_.add(cpu, std::move(page))) threads_ = no_threads_;
+  if (history_.add(cpu, std::move(page))) {
+    threads_ = no_threads_;
+  }
 }
 
 void SnapshotWriter::write(const std::filesystem::path& directory, const TraceClock& clock) {

@@ -18,7 +18,9 @@ namespace {
 constexpr std::uint64_t kCloneThread = 0x10000;  // CLONE_THREAD: of the same process
 
 std::string text(std::span<const std::uint8_t> bytes, std::size_t offset, std::size_t size) {
-  if (offset + size > bytes.size()) return {};
+  if (offset + size > bytes.size()) {
+    return {};
+  }
   const char* const begin = reinterpret_cast<const char*>(bytes.data()) + offset;
   return std::string(begin, strnlen(begin, size));
 }
@@ -28,7 +30,9 @@ Thread from_proc(std::int32_t thread) {
   std::getline(std::ifstream(fmt::format("/proc/{}/comm", thread)), found.name);
   std::ifstream status(fmt::format("/proc/{}/status", thread));
   for (std::string line; std::getline(status, line);) {
-    if (line.starts_with("Tgid:")) found.process = std::atoi(line.c_str() + 5);
+    if (line.starts_with("Tgid:")) {
+      found.process = std::atoi(line.c_str() + 5);
+    }
   }
   return found;
 }
@@ -81,13 +85,17 @@ Thread ThreadTable::at(std::int32_t thread, std::uint64_t time) const {
 
 Thread ThreadTable::find(std::int32_t thread, std::uint64_t time) {
   std::map<std::uint64_t, Thread>& history = threads_[thread];
-  if (history.empty()) history[0] = from_proc(thread);
+  if (history.empty()) {
+    history[0] = from_proc(thread);
+  }
   return at(thread, time);
 }
 
 void ThreadTable::forget_the_past() {
   for (auto& [thread, history] : threads_) {
-    if (history.size() > 1) history.erase(history.begin(), std::prev(history.end()));
+    if (history.size() > 1) {
+      history.erase(history.begin(), std::prev(history.end()));
+    }
   }
 }
 

@@ -31,9 +31,13 @@ bool is_tracefs(const fs::path& directory) {
 
 fs::path find_tracefs() {
   for (const char* place : {kMountPoint, kOldMountPoint}) {
-    if (is_tracefs(place)) return place;
+    if (is_tracefs(place)) {
+      return place;
+    }
   }
-  if (geteuid() != 0) throw KernelTraceError(fmt::format("{} cannot be read", kMountPoint), kPrivilege);
+  if (geteuid() != 0) {
+    throw KernelTraceError(fmt::format("{} cannot be read", kMountPoint), kPrivilege);
+  }
   // In a mount namespace of our own, so that nothing of the system changes.
   if (unshare(CLONE_NEWNS) != 0 || mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
       mount("tracefs", kMountPoint, "tracefs", 0, nullptr) != 0) {
@@ -54,7 +58,9 @@ void append(const fs::path& path, const std::string& text) {
   const int fd = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
   const bool written = fd >= 0 && ::write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size());
   const int error = errno;
-  if (fd >= 0) ::close(fd);
+  if (fd >= 0) {
+    ::close(fd);
+  }
   if (!written) {
     throw KernelTraceError(fmt::format("cannot write '{}' to {}: {}", text, path.string(), std::strerror(error)));
   }
@@ -105,15 +111,21 @@ void TracefsInstance::enable_event(const std::string& pattern, const std::string
   std::size_t found = 0;
   for (const fs::directory_entry& group : fs::directory_iterator(directory_ / "events")) {
     const std::string group_name = group.path().filename();
-    if (!group.is_directory() || group_name == "syscalls" || group_name == "ftrace") continue;
+    if (!group.is_directory() || group_name == "syscalls" || group_name == "ftrace") {
+      continue;
+    }
     for (const fs::directory_entry& event : fs::directory_iterator(group)) {
-      if (!event.is_directory()) continue;
+      if (!event.is_directory()) {
+        continue;
+      }
       const std::string name = event.path().filename();
       // LTTng puts the group before some names.
       const auto is_meant = [&pattern](const std::string& called) {
         return fnmatch(pattern.c_str(), called.c_str(), 0) == 0;
       };
-      if (!is_meant(name) && !is_meant(lttng_name(name)) && !is_meant(group_name + "_" + name)) continue;
+      if (!is_meant(name) && !is_meant(lttng_name(name)) && !is_meant(group_name + "_" + name)) {
+        continue;
+      }
       enable(event.path(), filter);
       ++found;
     }
@@ -131,7 +143,9 @@ void TracefsInstance::enable_syscall(const std::string& name) {
   for (const fs::directory_entry& event : fs::directory_iterator(folder, none)) {
     const std::string entry = event.path().filename();
     for (const char* kind : {"sys_enter_", "sys_exit_"}) {
-      if (!entry.starts_with(kind) || fnmatch(name.c_str(), entry.c_str() + std::strlen(kind), 0) != 0) continue;
+      if (!entry.starts_with(kind) || fnmatch(name.c_str(), entry.c_str() + std::strlen(kind), 0) != 0) {
+        continue;
+      }
       enable(event.path(), {});
       ++found;
     }
@@ -144,7 +158,9 @@ void TracefsInstance::enable_syscall(const std::string& name) {
 }
 
 void TracefsInstance::enable(const fs::path& event, const std::string& filter) {
-  if (std::find(enabled_.begin(), enabled_.end(), event) != enabled_.end()) return;
+  if (std::find(enabled_.begin(), enabled_.end(), event) != enabled_.end()) {
+    return;
+  }
   if (!filter.empty()) {
     try {
       write(event / "filter", filter);
@@ -165,7 +181,9 @@ EventFormat TracefsInstance::watch_event(const std::string& path) {
 
 std::vector<EventFormat> TracefsInstance::formats() const {
   std::vector<EventFormat> formats;
-  for (const fs::path& event : enabled_) formats.push_back(parse_event_format(read_file(event / "format")));
+  for (const fs::path& event : enabled_) {
+    formats.push_back(parse_event_format(read_file(event / "format")));
+  }
   return formats;
 }
 
@@ -173,7 +191,9 @@ void TracefsInstance::leave_out(const std::vector<std::string>& processes) {
   constexpr const char* kFile = "set_event_notrace_pid";
   constexpr const char* kFirstNamespace = "pid:[4026531836]";
   std::error_code error;
-  if (fs::read_symlink("/proc/self/ns/pid", error) != kFirstNamespace || !fs::exists(directory_ / kFile, error)) return;
+  if (fs::read_symlink("/proc/self/ns/pid", error) != kFirstNamespace || !fs::exists(directory_ / kFile, error)) {
+    return;
+  }
   write("options/event-fork", "1");
   // The second time for threads that began meanwhile, before their starter was left out.
   for (int i = 0; i < 2; ++i) {
@@ -207,7 +227,9 @@ void TracefsInstance::write(const fs::path& file, const std::string& text) const
   const int fd = ::open(path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
   const bool written = fd >= 0 && ::write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size());
   const int error = errno;
-  if (fd >= 0) ::close(fd);
+  if (fd >= 0) {
+    ::close(fd);
+  }
   if (!written) {
     throw KernelTraceError(fmt::format("cannot write '{}' to {}: {}", text, path.string(), std::strerror(error)),
                            error == EACCES || error == EPERM ? kPrivilege : "");

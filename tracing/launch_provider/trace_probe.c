@@ -43,16 +43,24 @@ static int compare(const void* left, const void* right) {
 
 static int measure(void) {
   double took[kBatches];
-  if (!lttng_ust_tracepoint_enabled(launch_probe, measured)) return 1;
-  for (int i = 0; i < kWarmUpBatches; ++i) batch();
-  for (int i = 0; i < kBatches; ++i) took[i] = batch();
+  if (!lttng_ust_tracepoint_enabled(launch_probe, measured)) {
+    return 1;
+  }
+  for (int i = 0; i < kWarmUpBatches; ++i) {
+    batch();
+  }
+  for (int i = 0; i < kBatches; ++i) {
+    took[i] = batch();
+  }
   qsort(took, kBatches, sizeof *took, &compare);
   printf("%.1f\n", took[kBatches / 2]);
   return 0;
 }
 
 int main(int argc, char** argv) {
-  if (argc > 1 && strcmp(argv[1], "measure") == 0) return measure();
+  if (argc > 1 && strcmp(argv[1], "measure") == 0) {
+    return measure();
+  }
   lttng_ust_tracepoint(launch_probe, fired);
   return 0;
 }

@@ -11,7 +11,9 @@ namespace {
 
 std::optional<std::size_t> index_in(const std::vector<std::string>& names, std::string_view name) {
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) return std::nullopt;
+  if (found == names.end()) {
+    return std::nullopt;
+  }
   return static_cast<std::size_t>(found - names.begin());
 }
 
@@ -27,11 +29,21 @@ std::optional<std::size_t> EventClass::context_index(std::string_view context) c
 
 Value::Kind Value::kind() const {
   const tracing::FieldValue& field = Access::field(*this);
-  if (field.unsigned_integer()) return Kind::kUnsigned;
-  if (field.integer()) return Kind::kSigned;
-  if (field.real()) return Kind::kReal;
-  if (field.is_structure()) return Kind::kStructure;
-  if (field.is_variant()) return Kind::kVariant;
+  if (field.unsigned_integer()) {
+    return Kind::kUnsigned;
+  }
+  if (field.integer()) {
+    return Kind::kSigned;
+  }
+  if (field.real()) {
+    return Kind::kReal;
+  }
+  if (field.is_structure()) {
+    return Kind::kStructure;
+  }
+  if (field.is_variant()) {
+    return Kind::kVariant;
+  }
   return field.is_array() ? Kind::kArray : Kind::kString;
 }
 
@@ -89,7 +101,9 @@ std::optional<std::string_view> Event::procname() const {
 
 Value Event::field(std::size_t index) const {
   const tracing::Event& event = Access::event(*this);
-  if (event.record != nullptr) return Access::value(tracing::FieldValue((*event.record)[index]));  // without a call
+  if (event.record != nullptr) {
+    return Access::value(tracing::FieldValue((*event.record)[index]));  // without a call
+  }
   return Access::value(event.field(index));
 }
 

@@ -37,7 +37,9 @@ Error as_error(const tracing::TraceReadError& error) {
 
 std::string text_in(const Trace& trace, const std::string& name) {
   const auto found = trace.environment.find(name);
-  if (found == trace.environment.end()) return {};
+  if (found == trace.environment.end()) {
+    return {};
+  }
   const auto* const text = std::get_if<std::string>(&found->second);
   return text == nullptr ? std::string() : *text;
 }
@@ -71,7 +73,9 @@ const Item* Reader::Implementation::next() {
 
 const KnownClass& Reader::Implementation::known_class(const tracing::Event& first) {
   const tracing::EventClass& recorded = *first.event_class;
-  if (recorded.id >= classes.size()) classes.resize(recorded.id + 1);
+  if (recorded.id >= classes.size()) {
+    classes.resize(recorded.id + 1);
+  }
   auto known = std::make_unique<KnownClass>();
   known->name = recorded.name;
   known->index = recorded.id;
@@ -85,7 +89,9 @@ const KnownClass& Reader::Implementation::known_class(const tracing::Event& firs
 
 const Stream& Reader::Implementation::known_stream(const tracing::Stream& recorded) {
   const auto [known, is_new] = streams.try_emplace(&recorded);
-  if (is_new) known->second = {recorded.name, &known_trace(recorded.trace), recorded.vpid};
+  if (is_new) {
+    known->second = {recorded.name, &known_trace(recorded.trace), recorded.vpid};
+  }
   return known->second;
 }
 

@@ -33,13 +33,17 @@ const std::unordered_map<std::string_view, SetView>& views() {
 
 void set_view(KnownClass& known, const tracing::Event& event) {
   const auto found = views().find(known.name);
-  if (found != views().end()) found->second(known, event);
+  if (found != views().end()) {
+    found->second(known, event);
+  }
 }
 
 template <class Struct>
 bool read(const Event& event, Struct& fields) {
   const KnownClass& known = Access::known(event);
-  if (known.view != &view_of<Struct>) return false;
+  if (known.view != &view_of<Struct>) {
+    return false;
+  }
   tracing::read_fields(Access::event(event), known.view_indices, fields);
   return true;
 }

@@ -48,7 +48,9 @@ bool report_growing_directories(const std::vector<fs::path>& directories, const 
   LiveScreen screen(options);
   bool has_noted = false;
   std::optional<Reading> reading = read(directories, options);
-  if (!reading) screen.note("waiting for a trace in " + directories.front().string());
+  if (!reading) {
+    screen.note("waiting for a trace in " + directories.front().string());
+  }
   std::chrono::nanoseconds wait = options.interval;
   while (!reading || !reading->report.open.empty()) {
     if (reading) {
@@ -63,10 +65,16 @@ bool report_growing_directories(const std::vector<fs::path>& directories, const 
     }
     const bool is_over = screen.is_over_after(wait);
     std::optional<Reading> next = read(directories, options);
-    if (next) reading = std::move(next);
-    if (is_over) break;
+    if (next) {
+      reading = std::move(next);
+    }
+    if (is_over) {
+      break;
+    }
   }
-  if (!reading) return true;
+  if (!reading) {
+    return true;
+  }
   reading->report.verdict = read_verdicts(directories);
   screen.finish(reading->report);
   return reading->report.error.empty();

@@ -39,7 +39,9 @@ LiveScreen::~LiveScreen() {
 void LiveScreen::print(const std::string& text, bool to_errors) const {
   std::FILE* const out = to_errors ? stderr : stdout;
   errno = 0;
-  if (std::fwrite(text.data(), 1, text.size(), out) == text.size() && std::fflush(out) == 0) return;
+  if (std::fwrite(text.data(), 1, text.size(), out) == text.size() && std::fflush(out) == 0) {
+    return;
+  }
   throw std::runtime_error(fmt::format("cannot write the output: {}", std::strerror(errno)));
 }
 
@@ -59,12 +61,16 @@ void LiveScreen::note(const std::string& text) {
 }
 
 void LiveScreen::finish(const Report& report) {
-  if (options_.json) return print(json_report(report), false);
+  if (options_.json) {
+    return print(json_report(report), false);
+  }
   print((draws() ? kClear : "") + text_report(report, options_.text), false);
 }
 
 bool LiveScreen::is_over_after(std::chrono::nanoseconds time) {
-  if (is_over_) return true;
+  if (is_over_) {
+    return true;
+  }
   constexpr std::int64_t kSecond = 1'000'000'000;
   const timespec wait{static_cast<time_t>(time.count() / kSecond), static_cast<long>(time.count() % kSecond)};
   const sigset_t signals = ending_signals();

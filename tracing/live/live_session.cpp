@@ -19,9 +19,15 @@ constexpr std::chrono::milliseconds kRetryAttach{50};
 // Returns false when the user has ended the report before.
 bool attach(LiveReader& reader, const LiveAddress& address, LiveScreen& screen) {
   bool is_attached = reader.attach();
-  if (!is_attached) screen.note(fmt::format("waiting for the session '{}'", address.session));
-  while (!is_attached && !screen.is_over_after(kRetryAttach)) is_attached = reader.attach();
-  if (!is_attached) return false;
+  if (!is_attached) {
+    screen.note(fmt::format("waiting for the session '{}'", address.session));
+  }
+  while (!is_attached && !screen.is_over_after(kRetryAttach)) {
+    is_attached = reader.attach();
+  }
+  if (!is_attached) {
+    return false;
+  }
   screen.note(fmt::format("attached to the session '{}'", address.session));
   return true;
 }
@@ -33,7 +39,9 @@ bool report_live_session(const std::string& session, const LiveOptions& options)
   LiveScreen screen(options);
   LiveReader reader(address);
   Report report{address.url(), {}, ""};
-  if (!attach(reader, address, screen)) return true;
+  if (!attach(reader, address, screen)) {
+    return true;
+  }
   LiveView view;
   Clock::time_point drawn = Clock::now();
   std::chrono::nanoseconds wait{0};
@@ -48,10 +56,14 @@ bool report_live_session(const std::string& session, const LiveOptions& options)
             address.session);
       }
       const LiveReader::State state = read_some(reader, view);
-      if (state == LiveReader::State::kEnd) break;
+      if (state == LiveReader::State::kEnd) {
+        break;
+      }
       wait = state == LiveReader::State::kItem ? std::chrono::nanoseconds(0) : kRetry;
       const Clock::duration since = Clock::now() - drawn;
-      if (since < options.interval || view.events() == 0) continue;
+      if (since < options.interval || view.events() == 0) {
+        continue;
+      }
       const double seconds = std::chrono::duration<double>(since).count();
       screen.show("Live       " + address.url(), view.screen(seconds, options.text), view.line(seconds));
       view.clear();

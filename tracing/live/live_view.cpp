@@ -54,7 +54,9 @@ std::string node_of(const ObjectModel& objects, ObjectId node) {
 }  // namespace
 
 LiveView::Activity& LiveView::at(std::vector<Activity>& activities, ObjectId id) {
-  if (id >= activities.size()) activities.resize(id + 1);
+  if (id >= activities.size()) {
+    activities.resize(id + 1);
+  }
   return activities[id];
 }
 
@@ -77,30 +79,40 @@ void LiveView::on_callback(const CallbackInstance& instance) {
   ++callbacks_ended_;
   Activity& activity = at(callbacks_, instance.callback);
   ++activity.count;
-  if (instance.finished) activity.took.add(instance.end_ns - instance.begin_ns);
+  if (instance.finished) {
+    activity.took.add(instance.end_ns - instance.begin_ns);
+  }
 }
 
 void LiveView::on_message(const MessageFlow& message) {
-  if (message.subscription == kNoObject) return;
+  if (message.subscription == kNoObject) {
+    return;
+  }
   Activity& activity = at(subscriptions_, message.subscription);
   ++activity.count;
   const Publication& from = message.publication;
   const std::int64_t begin_ns = from.rclcpp_ns != 0 ? from.rclcpp_ns
                                 : from.rcl_ns != 0  ? from.rcl_ns
                                                     : from.published_ns;
-  if (begin_ns == 0 || message.callback == kNoObject) return;
+  if (begin_ns == 0 || message.callback == kNoObject) {
+    return;
+  }
   activity.took.add(message.callback_begin_ns - begin_ns);
   latency_.add(message.callback_begin_ns - begin_ns);
 }
 
 std::string LiveView::losses() const {
-  if (all_lost_ == 0) return has_uncounted_loss_ ? "some lost" : "none lost";
+  if (all_lost_ == 0) {
+    return has_uncounted_loss_ ? "some lost" : "none lost";
+  }
   return fmt::format("{}{} lost", has_uncounted_loss_ ? "at least " : "", all_lost_);
 }
 
 std::string LiveView::head(double seconds) const {
   std::uint64_t messages = 0;
-  for (const Activity& activity : subscriptions_) messages += activity.count;
+  for (const Activity& activity : subscriptions_) {
+    messages += activity.count;
+  }
   const auto rate = [seconds](std::uint64_t count) { return static_cast<double>(count) / seconds; };
   std::string text = fmt::format("{:.0f} events/s, {:.4g} callbacks/s, {:.4g} messages/s", rate(events_),
                                  rate(callbacks_ended_), rate(messages));
@@ -126,7 +138,9 @@ std::string LiveView::node_table(double seconds, const ReportOptions& options,
   std::map<std::string, NodeActivity> nodes;
   for (ObjectId id = 0; id < callbacks_.size(); ++id) {
     const Activity& activity = callbacks_[id];
-    if (!activity.is_shown()) continue;
+    if (!activity.is_shown()) {
+      continue;
+    }
     NodeActivity& node = nodes[node_name(objects, objects.callbacks()[id])];
     const DurationSummary took = activity.took.summary();
     node.count += activity.count;
@@ -135,7 +149,9 @@ std::string LiveView::node_table(double seconds, const ReportOptions& options,
   }
   for (ObjectId id = 0; id < missed.size(); ++id) {
     const auto node = nodes.find(node_name(objects, objects.callbacks()[id]));
-    if (node != nodes.end()) node->second.missed += missed[id];
+    if (node != nodes.end()) {
+      node->second.missed += missed[id];
+    }
   }
   ScreenTable table("Nodes", {"callbacks", "load", "longest", "missed"}, "total");
   for (const auto& [name, node] : nodes) {
@@ -164,7 +180,9 @@ std::string LiveView::screen(double seconds, const ReportOptions& options) const
   ScreenTable messages("Messages, publish to callback", {"rate", "p50", "p99", "max", "dropped"}, "p99");
   for (ObjectId id = 0; id < subscriptions_.size(); ++id) {
     const Activity& activity = subscriptions_[id];
-    if (!activity.is_shown()) continue;
+    if (!activity.is_shown()) {
+      continue;
+    }
     const EndpointObject& subscription = objects.subscriptions()[id];
     const std::string topic =
         subscription.topic == kNoObject ? std::string("?") : objects.topics()[subscription.topic].name;
@@ -176,7 +194,9 @@ std::string LiveView::screen(double seconds, const ReportOptions& options) const
   ScreenTable callbacks("Callbacks", {"rate", "p50", "p99", "max", "missed"}, "total");
   for (ObjectId id = 0; id < callbacks_.size(); ++id) {
     const Activity& activity = callbacks_[id];
-    if (!activity.is_shown()) continue;
+    if (!activity.is_shown()) {
+      continue;
+    }
     const CallbackObject& callback = objects.callbacks()[id];
     const std::string node = node_name(objects, callback);
     Row row = row_of((node.empty() ? "?" : node) + " " + callback_source(objects, callback), "", activity.count,
@@ -193,8 +213,12 @@ void LiveView::clear() {
   latency_ = {};
   for (std::vector<Activity>* activities : {&subscriptions_, &callbacks_}) {
     for (Activity& activity : *activities) {
-      if (activity.count > 0) activity = {.rested = 0};
-      if (activity.is_shown()) ++activity.rested;
+      if (activity.count > 0) {
+        activity = {.rested = 0};
+      }
+      if (activity.is_shown()) {
+        ++activity.rested;
+      }
     }
   }
 }

@@ -10,7 +10,9 @@ LiveReader::State read_some(LiveReader& reader, TraceSink& sink) {
   TraceItem item;
   for (std::size_t i = 0; i < kMostItems; ++i) {
     const LiveReader::State state = reader.next(item);
-    if (state != LiveReader::State::kItem) return state;
+    if (state != LiveReader::State::kItem) {
+      return state;
+    }
     if (item.event != nullptr) {
       sink.on_event(*item.event);
     } else {

@@ -21,7 +21,9 @@ lttng_domain make_domain(lttng_domain_type type, BufferOwner owner) {
   lttng_domain domain{};
   domain.type = type;
   domain.buf_type = owner == BufferOwner::kProcess ? LTTNG_BUFFER_PER_PID : LTTNG_BUFFER_PER_UID;
-  if (type == LTTNG_DOMAIN_KERNEL) domain.buf_type = LTTNG_BUFFER_GLOBAL;
+  if (type == LTTNG_DOMAIN_KERNEL) {
+    domain.buf_type = LTTNG_BUFFER_GLOBAL;
+  }
   return domain;
 }
 
@@ -36,7 +38,9 @@ using EventPtr = std::unique_ptr<lttng_event, EventDeleter>;
 
 EventPtr make_event(const std::string& name, lttng_event_type type) {
   EventPtr event(lttng_event_create());
-  if (!event) throw lttng_error(LTTNG_ERR_NOMEM, "describe an event");
+  if (!event) {
+    throw lttng_error(LTTNG_ERR_NOMEM, "describe an event");
+  }
   name.copy(event->name, sizeof event->name - 1);
   event->type = type;
   event->loglevel_type = LTTNG_EVENT_LOGLEVEL_ALL;
@@ -75,14 +79,18 @@ DomainHandle domain_handle(const std::string& lttng_session_name, lttng_domain_t
 
 DomainHandle domain_handle(const std::string& lttng_session_name, lttng_domain domain) {
   DomainHandle handle(lttng_create_handle(lttng_session_name.c_str(), &domain));
-  if (!handle) throw lttng_error(LTTNG_ERR_NOMEM, "reach a tracing domain");
+  if (!handle) {
+    throw lttng_error(LTTNG_ERR_NOMEM, "reach a tracing domain");
+  }
   return handle;
 }
 
 void enable_channel(const std::string& lttng_session_name, const ChannelPlan& plan) {
   lttng_domain domain = make_domain(plan.domain, plan.buffers);
   const LttngOwned<lttng_channel> channel(lttng_channel_create(&domain), lttng_channel_destroy);
-  if (!channel) throw lttng_error(LTTNG_ERR_NOMEM, "create a channel");
+  if (!channel) {
+    throw lttng_error(LTTNG_ERR_NOMEM, "create a channel");
+  }
   plan.channel.copy(channel->name, sizeof channel->name - 1);
   channel->enabled = 1;
   channel->attr.overwrite = plan.overwrite ? 1 : 0;
@@ -103,8 +111,12 @@ void enable_channel(const std::string& lttng_session_name, const ChannelPlan& pl
 
 void enable_events(const std::string& lttng_session_name, const ChannelPlan& plan) {
   const DomainHandle handle = domain_of(lttng_session_name, plan);
-  for (const EventRule& rule : plan.events) enable_event(handle.get(), rule, plan.channel);
-  for (const std::string& name : plan.syscalls) enable_syscall(handle.get(), name, plan.channel);
+  for (const EventRule& rule : plan.events) {
+    enable_event(handle.get(), rule, plan.channel);
+  }
+  for (const std::string& name : plan.syscalls) {
+    enable_syscall(handle.get(), name, plan.channel);
+  }
 }
 
 void add_contexts(const std::string& lttng_session_name, const ChannelPlan& plan) {

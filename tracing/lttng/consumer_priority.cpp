@@ -43,11 +43,17 @@ std::vector<fs::path> candidates(pid_t daemon) {
   for (const fs::directory_entry& thread : fs::directory_iterator(fmt::format("/proc/{}/task", daemon), none)) {
     std::ifstream children(thread.path() / "children");
     listed = listed || children.is_open();
-    for (pid_t child = 0; children >> child;) found.emplace_back(fmt::format("/proc/{}", child));
+    for (pid_t child = 0; children >> child;) {
+      found.emplace_back(fmt::format("/proc/{}", child));
+    }
   }
-  if (listed) return found;
+  if (listed) {
+    return found;
+  }
   for (const fs::directory_entry& process : fs::directory_iterator("/proc", none)) {
-    if (number_of(process.path()) > 0) found.push_back(process.path());
+    if (number_of(process.path()) > 0) {
+      found.push_back(process.path());
+    }
   }
   return found;
 }
@@ -58,7 +64,9 @@ int prefer(const fs::path& process) {
   // On Linux a nice value belongs to a thread.
   for (const fs::directory_entry& thread : fs::directory_iterator(process / "task", none)) {
     const auto id = static_cast<id_t>(number_of(thread.path()));
-    if (setpriority(PRIO_PROCESS, id, kConsumerNice) != 0 && errno != ESRCH) return errno;
+    if (setpriority(PRIO_PROCESS, id, kConsumerNice) != 0 && errno != ESRCH) {
+      return errno;
+    }
   }
   return 0;
 }
@@ -68,16 +76,22 @@ int prefer(const fs::path& process) {
 std::vector<pid_t> consumers_of(pid_t daemon) {
   std::vector<pid_t> consumers;
   for (const fs::path& process : candidates(daemon)) {
-    if (is_consumer_of(process, daemon)) consumers.push_back(number_of(process));
+    if (is_consumer_of(process, daemon)) {
+      consumers.push_back(number_of(process));
+    }
   }
   return consumers;
 }
 
 std::string prefer_daemons(pid_t daemon) {
-  if (launch::read_process_stat(daemon).name == kSessionDaemon) prefer(fmt::format("/proc/{}", daemon));
+  if (launch::read_process_stat(daemon).name == kSessionDaemon) {
+    prefer(fmt::format("/proc/{}", daemon));
+  }
   for (const pid_t consumer : consumers_of(daemon)) {
     const int error = prefer(fmt::format("/proc/{}", consumer));
-    if (error == 0) continue;
+    if (error == 0) {
+      continue;
+    }
     return fmt::format(
         "LTTng's consumer keeps its priority ({}): on a machine that is busy all the time it may come too late, and "
         "events are lost; it takes root, CAP_SYS_NICE, or `USER - nice {}` in /etc/security/limits.conf",

@@ -54,7 +54,9 @@ std::string program_output(const fs::path& program, const std::vector<std::strin
     });
     pipe.write.reset();
     std::string output = launch::read_to_end(pipe.read);
-    while (output.ends_with('\n')) output.pop_back();
+    while (output.ends_with('\n')) {
+      output.pop_back();
+    }
     return succeeded(launch::wait_for(pid)) ? output : std::string();
   } catch (const std::system_error&) {
     return {};

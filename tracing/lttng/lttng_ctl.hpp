@@ -45,7 +45,9 @@ struct LttngFunction<name, Result(Arguments...)> {
   Result operator()(Arguments... arguments) const {
     const Pointer function = *this;
     std::unique_lock<std::mutex> lock;
-    if constexpr (!has_own_connection(name.text)) lock = lttng_lock();
+    if constexpr (!has_own_connection(name.text)) {
+      lock = lttng_lock();
+    }
     return function(arguments...);
   }
 

@@ -53,7 +53,9 @@ TraceError lttng_error(int code, const std::string& doing) {
 }
 
 int check_lttng(int result, const std::string& doing) {
-  if (result >= 0) return result;
+  if (result >= 0) {
+    return result;
+  }
   const TraceError error = lttng_error(result, doing);
   if (result == -LTTNG_ERR_FATAL || result == -LTTNG_ERR_NO_USTCONSUMERD) {
     throw ConsumerEnded(error.what(), error.remedy());

@@ -39,11 +39,15 @@ std::optional<std::set<std::uint64_t>> sockets_of(pid_t process) {
   std::set<std::uint64_t> inodes;
   std::error_code error;
   fs::directory_iterator entry(fmt::format("/proc/{}/fd", process), error);
-  if (error == std::errc::permission_denied) return std::nullopt;
+  if (error == std::errc::permission_denied) {
+    return std::nullopt;
+  }
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
     std::error_code gone;
     const std::string target = fs::read_symlink(entry->path(), gone).string();
-    if (gone || !target.starts_with(kSocket)) continue;
+    if (gone || !target.starts_with(kSocket)) {
+      continue;
+    }
     inodes.insert(std::strtoull(target.c_str() + kSocket.size(), nullptr, 10));
   }
   return inodes;
@@ -57,7 +61,9 @@ struct Connection {
 // The established connections of the process to one of the ports; nothing if this user may not see them.
 std::optional<std::vector<Connection>> connections_of(pid_t process, const RelayPorts& ports) {
   const std::optional<std::set<std::uint64_t>> sockets = sockets_of(process);
-  if (!sockets) return std::nullopt;
+  if (!sockets) {
+    return std::nullopt;
+  }
   std::vector<Connection> found;
   for (const char* protocol : {"tcp", "tcp6"}) {
     std::ifstream file(fmt::format("/proc/{}/net/{}", process, protocol));
@@ -69,9 +75,13 @@ std::optional<std::vector<Connection>> connections_of(pid_t process, const Relay
       std::uint64_t inode = 0;
       fields >> number >> local >> remote >> state >> queues >> timer >> retransmits >> user >> timeout >> inode;
       const std::size_t colon = remote.rfind(':');
-      if (!fields || colon == std::string::npos || std::stoi(state, nullptr, 16) != kEstablished) continue;
+      if (!fields || colon == std::string::npos || std::stoi(state, nullptr, 16) != kEstablished) {
+        continue;
+      }
       const auto port = static_cast<std::uint16_t>(std::stoi(remote.substr(colon + 1), nullptr, 16));
-      if ((port != ports.control && port != ports.data) || !sockets->contains(inode)) continue;
+      if ((port != ports.control && port != ports.data) || !sockets->contains(inode)) {
+        continue;
+      }
       found.push_back({.peer = remote.substr(0, colon),
                        .is_silent = timer.starts_with(kZeroWindow) || std::stoi(retransmits, nullptr, 16) != 0});
     }
@@ -89,17 +99,27 @@ bool is_this_machine(const std::string& peer) {
 bool relay_daemon_is_stopped(pid_t consumer) {
   std::error_code error;
   const fs::path network = fs::read_symlink(fmt::format("/proc/{}/ns/net", consumer), error);
-  if (error) return false;
+  if (error) {
+    return false;
+  }
   bool stopped = false;
   fs::directory_iterator entry("/proc", error);
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
     const pid_t pid = static_cast<pid_t>(std::strtol(entry->path().filename().c_str(), nullptr, 10));
-    if (pid <= 0) continue;
+    if (pid <= 0) {
+      continue;
+    }
     const launch::ProcessStat process = launch::read_process_stat(pid);
-    if (process.name != kRelayDaemon || process.state == 'Z') continue;
+    if (process.name != kRelayDaemon || process.state == 'Z') {
+      continue;
+    }
     std::error_code hidden;
-    if (fs::read_symlink(entry->path() / "ns/net", hidden) != network || hidden) continue;
-    if (process.state != 'T' && process.state != 't') return false;  // which one it is, is unknown
+    if (fs::read_symlink(entry->path() / "ns/net", hidden) != network || hidden) {
+      continue;
+    }
+    if (process.state != 'T' && process.state != 't') {
+      return false;  // which one it is, is unknown
+    }
     stopped = true;
   }
   return stopped;
@@ -112,12 +132,16 @@ RelayPorts relay_ports(const std::string& address) {
   const std::size_t scheme = address.find("://");
   std::string_view rest(address);
   rest.remove_prefix(scheme == std::string::npos ? 0 : scheme + 3);
-  if (rest.starts_with('[')) rest.remove_prefix(std::min(rest.find(']'), rest.size()));  // an IPv6 address
+  if (rest.starts_with('[')) {
+    rest.remove_prefix(std::min(rest.find(']'), rest.size()));  // an IPv6 address
+  }
   const std::string_view authority = rest.substr(0, rest.find('/'));
   if (const std::size_t colon = authority.find(':'); colon != std::string_view::npos) {
     ports.control = port_at(authority.substr(colon + 1), ports.control);
     const std::size_t second = authority.find(':', colon + 1);
-    if (second != std::string_view::npos) ports.data = port_at(authority.substr(second + 1), ports.data);
+    if (second != std::string_view::npos) {
+      ports.data = port_at(authority.substr(second + 1), ports.data);
+    }
   }
   if (const std::size_t data = rest.find(kDataPort); data != std::string_view::npos) {
     ports.data = port_at(rest.substr(data + kDataPort.size()), ports.data);
@@ -131,15 +155,21 @@ RelayConnection::State RelayConnection::look() {
   for (const pid_t consumer : consumers_) {
     bool local = false;
     const std::optional<std::vector<Connection>> connections = connections_of(consumer, ports_);
-    if (!connections) return State::kUnknown;
+    if (!connections) {
+      return State::kUnknown;
+    }
     for (const Connection& connection : *connections) {
       works = true;
       is_silent = is_silent || connection.is_silent;
       local = local || is_this_machine(connection.peer);
     }
-    if (local && relay_daemon_is_stopped(consumer)) return State::kSilent;
+    if (local && relay_daemon_is_stopped(consumer)) {
+      return State::kSilent;
+    }
   }
-  if (!works) return State::kEnded;
+  if (!works) {
+    return State::kEnded;
+  }
   silence_ = is_silent ? silence_ + 1 : 0;
   return silence_ >= kLongestSilence ? State::kSilent : State::kWorks;
 }

@@ -43,7 +43,9 @@ bool daemon_answers() {
 // their own. If root's daemon runs, it serves the members of group `tracing`, and the file of their own daemon does not
 // exist.
 std::string pid_file_of_daemon() {
-  if (geteuid() == 0) return "/run/lttng/lttng-sessiond.pid";
+  if (geteuid() == 0) {
+    return "/run/lttng/lttng-sessiond.pid";
+  }
   const char* const given = std::getenv("LTTNG_HOME");
   const std::string home = given != nullptr && *given != '\0' ? given : launch::home_directory();
   return home + "/.lttng/lttng-sessiond.pid";
@@ -56,7 +58,9 @@ class DaemonOutput {
   DaemonOutput() : fd_(memfd_create("lttng-sessiond-output", MFD_CLOEXEC | MFD_ALLOW_SEALING)) {}
   // The daemon keeps it for good: what it says from now on fails instead of filling memory.
   ~DaemonOutput() {
-    if (fd_ < 0) return;
+    if (fd_ < 0) {
+      return;
+    }
     fcntl(fd_, F_ADD_SEALS, F_SEAL_WRITE);
     close(fd_);
   }
@@ -114,7 +118,9 @@ pid_t spawn_daemon(const DaemonOutput& output) {
 bool another_daemon_starts() {
   const std::string lock_file = std::filesystem::path(pid_file_of_daemon()).replace_extension(".lck");
   const int fd = open(lock_file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (fd < 0) return false;
+  if (fd < 0) {
+    return false;
+  }
   struct flock lock {};
   lock.l_type = F_WRLCK;
   lock.l_whence = SEEK_SET;
@@ -131,7 +137,9 @@ void start_daemon() {
   while (!daemon_answers() && another_daemon_starts() && std::chrono::steady_clock::now() < give_up) {
     std::this_thread::sleep_for(kBetweenLooks);
   }
-  if (daemon_answers()) return;  // also when another process was faster than we
+  if (daemon_answers()) {
+    return;  // also when another process was faster than we
+  }
 
   const std::string said = output.first_line();
   throw TraceError(
@@ -150,7 +158,9 @@ pid_t read_pid(const std::string& pid_file) {
 }
 
 void check_not_stopped(pid_t pid, const launch::ProcessStat& process) {
-  if (process.name != kDaemon || process.state != 'T') return;
+  if (process.name != kDaemon || process.state != 'T') {
+    return;
+  }
   throw TraceError(fmt::format("the LTTng session daemon (process {}) is stopped and does not answer", pid),
                    fmt::format("continue it with `kill -CONT {}`", pid));
 }
@@ -159,10 +169,14 @@ void check_not_stopped(pid_t pid, const launch::ProcessStat& process) {
 
 void check_daemon_is_here(const std::string& pid_file) {
   const pid_t pid = read_pid(pid_file);
-  if (pid == 0) return;
+  if (pid == 0) {
+    return;
+  }
   const launch::ProcessStat process = launch::read_process_stat(pid);
   const bool hidden = process.name.empty() && kill(pid, 0) != 0 && errno == EPERM;  // /proc with hidepid
-  if (hidden) return;
+  if (hidden) {
+    return;
+  }
   if (process.name != kDaemon || process.state == 'Z') {
     throw TraceError(
         fmt::format("the LTTng session daemon exists but is unreachable: {} names process {}, which is not a {} here",
@@ -186,16 +200,22 @@ bool session_daemon_can_answer() {
 }
 
 void check_daemon_not_stopped() {
-  if (const pid_t pid = session_daemon_pid(); pid != 0) check_not_stopped(pid, launch::read_process_stat(pid));
+  if (const pid_t pid = session_daemon_pid(); pid != 0) {
+    check_not_stopped(pid, launch::read_process_stat(pid));
+  }
 }
 
 bool session_daemon_is_ours() {
   const pid_t pid = session_daemon_pid();
-  if (pid == 0 || launch::read_process_stat(pid).name != kDaemon) return false;
+  if (pid == 0 || launch::read_process_stat(pid).name != kDaemon) {
+    return false;
+  }
   std::ifstream environment(fmt::format("/proc/{}/environ", pid));
   const std::string mark = std::string(launch::kLeaveRunningVariable) + "=1";
   for (std::string variable; std::getline(environment, variable, '\0');) {
-    if (variable == mark) return true;
+    if (variable == mark) {
+      return true;
+    }
   }
   return false;
 }
@@ -212,7 +232,9 @@ void restart_session_daemon() {
 bool ensure_session_daemon() {
   // A stopped daemon accepts the connection and would block us for ever: look at the process first.
   const bool alive = daemon_answers();
-  if (!alive) start_daemon();
+  if (!alive) {
+    start_daemon();
+  }
   check_daemon_is_here(pid_file_of_daemon());
   return !alive;
 }

@@ -105,7 +105,9 @@ class ChainTracker : public ExecutionSink {
   class Trails {
    public:
     void push_back(const Trail& trail) {
-      if (size_ < kTrails) trails_[size_++] = trail;
+      if (size_ < kTrails) {
+        trails_[size_++] = trail;
+      }
     }
     bool empty() const { return size_ == 0; }
     std::size_t size() const { return size_; }

@@ -16,14 +16,18 @@ constexpr std::size_t kRemembered = 4'096;
 
 template <class Record>
 Record& at(std::vector<Record>& records, ObjectId id) {
-  if (id >= records.size()) records.resize(id + 1);
+  if (id >= records.size()) {
+    records.resize(id + 1);
+  }
   return records[id];
 }
 
 // How many messages the history of the reader holds.
 std::uint64_t queue_depth(const EndpointObject& subscription) {
   const std::uint64_t depth = subscription.qos ? subscription.qos->history_depth : subscription.queue_depth;
-  if (subscription.qos && depth == 0) return std::numeric_limits<std::uint64_t>::max();
+  if (subscription.qos && depth == 0) {
+    return std::numeric_limits<std::uint64_t>::max();
+  }
   return std::max<std::uint64_t>(depth, 1);
 }
 
@@ -48,7 +52,9 @@ void DeliveryStatistics::on_publication(const Publication& publication) {
   Publisher& publisher = at(sent_, publication.publisher);
   ++publisher.count;
   publisher.newest.push_back({publication.number, ++at(topic_counts_, publication.topic)});
-  if (publisher.newest.size() > kRemembered) publisher.newest.pop_front();
+  if (publisher.newest.size() > kRemembered) {
+    publisher.newest.pop_front();
+  }
 }
 
 // Messages of one publisher arrive in their order: those between the last one and this one will not come.
@@ -61,7 +67,9 @@ void DeliveryStatistics::find_gaps(const MessageFlow& message) {
   const bool is_late = newest.size() > kLast && (newest.end() - kLast)->number <= message.publication.number;
   const auto sent = std::lower_bound(is_late ? newest.end() - kLast : newest.begin(), newest.end(),
                                      message.publication.number, is_before);
-  if (sent == publisher.newest.end() || sent->number != message.publication.number) return;
+  if (sent == publisher.newest.end() || sent->number != message.publication.number) {
+    return;
+  }
   const auto index = static_cast<std::uint64_t>(sent - publisher.newest.begin());
   const std::uint64_t place = publisher.count - publisher.newest.size() + 1 + index;
   DeliveryRecord& record = at(subscriptions_, message.subscription);
@@ -70,7 +78,9 @@ void DeliveryStatistics::find_gaps(const MessageFlow& message) {
     record.before_first += place - 1;
     return;
   }
-  if (place <= last->second) return;
+  if (place <= last->second) {
+    return;
+  }
   const std::uint64_t depth = queue_depth(model_.subscriptions()[message.subscription]);
   const std::uint64_t topic_count = at(topic_counts_, message.publication.topic);
   std::uint64_t lost = 0;
@@ -79,8 +89,12 @@ void DeliveryStatistics::find_gaps(const MessageFlow& message) {
     // It was older than the history of the reader is long when the reader was asked.
     const bool overwritten =
         back > index || topic_count - (sent - static_cast<std::ptrdiff_t>(back))->topic_count >= depth;
-    if (overwritten) ++record.overwritten;
-    if (!overwritten) ++lost;
+    if (overwritten) {
+      ++record.overwritten;
+    }
+    if (!overwritten) {
+      ++lost;
+    }
   }
   count_lost(record, message, lost);
   last->second = place;
@@ -90,7 +104,9 @@ void DeliveryStatistics::count_lost(DeliveryRecord& record, const MessageFlow& m
   record.lost += count;
   const std::optional<ros2::EndpointQos>& publisher = model_.publishers()[message.publication.publisher].qos;
   const std::optional<ros2::EndpointQos>& subscription = model_.subscriptions()[message.subscription].qos;
-  if (!publisher || !subscription || subscription->is_filtered) return;
+  if (!publisher || !subscription || subscription->is_filtered) {
+    return;
+  }
   (publisher->reliable && subscription->reliable ? record.lost_by_publisher : record.lost_in_transport) += count;
 }
 
@@ -99,19 +115,35 @@ void DeliveryStatistics::on_message(const MessageFlow& message) {
   const bool is_known = publication.number != 0;
   DeliveryRecord& record = at(subscriptions_, message.subscription);
   ++record.received;
-  if (publication.intra_process) ++record.intra_process;
+  if (publication.intra_process) {
+    ++record.intra_process;
+  }
   ++(message.callback == kNoObject ? record.not_executed : record.delivered);
-  if (!is_known) return;
-  if (!publication.intra_process) find_gaps(message);
-  if (message.callback == kNoObject) return;
+  if (!is_known) {
+    return;
+  }
+  if (!publication.intra_process) {
+    find_gaps(message);
+  }
+  if (message.callback == kNoObject) {
+    return;
+  }
 
   const HopTimes times = hop_times(message);
-  if (times.rcl_ns) record.rcl.add(*times.rcl_ns);
-  if (times.rclcpp_ns) record.rclcpp.add(*times.rclcpp_ns);
+  if (times.rcl_ns) {
+    record.rcl.add(*times.rcl_ns);
+  }
+  if (times.rclcpp_ns) {
+    record.rclcpp.add(*times.rclcpp_ns);
+  }
   record.latency.add(times.latency_ns);
   record.take.add(times.take_ns);
-  if (times.transport_ns) record.transport.add(*times.transport_ns);
-  if (times.executor_ns) record.executor.add(*times.executor_ns);
+  if (times.transport_ns) {
+    record.transport.add(*times.transport_ns);
+  }
+  if (times.executor_ns) {
+    record.executor.add(*times.executor_ns);
+  }
 }
 
 void DeliveryStatistics::finish() {

@@ -19,7 +19,9 @@ HopTimes hop_times(const MessageFlow& message) {
   }
   times.latency_ns = message.callback_begin_ns - begin;
   times.take_ns = message.callback_begin_ns - message.taken_ns;
-  if (message.executor_free_ns == 0) return times;  // no executor that tells
+  if (message.executor_free_ns == 0) {
+    return times;  // no executor that tells
+  }
   const std::int64_t woken = message.executor_woken_ns == 0 ? message.taken_ns : message.executor_woken_ns;
   const std::int64_t waited = woken - std::max(publication.published_ns, message.executor_free_ns);
   times.transport_ns = publication.intra_process ? 0 : std::max<std::int64_t>(waited, 0);

@@ -14,9 +14,13 @@ void IntraProcessMatcher::on(const Origin& origin, const ros2::RclcppBufferToIpb
 
 void IntraProcessMatcher::on(const Origin& origin, const ros2::RclcppIpbToSubscription& event) {
   const auto buffer = buffer_of_ipb_.find({origin.process, event.ipb});
-  if (buffer == buffer_of_ipb_.end()) return;
+  if (buffer == buffer_of_ipb_.end()) {
+    return;
+  }
   Buffer& known = buffers_[{origin.process, buffer->second}];
-  if (known.subscription_object != event.subscription) known.slots.clear();
+  if (known.subscription_object != event.subscription) {
+    known.slots.clear();
+  }
   known.subscription_object = event.subscription;
 }
 

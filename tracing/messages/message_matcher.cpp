@@ -15,7 +15,9 @@ void MessageMatcher::publish(const Publication& publication, std::int64_t source
   Flight& flight = flights_[publication.topic];
   const bool received = !flight.unknown.empty() && was_taken_early(topic_record, flight, publication, source_timestamp);
   flight.recent.add({source_timestamp, publication, received}, [&](const RecentPublication& oldest) {
-    if (!oldest.received) ++topic_record.published_only;
+    if (!oldest.received) {
+      ++topic_record.published_only;
+    }
   });
 }
 
@@ -23,7 +25,9 @@ bool MessageMatcher::was_taken_early(TopicRecord& topic_record, Flight& flight, 
                                      std::int64_t source_timestamp) {
   bool was_taken = false;
   std::erase_if(flight.unknown, [&](const auto& taken) {
-    if (taken.first != source_timestamp) return false;
+    if (taken.first != source_timestamp) {
+      return false;
+    }
     was_taken = true;
     --topic_record.received_only;
     ++topic_record.early;
@@ -43,8 +47,12 @@ TakenMessage MessageMatcher::take(ObjectId subscription, ObjectId topic, std::in
   RecentPublication* const found = flight.recent.find(source_timestamp);
   if (found == nullptr) {
     ++(topic_record.untimed > 0 ? topic_record.untimed_taken : topic_record.received_only);
-    if (topic_record.untimed == 0 && source_timestamp != 0) flight.unknown.emplace_back(source_timestamp, time_ns);
-    if (flight.unknown.size() > kUnknown) flight.unknown.pop_front();
+    if (topic_record.untimed == 0 && source_timestamp != 0) {
+      flight.unknown.emplace_back(source_timestamp, time_ns);
+    }
+    if (flight.unknown.size() > kUnknown) {
+      flight.unknown.pop_front();
+    }
   } else {
     found->received = true;
     message.publication = found->publication;
@@ -53,14 +61,18 @@ TakenMessage MessageMatcher::take(ObjectId subscription, ObjectId topic, std::in
 }
 
 void MessageMatcher::deliver(const TakenMessage& message, std::int64_t callback_start_ns) {
-  if (!message.publication_is_known()) return;
+  if (!message.publication_is_known()) {
+    return;
+  }
   record(message.publication.topic).latency.add(callback_start_ns - message.publication.published_ns);
 }
 
 void MessageMatcher::finish() {
   for (std::size_t topic = 0; topic < flights_.size(); ++topic) {
     for (const RecentPublication& remembered : flights_[topic].recent.all()) {
-      if (!remembered.received) ++records_[topic].published_only;
+      if (!remembered.received) {
+        ++records_[topic].published_only;
+      }
     }
     flights_[topic] = {};
   }

@@ -23,8 +23,12 @@ class RecentPublications {
 
   // Null when it is not there. Valid until the next add().
   RecentPublication* find(std::int64_t source_timestamp) {
-    if (ring_.empty()) return nullptr;
-    if (ring_[newest_].source_timestamp == source_timestamp) return &ring_[newest_];
+    if (ring_.empty()) {
+      return nullptr;
+    }
+    if (ring_[newest_].source_timestamp == source_timestamp) {
+      return &ring_[newest_];
+    }
     const std::uint32_t position = slots_[slot_of(source_timestamp)];
     return position == kEmpty ? nullptr : &ring_[position];
   }
@@ -39,7 +43,9 @@ class RecentPublications {
     if (ring_.size() < most_) {
       newest_ = ring_.size();
       ring_.push_back(added);
-      if (2 * ring_.size() > slots_.size()) return make_slots();
+      if (2 * ring_.size() > slots_.size()) {
+        return make_slots();
+      }
     } else {
       newest_ = (newest_ + 1) % most_;
       forget(ring_[newest_]);
@@ -62,7 +68,9 @@ class RecentPublications {
   // The slot that has the timestamp, or the empty one where it would be.
   std::size_t slot_of(std::int64_t source_timestamp) const {
     std::size_t slot = home_of(source_timestamp);
-    while (slots_[slot] != kEmpty && ring_[slots_[slot]].source_timestamp != source_timestamp) slot = after(slot);
+    while (slots_[slot] != kEmpty && ring_[slots_[slot]].source_timestamp != source_timestamp) {
+      slot = after(slot);
+    }
     return slot;
   }
   std::size_t after(std::size_t slot) const { return (slot + 1) & (slots_.size() - 1); }

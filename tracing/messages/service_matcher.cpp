@@ -11,7 +11,9 @@ std::size_t ServiceMatcher::HashKey::operator()(const Key& key) const {
   static_assert(sizeof words == sizeof key.gid.bytes);
   std::memcpy(words, key.gid.bytes.data(), sizeof words);
   std::uint64_t hash = static_cast<std::uint64_t>(key.sequence_number);
-  for (const std::uint64_t word : words) hash = (hash ^ word) * 0x9e3779b97f4a7c15;
+  for (const std::uint64_t word : words) {
+    hash = (hash ^ word) * 0x9e3779b97f4a7c15;
+  }
   return hash ^ (hash >> 32);
 }
 
@@ -37,13 +39,17 @@ void ServiceMatcher::send_request(ObjectId client, const ros2::Gid& gid, std::in
   Call& call = begin(key);
   call.client = client;
   call.sent_ns = time_ns;
-  if (call.received_ns) end_now(key);
+  if (call.received_ns) {
+    end_now(key);
+  }
 }
 
 void ServiceMatcher::take_request(ObjectId service, const ros2::Gid& gid, std::int64_t sequence_number,
                                   std::int64_t time_ns) {
   Call& call = begin({gid, sequence_number});
-  if (call.taken_ns) return;
+  if (call.taken_ns) {
+    return;
+  }
   call.service = service;
   call.taken_ns = time_ns;
 }
@@ -51,16 +57,22 @@ void ServiceMatcher::take_request(ObjectId service, const ros2::Gid& gid, std::i
 void ServiceMatcher::send_response(ObjectId service, const ros2::Gid& gid, std::int64_t sequence_number,
                                    std::int64_t time_ns) {
   const auto call = calls_.find({gid, sequence_number});
-  if (call == calls_.end() || call->second.service != service || call->second.answered_ns) return;
+  if (call == calls_.end() || call->second.service != service || call->second.answered_ns) {
+    return;
+  }
   call->second.answered_ns = time_ns;
 }
 
 void ServiceMatcher::take_response(const ros2::Gid& gid, std::int64_t sequence_number, std::int64_t time_ns) {
   const Key key{gid, sequence_number};
   const auto call = calls_.find(key);
-  if (call == calls_.end()) return;
+  if (call == calls_.end()) {
+    return;
+  }
   call->second.received_ns = time_ns;
-  if (call->second.sent_ns) end_now(key);
+  if (call->second.sent_ns) {
+    end_now(key);
+  }
 }
 
 void ServiceMatcher::end_now(const Key& key) {
@@ -70,7 +82,9 @@ void ServiceMatcher::end_now(const Key& key) {
 }
 
 void ServiceMatcher::finish() {
-  for (const auto& [key, call] : calls_) end(call);
+  for (const auto& [key, call] : calls_) {
+    end(call);
+  }
   calls_.clear();
   oldest_first_.clear();
 }
@@ -86,10 +100,14 @@ void ServiceMatcher::end(const Call& call) {
   }
   CallRecord& record = records_[{call.client, call.service}];
   ++record.requests;
-  if (call.received_ns || (!call.sent_ns && call.answered_ns)) ++record.responses;
+  if (call.received_ns || (!call.sent_ns && call.answered_ns)) {
+    ++record.responses;
+  }
   const auto add = [](DurationStatistics& durations, const std::optional<std::int64_t>& from,
                       const std::optional<std::int64_t>& to) {
-    if (from && to) durations.add(std::max<std::int64_t>(*to - *from, 0));
+    if (from && to) {
+      durations.add(std::max<std::int64_t>(*to - *from, 0));
+    }
   };
   add(record.round_trip, call.sent_ns, call.received_ns);
   add(record.request, call.sent_ns, call.taken_ns);

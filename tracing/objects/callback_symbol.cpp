@@ -20,8 +20,12 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
 std::size_t after_closing(std::string_view text, std::size_t open, char opening, char closing) {
   int depth = 0;
   for (std::size_t i = open; i < text.size(); ++i) {
-    if (text[i] == opening) ++depth;
-    if (text[i] == closing && --depth == 0) return i + 1;
+    if (text[i] == opening) {
+      ++depth;
+    }
+    if (text[i] == closing && --depth == 0) {
+      return i + 1;
+    }
   }
   return std::string_view::npos;
 }
@@ -30,7 +34,9 @@ std::size_t after_closing(std::string_view text, std::size_t open, char opening,
 void remove_template(std::string& text, std::string_view prefix) {
   for (std::size_t at = text.find(prefix); at != std::string::npos; at = text.find(prefix, at)) {
     const std::size_t end = after_closing(text, at + prefix.size() - 1, '<', '>');
-    if (end == std::string::npos) return;
+    if (end == std::string::npos) {
+      return;
+    }
     text.erase(at, end - at);
   }
 }
@@ -40,9 +46,13 @@ std::string method_of_bind(std::string_view bound) {
   constexpr std::string_view kPointerToMember = "::*";
   const std::size_t star = bound.find(kPointerToMember);
   const std::size_t open = star == std::string_view::npos ? star : bound.rfind('(', star);
-  if (open == std::string_view::npos) return std::string(bound);
+  if (open == std::string_view::npos) {
+    return std::string(bound);
+  }
   const std::size_t after = after_closing(bound, open, '(', ')');
-  if (after == std::string_view::npos) return std::string(bound);
+  if (after == std::string_view::npos) {
+    return std::string(bound);
+  }
   const std::string_view class_name = bound.substr(open + 1, star - open - 1);
   return std::string(class_name) + "::?" + std::string(bound.substr(after));
 }
@@ -74,8 +84,12 @@ std::vector<std::string_view> name_parts(std::string_view name) {
   int depth = 0;
   std::size_t begin = 0;
   for (std::size_t i = 0; i < name.size(); ++i) {
-    if (name[i] == '<' || name[i] == '(' || name[i] == '{') ++depth;
-    if (name[i] == '>' || name[i] == ')' || name[i] == '}') --depth;
+    if (name[i] == '<' || name[i] == '(' || name[i] == '{') {
+      ++depth;
+    }
+    if (name[i] == '>' || name[i] == ')' || name[i] == '}') {
+      --depth;
+    }
     if (depth == 0 && name.substr(i, 2) == "::") {
       parts.push_back(name.substr(begin, i - begin));
       begin = i + 2;
@@ -96,7 +110,9 @@ std::string_view bare(std::string_view part) {
 std::string short_symbol(std::string_view readable) {
   std::string_view name = readable;
   // The return type of a function template: "void (anonymous namespace)::f<int>(int)".
-  if (name.starts_with("void ")) name.remove_prefix(5);
+  if (name.starts_with("void ")) {
+    name.remove_prefix(5);
+  }
   std::vector<std::string_view> parts = name_parts(name);
   // A lambda is named after the function that it stands in.
   const auto first_lambda =
@@ -104,11 +120,15 @@ std::string short_symbol(std::string_view readable) {
   const bool lambda = first_lambda != parts.end();
   parts.erase(first_lambda, parts.end());
   std::string_view last = bare(parts.back());
-  if (last.empty()) last = parts.back();
+  if (last.empty()) {
+    last = parts.back();
+  }
   std::string text(last);
   if (parts.size() > 1 && !parts[parts.size() - 2].starts_with("(anonymous")) {
     const std::string_view scope = bare(parts[parts.size() - 2]);
-    if (!scope.empty()) text = fmt::format("{}::{}", scope, last);
+    if (!scope.empty()) {
+      text = fmt::format("{}::{}", scope, last);
+    }
   }
   return lambda ? text + " lambda" : text;
 }

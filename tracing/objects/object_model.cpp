@@ -15,7 +15,9 @@ ObjectId append(std::vector<Object>& objects, Object object) {
 
 std::string qualified_name(std::string_view name_space, std::string_view name) {
   std::string result(name_space);
-  if (!result.ends_with('/')) result += '/';
+  if (!result.ends_with('/')) {
+    result += '/';
+  }
   return result.append(name);
 }
 
@@ -32,7 +34,9 @@ std::size_t ObjectModel::HashKey::operator()(const Key& key) const {
 
 ObjectId ObjectModel::find(const Index& index, ProcessId process, ros2::Handle handle) const {
   for (; process != kNoProcess; process = earlier(process)) {
-    if (const auto found = index.find({process, handle}); found != index.end()) return found->second;
+    if (const auto found = index.find({process, handle}); found != index.end()) {
+      return found->second;
+    }
   }
   return kNoObject;
 }
@@ -40,8 +44,12 @@ ObjectId ObjectModel::find(const Index& index, ProcessId process, ros2::Handle h
 RmwLookup ObjectModel::find_rmw(const RmwIndex& index, ProcessId process, ros2::Handle handle) const {
   for (; process != kNoProcess; process = earlier(process)) {
     const auto found = index.find({process, handle});
-    if (found == index.end()) continue;
-    if (found->second.endpoint == kNoObject) return {RmwHandle::kInternal, kNoObject};
+    if (found == index.end()) {
+      continue;
+    }
+    if (found->second.endpoint == kNoObject) {
+      return {RmwHandle::kInternal, kNoObject};
+    }
     return {RmwHandle::kKnown, found->second.endpoint};
   }
   return {RmwHandle::kUnknown, kNoObject};
@@ -49,7 +57,9 @@ RmwLookup ObjectModel::find_rmw(const RmwIndex& index, ProcessId process, ros2::
 
 void ObjectModel::add_rmw(RmwIndex& index, ProcessId process, ros2::Handle handle, const ros2::Gid& gid) {
   RmwEndpoint& entry = index[{process, handle}];
-  if (entry.gid != gid || gid.size == 0) entry = {gid};
+  if (entry.gid != gid || gid.size == 0) {
+    entry = {gid};
+  }
 }
 
 std::optional<ros2::EndpointQos> ObjectModel::qos_of(const RmwIndex& index, const Key& key) {
@@ -65,14 +75,18 @@ bool ObjectModel::is_endpoint(const Index& index, const std::vector<EndpointObje
 
 ObjectId ObjectModel::topic(std::string_view name) {
   const auto [found, is_new] = topic_index_.try_emplace(std::string(name), kNoObject);
-  if (is_new) found->second = append(topics_, TopicObject{std::string(name), 0, 0});
+  if (is_new) {
+    found->second = append(topics_, TopicObject{std::string(name), 0, 0});
+  }
   return found->second;
 }
 
 void ObjectModel::on(const Origin& origin, const ros2::RclNodeInit& event) {
   NodeObject node{origin.process, qualified_name(event.namespace_, event.node_name)};
   const ObjectId id = find(node_index_, origin.process, event.node_handle);
-  if (id != kNoObject && nodes_[id].name == node.name) return;
+  if (id != kNoObject && nodes_[id].name == node.name) {
+    return;
+  }
   node_index_[{origin.process, event.node_handle}] = append(nodes_, std::move(node));
 }
 
@@ -128,7 +142,9 @@ void ObjectModel::on(const Origin& origin, const ros2::RclcppSubscriptionInit& e
   } else if (object.subscription != subscription) {  // a new object at the address of an older one
     const ObjectId added =
         add_subscription_object(origin.process, event.subscription, {subscription, callback_repeated});
-    if (callback_repeated) move_callback(origin.process, CallbackObject::Owner::kSubscription, id, added);
+    if (callback_repeated) {
+      move_callback(origin.process, CallbackObject::Owner::kSubscription, id, added);
+    }
   }
 }
 
@@ -150,7 +166,9 @@ void ObjectModel::on(const Origin& origin, const ros2::RclcppSubscriptionCallbac
 void ObjectModel::on(const Origin& origin, const ros2::RclServiceInit& event) {
   ServiceObject service{find(node_index_, origin.process, event.node_handle), std::string(event.service_name)};
   const ObjectId id = find(service_index_, origin.process, event.service_handle);
-  if (id != kNoObject && services_[id] == service) return;
+  if (id != kNoObject && services_[id] == service) {
+    return;
+  }
   const ObjectId added = append(services_, std::move(service));
   service_index_[{origin.process, event.service_handle}] = added;
   rmw_service_index_[{origin.process, event.rmw_service_handle}] = added;
@@ -169,14 +187,18 @@ void ObjectModel::on(const Origin& origin, const ros2::RclClientInit& event) {
   RmwEndpoint& rmw = rmw_client_index_[{origin.process, event.rmw_client_handle}];
   ClientObject client{find(node_index_, origin.process, event.node_handle), std::string(event.service_name), rmw.gid};
   const ObjectId id = find(client_index_, origin.process, event.client_handle);
-  if (id != kNoObject && rmw.endpoint == id && clients_[id] == client) return;
+  if (id != kNoObject && rmw.endpoint == id && clients_[id] == client) {
+    return;
+  }
   rmw.endpoint = append(clients_, std::move(client));
   client_index_[{origin.process, event.client_handle}] = rmw.endpoint;
 }
 
 void ObjectModel::on(const Origin& origin, const ros2::RclTimerInit& event) {
   const ObjectId id = find(timer_index_, origin.process, event.timer_handle);
-  if (id != kNoObject && timers_[id].period_ns == event.period) return;
+  if (id != kNoObject && timers_[id].period_ns == event.period) {
+    return;
+  }
   timer_index_[{origin.process, event.timer_handle}] = append(timers_, TimerObject{kNoObject, event.period});
 }
 
@@ -188,7 +210,9 @@ void ObjectModel::on(const Origin& origin, const ros2::RclcppTimerCallbackAdded&
 void ObjectModel::on(const Origin& origin, const ros2::RclcppTimerLinkNode& event) {
   const ObjectId timer = find(timer_index_, origin.process, event.timer_handle);
   const ObjectId node = find(node_index_, origin.process, event.node_handle);
-  if (timer == kNoObject) return;
+  if (timer == kNoObject) {
+    return;
+  }
   if (timers_[timer].node == kNoObject) {
     timers_[timer].node = node;
   } else if (timers_[timer].node != node) {  // a new timer at the address of an older one
@@ -203,7 +227,9 @@ void ObjectModel::on(const Origin& origin, const ros2::RclcppCallbackRegister& e
   if (id == kNoObject) {  // its *_callback_added is not in the trace
     id = add_callback(origin.process, event.callback, CallbackObject::Owner::kUnknown, kNoObject);
   }
-  if (event.symbol == kNullString || callbacks_[id].symbol == event.symbol) return;
+  if (event.symbol == kNullString || callbacks_[id].symbol == event.symbol) {
+    return;
+  }
   if (!callbacks_[id].symbol.empty()) {  // a new callback of an object that looks like the one before
     id = append_callback(CallbackObject(callbacks_[id]));
   }
@@ -259,10 +285,14 @@ void ObjectModel::on(const Origin& origin, const ros2::EndpointQosEvent& event, 
   const bool is_publisher = event.kind == ros2::EndpointQosEvent::Kind::kPublisher;
   RmwIndex& index = is_publisher ? rmw_publisher_index_ : rmw_subscription_index_;
   const auto found = index.find({origin.process, event.handle});
-  if (found == index.end()) return;
+  if (found == index.end()) {
+    return;
+  }
   found->second.qos = qos;
   const ObjectId endpoint = found->second.endpoint;
-  if (endpoint != kNoObject) (is_publisher ? publishers_ : subscriptions_)[endpoint].qos = qos;
+  if (endpoint != kNoObject) {
+    (is_publisher ? publishers_ : subscriptions_)[endpoint].qos = qos;
+  }
 }
 
 ObjectId ObjectModel::node(ProcessId process, ros2::Handle handle) const {
@@ -320,12 +350,16 @@ ObjectId ObjectModel::client_callback(ProcessId process, ros2::Handle rcl_handle
 }
 
 ObjectId ObjectModel::subscription_of(const CallbackObject& callback) const {
-  if (callback.owner != CallbackObject::Owner::kSubscription || callback.owner_id == kNoObject) return kNoObject;
+  if (callback.owner != CallbackObject::Owner::kSubscription || callback.owner_id == kNoObject) {
+    return kNoObject;
+  }
   return subscription_objects_[callback.owner_id].subscription;
 }
 
 ObjectId ObjectModel::node_of(const CallbackObject& callback) const {
-  if (callback.owner_id == kNoObject) return kNoObject;
+  if (callback.owner_id == kNoObject) {
+    return kNoObject;
+  }
   switch (callback.owner) {
     case CallbackObject::Owner::kSubscription: {
       const ObjectId subscription = subscription_of(callback);
@@ -351,7 +385,9 @@ bool ObjectModel::is_callback_of(ProcessId process, ros2::Handle address, Callba
 
 ObjectId ObjectModel::add_callback(ProcessId process, ros2::Handle address, CallbackObject::Owner owner,
                                    ObjectId owner_id) {
-  if (is_callback_of(process, address, owner, owner_id)) return find(callback_index_, process, address);
+  if (is_callback_of(process, address, owner, owner_id)) {
+    return find(callback_index_, process, address);
+  }
   const ObjectId id = find(callback_index_, process, address);
   if (id != kNoObject && callbacks_[id].owner == CallbackObject::Owner::kUnknown) {
     // The callback ran before the state dump announced it.
@@ -370,8 +406,12 @@ ObjectId ObjectModel::append_callback(CallbackObject callback) {
 void ObjectModel::move_callback(ProcessId process, CallbackObject::Owner owner, ObjectId from, ObjectId to) {
   for (ObjectId id = 0; id < callbacks_.size(); ++id) {
     const CallbackObject& callback = callbacks_[id];
-    if (callback.process != process || find(callback_index_, process, callback.address) != id) continue;
-    if (callback.owner != owner || callback.owner_id != from) continue;
+    if (callback.process != process || find(callback_index_, process, callback.address) != id) {
+      continue;
+    }
+    if (callback.owner != owner || callback.owner_id != from) {
+      continue;
+    }
     CallbackObject moved = callback;
     moved.owner_id = to;
     append_callback(std::move(moved));

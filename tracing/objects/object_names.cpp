@@ -9,7 +9,9 @@ std::string period_text(std::int64_t period_ns) {
   constexpr const char* kUnits[] = {"ns", "us", "ms", "s"};
   double value = static_cast<double>(period_ns);
   std::size_t unit = 0;
-  for (; value >= 1'000 && unit + 1 < std::size(kUnits); ++unit) value /= 1'000;
+  for (; value >= 1'000 && unit + 1 < std::size(kUnits); ++unit) {
+    value /= 1'000;
+  }
   return fmt::format("{:.4g} {}", value, kUnits[unit]);
 }
 
@@ -32,7 +34,9 @@ std::string callback_source(const ObjectModel& objects, const CallbackObject& ca
   if (callback.owner == Owner::kTimer) {
     return "timer " + period_text(objects.timers()[callback.owner_id].period_ns);
   }
-  if (callback.owner == Owner::kService) return "service " + objects.services()[callback.owner_id].name;
+  if (callback.owner == Owner::kService) {
+    return "service " + objects.services()[callback.owner_id].name;
+  }
   return "client of " + objects.clients()[callback.owner_id].name;
 }
 

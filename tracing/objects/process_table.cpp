@@ -23,7 +23,9 @@ std::size_t ProcessTable::HashKey::operator()(const Key& key) const {
 std::uint32_t ProcessTable::space_of(const Recording& recording) {
   const auto same =
       std::find_if(spaces_.begin(), spaces_.end(), [&](const Space& space) { return space.recording == recording; });
-  if (same != spaces_.end()) return static_cast<std::uint32_t>(same - spaces_.begin());
+  if (same != spaces_.end()) {
+    return static_cast<std::uint32_t>(same - spaces_.begin());
+  }
   const auto machine = std::find_if(spaces_.begin(), spaces_.end(), [&](const Space& space) {
     return space.recording.host == recording.host && space.recording.machine == recording.machine;
   });
@@ -32,9 +34,13 @@ std::uint32_t ProcessTable::space_of(const Recording& recording) {
 }
 
 const ProcessTable::ClassFacts& ProcessTable::facts_of(const EventClass& event_class) {
-  if (event_class.id >= facts_.size()) facts_.resize(event_class.id + 1);
+  if (event_class.id >= facts_.size()) {
+    facts_.resize(event_class.id + 1);
+  }
   std::optional<ClassFacts>& known = facts_[event_class.id];
-  if (known) return *known;
+  if (known) {
+    return *known;
+  }
   static const Recording kUnknown;
   known = ClassFacts{
       .space = space_of(event_class.recording == nullptr ? kUnknown : *event_class.recording),
@@ -51,7 +57,9 @@ ProcessId ProcessTable::add(const Key& key, ProcessId earlier) {
 
 ProcessId ProcessTable::find(const Key& key) {
   const auto [found, is_new] = by_space_.try_emplace(key, kNoProcess);
-  if (!is_new) return found->second;
+  if (!is_new) {
+    return found->second;
+  }
   const Space& space = spaces_[key.place];
   // The kernel's numbers are those of the first namespace, where it tells none.
   const std::int64_t pid_ns = key.pid_ns == kFirstPidNamespace ? 0 : key.pid_ns;
@@ -61,12 +69,16 @@ ProcessId ProcessTable::find(const Key& key) {
     const bool by_kernel_so_far = spaces_[keys_[on_machine->second].place].recording.of_kernel;
     if (space.recording.of_kernel || by_kernel_so_far) {
       found->second = on_machine->second;
-      if (by_kernel_so_far) keys_[found->second] = key;
+      if (by_kernel_so_far) {
+        keys_[found->second] = key;
+      }
       return found->second;
     }
   }
   found->second = add(key, kNoProcess);
-  if (first) on_machine->second = found->second;
+  if (first) {
+    on_machine->second = found->second;
+  }
   return found->second;
 }
 
@@ -88,13 +100,19 @@ ProcessId ProcessTable::of_context(ProcessId known, const Key& key, const Event&
     process = add(key, known);
     by_space_[key] = process;
     for (auto& [other, of_kernel] : by_space_) {
-      if (of_kernel == known && spaces_[other.place].recording.of_kernel) of_kernel = process;
+      if (of_kernel == known && spaces_[other.place].recording.of_kernel) {
+        of_kernel = process;
+      }
     }
     for (auto& [other, on_machine] : by_machine_) {
-      if (on_machine == known) on_machine = process;
+      if (on_machine == known) {
+        on_machine = process;
+      }
     }
   }
-  if (!is_same) contexts_[process].push_back(address);
+  if (!is_same) {
+    contexts_[process].push_back(address);
+  }
   return process;
 }
 
@@ -102,23 +120,31 @@ ProcessId ProcessTable::of_context(ProcessId known, const Key& key, const Event&
 // before the process executes its program, when it still has the name of the process that started it. So the last name
 // counts there, until an event of the program itself tells its name.
 void ProcessTable::learn_name(ProcessObject& process, const Event& event, bool of_kernel) {
-  if (!event.vpid || process.named_by_main_thread || !event.procname) return;
+  if (!event.vpid || process.named_by_main_thread || !event.procname) {
+    return;
+  }
   const bool is_main_thread = event.vtid == event.vpid;
   process.named_by_main_thread = is_main_thread && !of_kernel;
-  if ((is_main_thread || process.name.empty()) && process.name != *event.procname) process.name = *event.procname;
+  if ((is_main_thread || process.name.empty()) && process.name != *event.procname) {
+    process.name = *event.procname;
+  }
 }
 
 ProcessId ProcessTable::of(const Event& event) {
   const ClassFacts& facts = facts_of(*event.event_class);
   Key key{.place = facts.space, .vpid = event.vpid};
-  if (facts.pid_ns) key.pid_ns = event.context(*facts.pid_ns).integer().value_or(0);
+  if (facts.pid_ns) {
+    key.pid_ns = event.context(*facts.pid_ns).integer().value_or(0);
+  }
   if (last_process_ == kNoProcess || last_key_ != key) {
     last_process_ = find(key);
     last_key_ = key;
   }
   if (facts.context_address && event.vpid) {
     const std::optional<std::uint64_t> address = event.field(*facts.context_address).unsigned_integer();
-    if (address) last_process_ = of_context(last_process_, key, event, *address);
+    if (address) {
+      last_process_ = of_context(last_process_, key, event, *address);
+    }
   }
   learn_name(processes_[last_process_], event, spaces_[facts.space].recording.of_kernel);
   return last_process_;

@@ -24,7 +24,9 @@ std::string gzip(const std::string& bytes) {
   const int end = deflate(&stream, Z_FINISH);
   result.resize(stream.total_out);
   deflateEnd(&stream);
-  if (end != Z_STREAM_END) throw std::runtime_error("cannot compress the page");
+  if (end != Z_STREAM_END) {
+    throw std::runtime_error("cannot compress the page");
+  }
   return result;
 }
 

@@ -13,7 +13,9 @@ namespace {
 
 void replace(std::string& page, std::string_view place, const std::string& text) {
   const std::size_t at = page.find(place);
-  if (at == std::string::npos) throw std::logic_error("the page has no place for " + std::string(place));
+  if (at == std::string::npos) {
+    throw std::logic_error("the page has no place for " + std::string(place));
+  }
   page.replace(at, place.size(), text);
 }
 

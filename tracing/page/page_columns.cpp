@@ -61,9 +61,13 @@ void add_instances(ColumnBuffer& buffer, const Timeline& timeline) {
   for (const Instance& instance : timeline.instances) {
     buffer.add(static_cast<std::uint64_t>(instance.end_ns - instance.start_ns));
   }
-  for (const Instance& instance : timeline.instances) buffer.add(instance.callback);
+  for (const Instance& instance : timeline.instances) {
+    buffer.add(instance.callback);
+  }
   RepeatedReferences threads(buffer);
-  for (const Instance& instance : timeline.instances) threads.add(instance.callback, instance.thread);
+  for (const Instance& instance : timeline.instances) {
+    threads.add(instance.callback, instance.thread);
+  }
   for (const Instance& instance : timeline.instances) {
     buffer.add((instance.finished ? 1U : 0U) | (instance.intra_process ? 2U : 0U));
   }
@@ -84,12 +88,18 @@ void add_messages(ColumnBuffer& buffer, const Timeline& timeline) {
   // Clocks of two hosts may differ, so a message may be taken before it is published.
   for (const Message& message : timeline.messages) {
     buffer.add(message.taken_ns == 0 ? 0 : 1);
-    if (message.taken_ns != 0) buffer.add_signed(message.taken_ns - message.published_ns);
+    if (message.taken_ns != 0) {
+      buffer.add_signed(message.taken_ns - message.published_ns);
+    }
   }
   CloseReferences from(buffer);
-  for (const Message& message : timeline.messages) from.add(message.publishing_instance);
+  for (const Message& message : timeline.messages) {
+    from.add(message.publishing_instance);
+  }
   CloseReferences to(buffer);
-  for (const Message& message : timeline.messages) to.add(message.receiving_instance);
+  for (const Message& message : timeline.messages) {
+    to.add(message.receiving_instance);
+  }
   RepeatedReferences publishers(buffer);
   for (const Message& message : timeline.messages) {
     publishers.add(callback_of(message.publishing_instance), message.publisher);
@@ -99,33 +109,49 @@ void add_messages(ColumnBuffer& buffer, const Timeline& timeline) {
     subscriptions.add(callback_of(message.receiving_instance), message.subscription);
   }
   RepeatedReferences threads(buffer);
-  for (const Message& message : timeline.messages) threads.add(message.publisher, message.publishing_thread);
-  for (const Message& message : timeline.messages) buffer.add(message.repeated ? 1 : 0);
+  for (const Message& message : timeline.messages) {
+    threads.add(message.publisher, message.publishing_thread);
+  }
+  for (const Message& message : timeline.messages) {
+    buffer.add(message.repeated ? 1 : 0);
+  }
 }
 
 // Thread by thread, each in the order of time.
 void add_states(ColumnBuffer& buffer, const Timeline& timeline) {
   std::vector<const ThreadState*> states;
   states.reserve(timeline.states.size());
-  for (const ThreadState& state : timeline.states) states.push_back(&state);
+  for (const ThreadState& state : timeline.states) {
+    states.push_back(&state);
+  }
   std::stable_sort(states.begin(), states.end(),
                    [](const ThreadState* left, const ThreadState* right) { return left->thread < right->thread; });
   CloseReferences threads(buffer);
-  for (const ThreadState* state : states) threads.add(state->thread);
+  for (const ThreadState* state : states) {
+    threads.add(state->thread);
+  }
   // Most states begin where the one before ended.
   std::int64_t last = timeline.begin_ns;
   for (const ThreadState* state : states) {
     buffer.add_signed(state->begin_ns - last);
     last = state->end_ns;
   }
-  for (const ThreadState* state : states) buffer.add(static_cast<std::uint64_t>(state->end_ns - state->begin_ns));
-  for (const ThreadState* state : states) buffer.add(static_cast<std::uint64_t>(state->state));
+  for (const ThreadState* state : states) {
+    buffer.add(static_cast<std::uint64_t>(state->end_ns - state->begin_ns));
+  }
+  for (const ThreadState* state : states) {
+    buffer.add(static_cast<std::uint64_t>(state->state));
+  }
   RepeatedReferences others(buffer);
   for (const ThreadState* state : states) {
-    if (state->state == ThreadState::State::kRunnable) others.add(state->thread, state->other);
+    if (state->state == ThreadState::State::kRunnable) {
+      others.add(state->thread, state->other);
+    }
   }
   RepeatedReferences cpus(buffer);
-  for (const ThreadState* state : states) cpus.add(state->thread, static_cast<Index>(state->cpu));
+  for (const ThreadState* state : states) {
+    cpus.add(state->thread, static_cast<Index>(state->cpu));
+  }
 }
 
 }  // namespace

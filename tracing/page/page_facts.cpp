@@ -22,7 +22,9 @@ Json json_reference(timeline::Index index) {
 
 Json endpoints(const std::vector<timeline::Endpoint>& ends) {
   Json list = Json::array();
-  for (const timeline::Endpoint& end : ends) list.push_back({{"node", json_reference(end.node)}, {"topic", end.topic}});
+  for (const timeline::Endpoint& end : ends) {
+    list.push_back({{"node", json_reference(end.node)}, {"topic", end.topic}});
+  }
   return list;
 }
 
@@ -32,7 +34,9 @@ Json objects(const Timeline& timeline) {
     threads.push_back({{"process", thread.process}, {"vtid", thread.vtid}});
   }
   Json nodes = Json::array();
-  for (const timeline::Node& node : timeline.nodes) nodes.push_back({{"process", node.process}, {"name", node.name}});
+  for (const timeline::Node& node : timeline.nodes) {
+    nodes.push_back({{"process", node.process}, {"name", node.name}});
+  }
   Json callbacks = Json::array();
   for (const timeline::Callback& callback : timeline.callbacks) {
     callbacks.push_back({{"process", callback.process},
@@ -108,7 +112,9 @@ Json whole_trace(const TracedSystem& system) {
   const Timeline& timeline = system.timeline;
   const std::int64_t begin_ns = system.results.overview.begin_ns.value_or(timeline.begin_ns);
   const std::int64_t end_ns = system.results.overview.end_ns.value_or(timeline.end_ns);
-  if (begin_ns == timeline.begin_ns && end_ns == timeline.end_ns) return nullptr;
+  if (begin_ns == timeline.begin_ns && end_ns == timeline.end_ns) {
+    return nullptr;
+  }
   return {{"begin", begin_ns - timeline.begin_ns}, {"end", end_ns - timeline.begin_ns}};
 }
 
@@ -187,8 +193,9 @@ std::string page_facts(const TracedSystem& system) {
   facts.update(result_facts(system));
   std::string text = facts.dump(-1, ' ', false, Json::error_handler_t::replace);
   // No text in it may end the script element, or begin a comment.
-  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at))
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
     text.replace(at, 1, "\\u003c");
+  }
   return text;
 }
 

@@ -20,7 +20,9 @@ inline PageJson optional_json(const std::optional<std::int64_t>& value) {
 
 // Null if nothing was measured.
 inline PageJson durations_json(const DurationSummary& summary) {
-  if (summary.count == 0) return nullptr;
+  if (summary.count == 0) {
+    return nullptr;
+  }
   return {{"count", summary.count},
           {"mean", summary.mean_ns},
           {"p50", summary.p50_ns},
@@ -30,9 +32,13 @@ inline PageJson durations_json(const DurationSummary& summary) {
 
 // The process at a place in the overview; null if there is none.
 inline PageJson process_json(const timeline::Timeline& timeline, const std::optional<ProcessIndex>& place) {
-  if (!place) return nullptr;
+  if (!place) {
+    return nullptr;
+  }
   for (std::size_t id = 0; id < timeline.processes.size(); ++id) {
-    if (timeline.processes[id].place == place) return id;
+    if (timeline.processes[id].place == place) {
+      return id;
+    }
   }
   return nullptr;
 }

@@ -25,7 +25,9 @@ PageJson starts(const TracedSystem& system) {
 }
 
 PageJson startup(const TracedSystem& system) {
-  if (!system.results.startup) return nullptr;
+  if (!system.results.startup) {
+    return nullptr;
+  }
   const StartupResult& startup = *system.results.startup;
   PageJson path = PageJson::array();
   for (const StartStep& step : startup.critical_path) {
@@ -74,7 +76,9 @@ PageJson actions(const TracedSystem& system) {
 PageJson state_memory(const TracedSystem& system) {
   PageJson list = PageJson::array();
   for (const LifecycleResult& state : system.results.ros2.lifecycle) {
-    if (state.process_allocations == 0) continue;
+    if (state.process_allocations == 0) {
+      continue;
+    }
     list.push_back({{"node", state.node},
                     {"state", state.state},
                     {"begin", state.begin_ns - system.timeline.begin_ns},
@@ -91,7 +95,9 @@ PageJson state_memory(const TracedSystem& system) {
 PageJson callback_memory(const TracedSystem& system) {
   PageJson list = PageJson::array();
   for (const CallbackResult& callback : system.results.ros2.callbacks) {
-    if (!callback.allocations) continue;
+    if (!callback.allocations) {
+      continue;
+    }
     list.push_back(
         {callback.id, callback.durations.count + callback.unfinished, *callback.allocations, callback.allocated_bytes});
   }
@@ -99,7 +105,9 @@ PageJson callback_memory(const TracedSystem& system) {
 }
 
 PageJson cost(const RecordedVerdict& verdict) {
-  if (!verdict.ns_per_event) return nullptr;
+  if (!verdict.ns_per_event) {
+    return nullptr;
+  }
   PageJson processes = PageJson::array();
   for (const RecordedVerdict::ProcessCost& process : verdict.processes) {
     processes.push_back({{"name", process.name},

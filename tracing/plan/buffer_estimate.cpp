@@ -27,8 +27,9 @@ std::uint64_t sufficient_subbuffer_size(const TraceConfig& config, std::size_t n
 
 std::string buffer_warning(const TraceConfig& config, std::size_t nodes, std::size_t processors) {
   const std::uint64_t room = config.subbuffer_size_ust * config.subbuffer_count_ust;
-  if (config.events_ust.empty() || config.records_snapshots() || gathering(config, nodes, processors) <= room)
+  if (config.events_ust.empty() || config.records_snapshots() || gathering(config, nodes, processors) <= room) {
     return {};
+  }
   return fmt::format(
       "{} process{} may fire {} events a second, more than {} sub-buffers of {} bytes for each of {} processors hold "
       "on a "

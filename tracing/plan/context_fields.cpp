@@ -84,7 +84,9 @@ std::string suggestion(std::string_view name, lttng_domain_type domain) {
 std::vector<std::string> context_field_names(lttng_domain_type domain) {
   std::vector<std::string> names;
   for (const KnownField& field : kKnownFields) {
-    if (exists_in(field.available, domain)) names.emplace_back(field.name);
+    if (exists_in(field.available, domain)) {
+      names.emplace_back(field.name);
+    }
   }
   return names;
 }

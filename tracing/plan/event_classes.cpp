@@ -44,8 +44,12 @@ bool matches(const std::string& pattern, const std::string& event) {
 bool records_only(const std::string& pattern, std::string_view group) {
   bool any = false;
   for (const RosEvent& event : all_ros_events()) {
-    if (!matches(pattern, event.name)) continue;
-    if (event.group != group) return false;
+    if (!matches(pattern, event.name)) {
+      continue;
+    }
+    if (event.group != group) {
+      return false;
+    }
     any = true;
   }
   return any;
@@ -66,16 +70,22 @@ std::vector<DroppableClass> plan_drops(const std::vector<std::string>& order,
     const bool is_class = is_one_of(kDroppable, name);
     DroppableClass drop{.name = name, .rules = {}};
     for (const ChannelPlan& channel : channels) {
-      if (channel.domain != LTTNG_DOMAIN_UST) continue;
+      if (channel.domain != LTTNG_DOMAIN_UST) {
+        continue;
+      }
       for (const EventRule& rule : channel.events) {
         const bool meant = is_class ? records_only(rule.pattern, name) : matches(name, rule.pattern);
-        if (!meant || is_initialisation(rule.pattern)) continue;
+        if (!meant || is_initialisation(rule.pattern)) {
+          continue;
+        }
         if (taken.insert(channel.channel + "/" + rule.pattern).second) {
           drop.rules.push_back({.channel = channel.channel, .event = rule.pattern});
         }
       }
     }
-    if (!drop.rules.empty()) drops.push_back(std::move(drop));
+    if (!drop.rules.empty()) {
+      drops.push_back(std::move(drop));
+    }
   }
   return drops;
 }
@@ -86,11 +96,15 @@ void name_ros_events(std::vector<ChannelPlan>& channels) {
     std::vector<EventRule> rules;
     for (const EventRule& rule : channel.events) {
       if (!rule.pattern.starts_with("ros2:") || rule.pattern.find('*') == std::string::npos) {
-        if (!rule.plain() || named.insert(rule.pattern).second) rules.push_back(rule);
+        if (!rule.plain() || named.insert(rule.pattern).second) {
+          rules.push_back(rule);
+        }
         continue;
       }
       for (const std::string& event : default_ros_events()) {
-        if (!matches(rule.pattern, event) || (rule.plain() && !named.insert(event).second)) continue;
+        if (!matches(rule.pattern, event) || (rule.plain() && !named.insert(event).second)) {
+          continue;
+        }
         rules.push_back(rule);
         rules.back().pattern = event;
       }

@@ -59,7 +59,9 @@ std::vector<std::string> parts(std::string_view list) {
   std::vector<std::string> result;
   while (!list.empty()) {
     const std::string_view part = list.substr(0, list.find(','));
-    if (!part.empty()) result.emplace_back(part);
+    if (!part.empty()) {
+      result.emplace_back(part);
+    }
     list.remove_prefix(std::min(part.size() + 1, list.size()));
   }
   return result;
@@ -68,9 +70,13 @@ std::vector<std::string> parts(std::string_view list) {
 int log_level(std::string_view name, const std::string& rule) {
   const auto found =
       std::find_if(kLogLevels.begin(), kLogLevels.end(), [name](const LogLevel& level) { return level.name == name; });
-  if (found != kLogLevels.end()) return found->value;
+  if (found != kLogLevels.end()) {
+    return found->value;
+  }
   std::string known;
-  for (const LogLevel& level : kLogLevels) known += fmt::format("{}{}", known.empty() ? "" : ", ", level.name);
+  for (const LogLevel& level : kLogLevels) {
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", level.name);
+  }
   throw TraceError(fmt::format("unknown log level '{}' in event '{}'", name, rule),
                    fmt::format("the levels are {}", known));
 }
@@ -89,8 +95,9 @@ EventRule parse_event_rule(const std::string& text) {
     if (word == "if") {
       rule.filter = trimmed(rest);
       rest = {};
-      if (rule.filter.empty())
+      if (rule.filter.empty()) {
         throw TraceError(fmt::format("event '{}' ends where its filter is expected", text), kForm);
+      }
     } else if (word == "except") {
       rule.exclusions = parts(next_word(rest));
       if (rule.exclusions.empty()) {
@@ -99,7 +106,9 @@ EventRule parse_event_rule(const std::string& text) {
     } else if (word == "level") {
       std::string_view name = next_word(rest);
       rule.exactly_that_level = name.starts_with('=');
-      if (rule.exactly_that_level) name.remove_prefix(1);
+      if (rule.exactly_that_level) {
+        name.remove_prefix(1);
+      }
       rule.log_level = log_level(name, text);
     } else {
       throw TraceError(fmt::format("unexpected '{}' in event '{}'", word, text), kForm);
@@ -109,7 +118,9 @@ EventRule parse_event_rule(const std::string& text) {
 }
 
 std::vector<EventRule> expand_exclusions(const EventRule& rule) {
-  if (rule.exclusions.empty()) return {rule};
+  if (rule.exclusions.empty()) {
+    return {rule};
+  }
   if (!rule.pattern.starts_with("ros2:")) {
     throw TraceError(fmt::format("nothing can be taken out of '{}': only of events of provider ros2", rule.pattern),
                      "name the events one by one, or use a filter");
@@ -137,7 +148,9 @@ std::string event_pattern(std::string_view text) {
 
 std::vector<std::string> event_patterns(const std::vector<std::string>& texts) {
   std::vector<std::string> patterns;
-  for (const std::string& text : texts) patterns.push_back(event_pattern(text));
+  for (const std::string& text : texts) {
+    patterns.push_back(event_pattern(text));
+  }
   return patterns;
 }
 

@@ -67,7 +67,9 @@ constexpr std::array kCacheOperations = {
 
 std::optional<PerfCounter> find_cache_counter(const std::string& name) {
   for (const NamedNumber& cache : kCaches) {
-    if (!name.starts_with(cache.name)) continue;
+    if (!name.starts_with(cache.name)) {
+      continue;
+    }
     for (const NamedNumber& operation : kCacheOperations) {
       if (name.substr(cache.name.size()) == operation.name) {
         return PerfCounter{name, PERF_TYPE_HW_CACHE, cache.number | operation.number << 8};
@@ -83,7 +85,9 @@ std::optional<PerfCounter> parse_raw_counter(std::string_view name) {
   PerfCounter counter{.name = {}, .type = PERF_TYPE_RAW, .config = 0};
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), counter.config, 16);
   name.remove_prefix(static_cast<std::size_t>(end - name.data()));
-  if (error != std::errc() || name.size() < 2 || name.front() != ':') return std::nullopt;
+  if (error != std::errc() || name.size() < 2 || name.front() != ':') {
+    return std::nullopt;
+  }
   counter.name = name.substr(1);
   return counter;
 }
@@ -91,9 +95,13 @@ std::optional<PerfCounter> parse_raw_counter(std::string_view name) {
 }  // namespace
 
 std::optional<PerfCounter> find_perf_counter(const std::string& name) {
-  if (name.starts_with("raw:r")) return parse_raw_counter(name);
+  if (name.starts_with("raw:r")) {
+    return parse_raw_counter(name);
+  }
   for (const KnownCounter& counter : kCounters) {
-    if (counter.name == name) return PerfCounter{name, counter.type, counter.config};
+    if (counter.name == name) {
+      return PerfCounter{name, counter.type, counter.config};
+    }
   }
   return find_cache_counter(name);
 }

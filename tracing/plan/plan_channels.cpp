@@ -37,7 +37,9 @@ std::vector<std::string> without_repetitions(const std::vector<std::string>& nam
   std::vector<std::string> unique;
   std::set<std::string> seen;
   for (const std::string& name : names) {
-    if (seen.insert(name).second) unique.push_back(name);
+    if (seen.insert(name).second) {
+      unique.push_back(name);
+    }
   }
   return unique;
 }
@@ -45,7 +47,9 @@ std::vector<std::string> without_repetitions(const std::vector<std::string>& nam
 std::vector<EventRule> rules(const std::vector<std::string>& texts) {
   std::vector<EventRule> parsed;
   for (const std::string& text : without_repetitions(texts)) {
-    for (EventRule& rule : expand_exclusions(parse_event_rule(text))) parsed.push_back(std::move(rule));
+    for (EventRule& rule : expand_exclusions(parse_event_rule(text))) {
+      parsed.push_back(std::move(rule));
+    }
   }
   return parsed;
 }
@@ -68,8 +72,9 @@ std::uint64_t usable_subbuffer_size(std::uint64_t given, lttng_domain_type domai
 
 // A power of two, and two at least: one is written to while the other is read.
 std::uint64_t usable_subbuffer_count(std::uint64_t given, std::vector<std::string>& warnings) {
-  if (given > kMostSubbuffers)
+  if (given > kMostSubbuffers) {
     throw TraceError(fmt::format("{} sub-buffers are too many: {} are possible", given, kMostSubbuffers));
+  }
   const std::uint64_t usable = std::bit_ceil(std::max(given, kFewestSubbuffers));
   if (usable != given) {
     warnings.push_back(fmt::format(
@@ -80,7 +85,9 @@ std::uint64_t usable_subbuffer_count(std::uint64_t given, std::vector<std::strin
 
 // The events of the main userspace channel. Default events that another channel takes by name or pattern are left out.
 std::vector<std::string> main_events(const TraceConfig& config) {
-  if (config.events_ust != default_ros_events() || config.channels.empty()) return config.events_ust;
+  if (config.events_ust != default_ros_events() || config.channels.empty()) {
+    return config.events_ust;
+  }
   std::vector<std::string> left = config.events_ust;
   for (const ChannelConfig& channel : config.channels) {
     for (const std::string& text : channel.events_ust) {
@@ -97,14 +104,18 @@ ChannelPlan userspace_plan(const TraceConfig& config) {
   plan.channel = kUserspaceChannel;
   plan.events = rules(main_events(config));
   if (!plan.events.empty()) {
-    for (EventRule& rule : rules(config.further_events_ust)) plan.events.push_back(std::move(rule));
+    for (EventRule& rule : rules(config.further_events_ust)) {
+      plan.events.push_back(std::move(rule));
+    }
   }
   if (records_launch_events(config)) {
     plan.events.push_back({.pattern = kLaunchEvents});
   } else if (config.max_overhead > 0 && !plan.events.empty()) {
     plan.events.push_back({.pattern = kCutEvent});
   }
-  if (config.dual_runtime && !plan.events.empty()) plan.events.push_back({.pattern = kNoStateDump});
+  if (config.dual_runtime && !plan.events.empty()) {
+    plan.events.push_back({.pattern = kNoStateDump});
+  }
   plan.context_fields = config.context_fields_ust;
   plan.subbuffer_size = config.subbuffer_size_ust;
   plan.subbuffer_count = config.subbuffer_count_ust;
@@ -145,7 +156,9 @@ ChannelPlan further_plan(const ChannelConfig& channel, const TraceConfig& config
   plan.channel = channel.name;
   plan.events = rules(kernel ? channel.events_kernel : channel.events_ust);
   plan.syscalls = without_repetitions(channel.syscalls);
-  if (channel.context_fields) plan.context_fields = *channel.context_fields;
+  if (channel.context_fields) {
+    plan.context_fields = *channel.context_fields;
+  }
   plan.subbuffer_size = channel.subbuffer_size.value_or(plan.subbuffer_size);
   plan.subbuffer_count = channel.subbuffer_count.value_or(plan.subbuffer_count);
   plan.read_timer = channel.read_timer.value_or(plan.read_timer);
@@ -174,13 +187,19 @@ void split_initialisation_events(std::vector<ChannelPlan>& plans, std::size_t ma
     }
     const std::vector<std::string> names =
         rule.pattern == kAllRosEvents ? default_ros_events() : std::vector{rule.pattern};
-    for (const std::string& event : names) (initialisation.contains(event) ? moved : staying).push_back(event);
+    for (const std::string& event : names) {
+      (initialisation.contains(event) ? moved : staying).push_back(event);
+    }
   }
   first.events = rules(moved);
   plans[main].events = rules(staying);
   plans[main].events.insert(plans[main].events.end(), rest.begin(), rest.end());
-  if (plans[main].events.empty()) plans.erase(plans.begin() + static_cast<std::ptrdiff_t>(main));
-  if (!first.events.empty()) plans.insert(plans.begin(), std::move(first));
+  if (plans[main].events.empty()) {
+    plans.erase(plans.begin() + static_cast<std::ptrdiff_t>(main));
+  }
+  if (!first.events.empty()) {
+    plans.insert(plans.begin(), std::move(first));
+  }
 }
 
 void check_channel_name(const std::string& name, const std::set<std::string>& taken) {
@@ -190,7 +209,9 @@ void check_channel_name(const std::string& name, const std::set<std::string>& ta
                      fmt::format("a name has 1 to {} characters, none of them '/', and begins with no '.'",
                                  LTTNG_SYMBOL_NAME_LEN - 1));
   }
-  if (taken.contains(name)) throw TraceError(fmt::format("there are two channels '{}'", name), "give one another name");
+  if (taken.contains(name)) {
+    throw TraceError(fmt::format("there are two channels '{}'", name), "give one another name");
+  }
 }
 
 // Rounds values that LTTng would refuse, and refuses values that LTTng would misunderstand.
@@ -198,7 +219,9 @@ void make_usable(ChannelPlan& plan, const TraceConfig& config, std::vector<std::
   plan.subbuffer_size = usable_subbuffer_size(plan.subbuffer_size, plan.domain, warnings);
   plan.subbuffer_count = usable_subbuffer_count(plan.subbuffer_count, warnings);
   plan.context_fields = without_repetitions(plan.context_fields);
-  for (const std::string& name : plan.context_fields) ContextField{name, plan.domain};
+  for (const std::string& name : plan.context_fields) {
+    ContextField{name, plan.domain};
+  }
   if (config.records_snapshots() && !plan.overwrite) {
     throw TraceError(fmt::format("channel '{}' of a snapshot session must overwrite", plan.channel),
                      "leave the overwrite attribute out: a snapshot is of the newest events");
@@ -236,14 +259,22 @@ bool records_launch_events(const TraceConfig& config) {
 
 std::vector<ChannelPlan> plan_channels(const TraceConfig& config, std::vector<std::string>& warnings) {
   std::vector<ChannelPlan> plans;
-  if (ChannelPlan plan = userspace_plan(config); !plan.events.empty()) plans.push_back(std::move(plan));
+  if (ChannelPlan plan = userspace_plan(config); !plan.events.empty()) {
+    plans.push_back(std::move(plan));
+  }
   const bool has_main = !plans.empty();
   if (ChannelPlan plan = kernel_plan(config); !plan.events.empty() || !plan.syscalls.empty()) {
     plans.push_back(std::move(plan));
   }
-  if (config.init_channel && has_main) split_initialisation_events(plans, 0);
-  for (const ChannelConfig& channel : config.channels) plans.push_back(further_plan(channel, config));
-  if (config.max_overhead > 0) name_ros_events(plans);
+  if (config.init_channel && has_main) {
+    split_initialisation_events(plans, 0);
+  }
+  for (const ChannelConfig& channel : config.channels) {
+    plans.push_back(further_plan(channel, config));
+  }
+  if (config.max_overhead > 0) {
+    name_ros_events(plans);
+  }
   std::set<std::string> names;
   for (ChannelPlan& plan : plans) {
     check_channel_name(plan.channel, names);

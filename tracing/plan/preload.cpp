@@ -72,11 +72,15 @@ PreloadPlan plan_preload(const std::vector<std::string>& events_ust, std::string
         "events of both function profilers are enabled: the fast one ({}) is used, its exit events carry no address",
         kFastProfile));
   }
-  if (!wanted.empty()) wanted.emplace_back(kFork);
+  if (!wanted.empty()) {
+    wanted.emplace_back(kFork);
+  }
   for (const std::string& library : wanted) {
     // The plain name comes with the development package only.
     std::string path = find_library(library);
-    if (path.empty()) path = find_library(library + kInterfaceVersion);
+    if (path.empty()) {
+      path = find_library(library + kInterfaceVersion);
+    }
     if (path.empty()) {
       plan.warnings.push_back(fmt::format("{} is not installed: {} (package liblttng-ust1)", library,
                                           library == kFork ? "processes that traced processes fork may hang"
@@ -93,12 +97,18 @@ std::string append_preload(const std::string& current, const std::vector<std::st
   std::string separated = current;
   std::replace(separated.begin(), separated.end(), ' ', ':');  // ld.so(8) takes both
   std::istringstream items(separated);
-  for (std::string item; std::getline(items, item, ':');) known.push_back(item);
+  for (std::string item; std::getline(items, item, ':');) {
+    known.push_back(item);
+  }
 
   std::string result = current;
   for (const std::string& library : libraries) {
-    if (std::find(known.begin(), known.end(), library) != known.end()) continue;
-    if (!result.empty()) result += ':';
+    if (std::find(known.begin(), known.end(), library) != known.end()) {
+      continue;
+    }
+    if (!result.empty()) {
+      result += ':';
+    }
     result += library;
     known.push_back(library);
   }

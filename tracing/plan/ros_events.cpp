@@ -18,10 +18,14 @@ const std::vector<RosEvent>& all_ros_events() {
 }
 
 std::string why_no_ros_event(const std::string& pattern) {
-  if (!pattern.starts_with("ros2:") && !pattern.starts_with("ros2_ext:")) return "";
+  if (!pattern.starts_with("ros2:") && !pattern.starts_with("ros2_ext:")) {
+    return "";
+  }
   std::vector<std::string> names;
   for (const RosEvent& event : all_ros_events()) {
-    if (fnmatch(pattern.c_str(), event.name.c_str(), 0) == 0) return "";
+    if (fnmatch(pattern.c_str(), event.name.c_str(), 0) == 0) {
+      return "";
+    }
     names.push_back(event.name);
   }
   const std::string nearest = launch::nearest_name(pattern, names);
@@ -33,7 +37,9 @@ const std::vector<std::string>& default_ros_events() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
     for (const RosEvent& event : all_ros_events()) {
-      if (event.name.starts_with("ros2:")) all.push_back(event.name);
+      if (event.name.starts_with("ros2:")) {
+        all.push_back(event.name);
+      }
     }
     return all;
   }();
@@ -44,7 +50,9 @@ const std::vector<std::string>& initialisation_ros_events() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> initialisation;
     for (const RosEvent& event : all_ros_events()) {
-      if (event.name.starts_with("ros2:") && event.group == "init") initialisation.push_back(event.name);
+      if (event.name.starts_with("ros2:") && event.group == "init") {
+        initialisation.push_back(event.name);
+      }
     }
     return initialisation;
   }();

@@ -19,20 +19,28 @@ void fit_into_shared_memory(std::vector<ChannelPlan>& plans, std::uint64_t free,
   const auto needed = [&] {
     std::uint64_t bytes = 0;
     for (const ChannelPlan& plan : plans) {
-      if (plan.domain == LTTNG_DOMAIN_UST) bytes += plan.subbuffer_size * plan.subbuffer_count * processors;
+      if (plan.domain == LTTNG_DOMAIN_UST) {
+        bytes += plan.subbuffer_size * plan.subbuffer_count * processors;
+      }
     }
     return bytes + bytes / 16;  // what describes them
   };
   const std::uint64_t wanted = needed();
-  if (wanted <= free) return;
+  if (wanted <= free) {
+    return;
+  }
   while (needed() > free) {
     bool smaller = false;
     for (ChannelPlan& plan : plans) {
-      if (plan.domain != LTTNG_DOMAIN_UST || plan.subbuffer_size <= kSmallestFittedSubbuffer) continue;
+      if (plan.domain != LTTNG_DOMAIN_UST || plan.subbuffer_size <= kSmallestFittedSubbuffer) {
+        continue;
+      }
       plan.subbuffer_size /= 2;
       smaller = true;
     }
-    if (smaller) continue;
+    if (smaller) {
+      continue;
+    }
     throw TraceError(
         fmt::format("the buffers need {} bytes of shared memory, and /dev/shm has {} left", needed(), free),
         "give it more (in a container with --shm-size), or leave channels out");

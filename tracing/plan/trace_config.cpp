@@ -31,8 +31,12 @@ const std::vector<std::string>& default_context_fields() {
 
 std::string TraceConfig::trace_directory() const {
   const std::filesystem::path directory = std::filesystem::path(base_path) / session_name;
-  if (dual_runtime) return (directory / "runtime").string();
-  if (dual_session) return (directory / "snapshot").string();
+  if (dual_runtime) {
+    return (directory / "runtime").string();
+  }
+  if (dual_session) {
+    return (directory / "snapshot").string();
+  }
   return directory.string();
 }
 
@@ -46,18 +50,26 @@ std::vector<std::string> TraceConfig::all_events_ust() const {
 }
 
 std::string TraceConfig::destination() const {
-  if (!over_network()) return trace_directory();
+  if (!over_network()) {
+    return trace_directory();
+  }
   return url.empty() ? kLocalRelayDaemon : url;
 }
 
 std::string TraceConfig::lttng_session_name() const {
-  if (dual_runtime) return session_name + "-runtime";
-  if (dual_session) return session_name + "-snapshot";
+  if (dual_runtime) {
+    return session_name + "-runtime";
+  }
+  if (dual_session) {
+    return session_name + "-snapshot";
+  }
   return session_name;
 }
 
 std::string trace_base_path(const std::string& given, const std::map<std::string, std::string>& environment) {
-  if (!given.empty()) return absolute_normalised(given, environment);
+  if (!given.empty()) {
+    return absolute_normalised(given, environment);
+  }
   if (std::string trace_directory = value_or_empty(environment, "ROS_TRACE_DIR"); !trace_directory.empty()) {
     return absolute_normalised(trace_directory, environment);
   }

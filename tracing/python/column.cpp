@@ -32,7 +32,9 @@ bool has_numpy() {
       py::module_::import("numpy");
       return true;
     } catch (py::error_already_set& error) {
-      if (!error.matches(PyExc_ImportError)) throw;
+      if (!error.matches(PyExc_ImportError)) {
+        throw;
+      }
       return false;
     }
   }();
@@ -42,7 +44,9 @@ bool has_numpy() {
 // The array takes the numbers without a copy.
 template <class Number>
 py::object array_of(std::vector<Number> numbers) {
-  if (!has_numpy()) return py::memoryview(py::cast(Numbers<Number>{std::move(numbers)}));
+  if (!has_numpy()) {
+    return py::memoryview(py::cast(Numbers<Number>{std::move(numbers)}));
+  }
   auto owned = std::make_unique<std::vector<Number>>(std::move(numbers));
   const py::capsule owner(owned.get(), [](void* pointer) { delete static_cast<std::vector<Number>*>(pointer); });
   const std::vector<Number>& values = *owned.release();
@@ -51,11 +55,17 @@ py::object array_of(std::vector<Number> numbers) {
 
 py::object array_of(std::vector<py::object> objects) {
   py::list list(objects.size());
-  for (std::size_t i = 0; i < objects.size(); ++i) list[i] = std::move(objects[i]);
-  if (!has_numpy()) return list;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    list[i] = std::move(objects[i]);
+  }
+  if (!has_numpy()) {
+    return list;
+  }
   // Filled one by one: NumPy would make a second dimension of tuples.
   py::object array = py::module_::import("numpy").attr("empty")(list.size(), py::arg("dtype") = "object");
-  for (std::size_t i = 0; i < list.size(); ++i) array[py::int_(i)] = list[i];
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    array[py::int_(i)] = list[i];
+  }
   return array;
 }
 
@@ -63,9 +73,13 @@ py::object array_of(std::vector<py::object> objects) {
 
 py::object Column::shared_text(std::string_view text) {
   constexpr std::size_t kMost = 10'000;
-  if (texts_.size() > kMost) return text_object(text);
+  if (texts_.size() > kMost) {
+    return text_object(text);
+  }
   const auto [known, is_new] = texts_.try_emplace(std::string(text));
-  if (is_new) known->second = text_object(text);
+  if (is_new) {
+    known->second = text_object(text);
+  }
   return known->second;
 }
 
@@ -76,7 +90,9 @@ void Column::add_object(py::object object) {
     std::visit(
         [&]<class Values>(const Values& values) {
           if constexpr (!std::is_same_v<Values, std::monostate> && !std::is_same_v<Values, Objects>) {
-            for (const auto value : values) so_far.push_back(py::cast(value));
+            for (const auto value : values) {
+              so_far.push_back(py::cast(value));
+            }
           }
         },
         values_);
@@ -87,7 +103,9 @@ void Column::add_object(py::object object) {
 
 template <class Number>
 void Column::add_number(Number number) {
-  if (std::holds_alternative<std::monostate>(values_)) values_.emplace<std::vector<Number>>();
+  if (std::holds_alternative<std::monostate>(values_)) {
+    values_.emplace<std::vector<Number>>();
+  }
   if (auto* const numbers = std::get_if<std::vector<Number>>(&values_)) {
     numbers->push_back(number);
   } else {

@@ -47,7 +47,9 @@ PyObject* value_of(EventObject* event, PyObject* name) {
   if (PyObject* const index = PyDict_GetItemWithError(event->fields, name)) {
     return PyTuple_GET_ITEM(event->values, PyLong_AsSsize_t(index));
   }
-  if (PyErr_Occurred() != nullptr || event->contexts == Py_None) return nullptr;
+  if (PyErr_Occurred() != nullptr || event->contexts == Py_None) {
+    return nullptr;
+  }
   return PyDict_GetItemWithError(event->contexts, name);
 }
 
@@ -61,7 +63,9 @@ PyObject* subscript(PyObject* object, PyObject* name) {
 }
 
 int contains(PyObject* object, PyObject* name) {
-  if (value_of(as_event(object), name) != nullptr) return 1;
+  if (value_of(as_event(object), name) != nullptr) {
+    return 1;
+  }
   return PyErr_Occurred() == nullptr ? 0 : -1;
 }
 
@@ -80,10 +84,16 @@ PyObject* keys(PyObject* object, PyObject*) {
 PyObject* get(PyObject* object, PyObject* arguments) {
   PyObject* name = nullptr;
   PyObject* other = Py_None;
-  if (PyArg_ParseTuple(arguments, "O|O", &name, &other) == 0) return nullptr;
+  if (PyArg_ParseTuple(arguments, "O|O", &name, &other) == 0) {
+    return nullptr;
+  }
   PyObject* value = value_of(as_event(object), name);
-  if (value == nullptr && PyErr_Occurred() != nullptr) return nullptr;
-  if (value == nullptr) value = other;
+  if (value == nullptr && PyErr_Occurred() != nullptr) {
+    return nullptr;
+  }
+  if (value == nullptr) {
+    value = other;
+  }
   Py_INCREF(value);
   return value;
 }
@@ -140,7 +150,9 @@ py::object make_event_type() {
   PyType_Spec spec{"launch_trace.Event", sizeof(EventObject), 0, Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION,
                    slots};
   PyObject* const type = PyType_FromSpec(&spec);
-  if (type == nullptr) throw py::error_already_set();
+  if (type == nullptr) {
+    throw py::error_already_set();
+  }
   return py::reinterpret_steal<py::object>(type);
 }
 
@@ -148,20 +160,28 @@ EventMaker::EventMaker(py::object type, const TraceReader& reader) : type_(std::
 EventMaker::~EventMaker() = default;
 
 const EventMaker::KnownClass& EventMaker::known_class(const EventClass& event_class) {
-  if (event_class.id >= classes_.size()) classes_.resize(event_class.id + 1);
+  if (event_class.id >= classes_.size()) {
+    classes_.resize(event_class.id + 1);
+  }
   std::unique_ptr<KnownClass>& slot = classes_[event_class.id];
-  if (slot) return *slot;
+  if (slot) {
+    return *slot;
+  }
   slot = std::make_unique<KnownClass>();
   slot->name = text_object(event_class.name);
   const auto& environment = reader_.traces()[event_class.trace].environment;
   const auto host = environment.find("hostname");
   const auto* const name = host == environment.end() ? nullptr : std::get_if<std::string>(&host->second);
   slot->host = text_object(name == nullptr ? "" : *name);
-  for (std::size_t i = 0; i < event_class.fields.size(); ++i) slot->fields[text_object(event_class.fields[i])] = i;
+  for (std::size_t i = 0; i < event_class.fields.size(); ++i) {
+    slot->fields[text_object(event_class.fields[i])] = i;
+  }
   py::list names;
   for (std::size_t i = 0; i < event_class.contexts.size(); ++i) {
     const std::string& context = event_class.contexts[i];
-    if (context == "vpid" || context == "vtid" || context == "procname") continue;
+    if (context == "vpid" || context == "vtid" || context == "procname") {
+      continue;
+    }
     slot->other_contexts.push_back(i);
     names.append(text_object(context));
   }
@@ -178,11 +198,15 @@ PyObject* EventMaker::number_object(const std::optional<std::int64_t>& number, L
 }
 
 PyObject* EventMaker::procname_object(const std::optional<std::string_view>& procname) {
-  if (!procname) return reference(py::none());
+  if (!procname) {
+    return reference(py::none());
+  }
   if (!last_procname_object_ || *procname != last_procname_) {
     last_procname_ = *procname;
     const auto [known, is_new] = procnames_.try_emplace(last_procname_);
-    if (is_new) known->second = text_object(*procname);
+    if (is_new) {
+      known->second = text_object(*procname);
+    }
     last_procname_object_ = known->second;
   }
   return reference(last_procname_object_);
@@ -192,7 +216,9 @@ py::object EventMaker::make(const Event& event) {
   const KnownClass& known = known_class(*event.event_class);
   auto* const type = reinterpret_cast<PyTypeObject*>(type_.ptr());
   py::object made = py::reinterpret_steal<py::object>(type->tp_alloc(type, 0));
-  if (!made) throw py::error_already_set();
+  if (!made) {
+    throw py::error_already_set();
+  }
   EventObject* const object = as_event(made.ptr());
   object->name = reference(known.name);
   object->host = reference(known.host);

@@ -8,7 +8,9 @@ namespace py = pybind11;
 namespace {
 
 py::object owned(PyObject* object) {
-  if (object == nullptr) throw py::error_already_set();
+  if (object == nullptr) {
+    throw py::error_already_set();
+  }
   return py::reinterpret_steal<py::object>(object);
 }
 
@@ -20,20 +22,36 @@ py::object text_object(std::string_view text) {
 
 py::object field_object(const FieldValue& value) {
   if (value.is_enumeration()) {
-    if (const auto label = value.enumeration_label()) return text_object(*label);
+    if (const auto label = value.enumeration_label()) {
+      return text_object(*label);
+    }
   }
-  if (const auto number = value.unsigned_integer()) return owned(PyLong_FromUnsignedLongLong(*number));
-  if (const auto number = value.integer()) return owned(PyLong_FromLongLong(*number));
-  if (const auto text = value.string()) return text_object(*text);
-  if (const auto real = value.real()) return owned(PyFloat_FromDouble(*real));
-  if (value.is_variant()) return field_object(value[0]);
+  if (const auto number = value.unsigned_integer()) {
+    return owned(PyLong_FromUnsignedLongLong(*number));
+  }
+  if (const auto number = value.integer()) {
+    return owned(PyLong_FromLongLong(*number));
+  }
+  if (const auto text = value.string()) {
+    return text_object(*text);
+  }
+  if (const auto real = value.real()) {
+    return owned(PyFloat_FromDouble(*real));
+  }
+  if (value.is_variant()) {
+    return field_object(value[0]);
+  }
   if (value.is_structure()) {
     py::dict fields;
-    for (std::size_t i = 0; i < value.size(); ++i) fields[text_object(value.member_name(i))] = field_object(value[i]);
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      fields[text_object(value.member_name(i))] = field_object(value[i]);
+    }
     return fields;
   }
   py::tuple elements(value.size());
-  for (std::size_t i = 0; i < value.size(); ++i) elements[i] = field_object(value[i]);
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    elements[i] = field_object(value[i]);
+  }
   return elements;
 }
 

@@ -47,14 +47,20 @@ class Trace {
 };
 
 std::vector<std::filesystem::path> all_of(const Directories& directories) {
-  if (const auto* const one = std::get_if<std::filesystem::path>(&directories)) return {*one};
+  if (const auto* const one = std::get_if<std::filesystem::path>(&directories)) {
+    return {*one};
+  }
   return std::get<std::vector<std::filesystem::path>>(directories);
 }
 
 std::vector<std::string> patterns_of(const py::args& arguments) {
   std::vector<std::string> patterns;
-  for (const py::handle pattern : arguments) patterns.push_back(pattern.cast<std::string>());
-  if (patterns.empty()) patterns.emplace_back("*");
+  for (const py::handle pattern : arguments) {
+    patterns.push_back(pattern.cast<std::string>());
+  }
+  if (patterns.empty()) {
+    patterns.emplace_back("*");
+  }
   return patterns;
 }
 
@@ -64,7 +70,9 @@ py::object add_error(py::module_& module) {
   module.attr("TraceError") = py::handle(error);
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
-      if (thrown) std::rethrow_exception(thrown);
+      if (thrown) {
+        std::rethrow_exception(thrown);
+      }
     } catch (const TraceReadError& failure) {
       set_error(failure, error);
     }

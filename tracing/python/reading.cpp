@@ -24,9 +24,13 @@ Reading::Reading(const ReadingOptions& options, std::shared_ptr<Findings> findin
 py::object Reading::next() {
   constexpr std::size_t kCheckSignals = 1 << 16;  // items
   while (const TraceItem item = reader_.next()) {
-    if (++items_ % kCheckSignals == 0 && PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (++items_ % kCheckSignals == 0 && PyErr_CheckSignals() != 0) {
+      throw py::error_already_set();
+    }
     if (item.event != nullptr) {
-      if (is_wanted(*item.event->event_class)) return maker_.make(*item.event);
+      if (is_wanted(*item.event->event_class)) {
+        return maker_.make(*item.event);
+      }
     } else if (patterns_.empty()) {
       return make_loss(*item.loss);
     }
@@ -44,17 +48,25 @@ py::dict Reading::columns(const std::string& event, const std::optional<std::vec
 void Reading::end() {
   findings_->damage = reader_.damage();
   findings_->lacks_descriptions = reader_.lacks_descriptions();
-  if (damage_is_error_) reader_.throw_damage();
+  if (damage_is_error_) {
+    reader_.throw_damage();
+  }
 }
 
 bool Reading::is_wanted(const EventClass& event_class) {
-  if (patterns_.empty()) return true;
-  if (event_class.id >= is_wanted_.size()) is_wanted_.resize(event_class.id + 1, -1);
+  if (patterns_.empty()) {
+    return true;
+  }
+  if (event_class.id >= is_wanted_.size()) {
+    is_wanted_.resize(event_class.id + 1, -1);
+  }
   signed char& known = is_wanted_[event_class.id];
   if (known < 0) {
     known = 0;
     for (const std::string& pattern : patterns_) {
-      if (matches_pattern(pattern, event_class.name)) known = 1;
+      if (matches_pattern(pattern, event_class.name)) {
+        known = 1;
+      }
     }
   }
   return known == 1;
@@ -87,9 +99,13 @@ void end_iterator(PyObject* object) {
 
 PyObject* next_item(PyObject* object) {
   Reading* const reading = as_iterator(object)->reading;
-  if (reading == nullptr) return nullptr;
+  if (reading == nullptr) {
+    return nullptr;
+  }
   try {
-    if (py::object item = reading->next()) return item.release().ptr();
+    if (py::object item = reading->next()) {
+      return item.release().ptr();
+    }
   } catch (const TraceReadError& failure) {
     set_error(failure, trace_error);
   } catch (py::error_already_set& error) {
@@ -113,21 +129,27 @@ py::object make_iterator_type(py::object error) {
   PyType_Spec spec{"launch_trace._Reading", sizeof(IteratorObject), 0,
                    Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, slots};
   PyObject* const type = PyType_FromSpec(&spec);
-  if (type == nullptr) throw py::error_already_set();
+  if (type == nullptr) {
+    throw py::error_already_set();
+  }
   return py::reinterpret_steal<py::object>(type);
 }
 
 py::object make_iterator(const py::object& type, std::unique_ptr<Reading> reading) {
   auto* const of = reinterpret_cast<PyTypeObject*>(type.ptr());
   py::object made = py::reinterpret_steal<py::object>(of->tp_alloc(of, 0));
-  if (!made) throw py::error_already_set();
+  if (!made) {
+    throw py::error_already_set();
+  }
   as_iterator(made.ptr())->reading = reading.release();
   return made;
 }
 
 void set_error(const TraceReadError& failure, py::handle error) {
   std::string text = failure.what();
-  if (!failure.remedy().empty()) text += "\n      = help: " + failure.remedy();
+  if (!failure.remedy().empty()) {
+    text += "\n      = help: " + failure.remedy();
+  }
   PyErr_SetString(error.ptr(), text.c_str());
 }
 

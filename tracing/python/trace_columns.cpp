@@ -26,17 +26,37 @@ struct Source {
 };
 
 Source find_source(const EventClass& event_class, const std::string& name) {
-  if (const auto index = event_class.index_of(name)) return {Source::Kind::kField, *index};
-  if (name == "time_ns") return {Source::Kind::kTime};
-  if (name == "cpu_id") return {Source::Kind::kCpu};
-  if (name == "vpid") return {Source::Kind::kProcess};
-  if (name == "vtid") return {Source::Kind::kThread};
-  if (name == "procname") return {Source::Kind::kName};
-  if (name == "host") return {Source::Kind::kHost};
-  if (const auto index = event_class.index_of_context(name)) return {Source::Kind::kContext, *index};
+  if (const auto index = event_class.index_of(name)) {
+    return {Source::Kind::kField, *index};
+  }
+  if (name == "time_ns") {
+    return {Source::Kind::kTime};
+  }
+  if (name == "cpu_id") {
+    return {Source::Kind::kCpu};
+  }
+  if (name == "vpid") {
+    return {Source::Kind::kProcess};
+  }
+  if (name == "vtid") {
+    return {Source::Kind::kThread};
+  }
+  if (name == "procname") {
+    return {Source::Kind::kName};
+  }
+  if (name == "host") {
+    return {Source::Kind::kHost};
+  }
+  if (const auto index = event_class.index_of_context(name)) {
+    return {Source::Kind::kContext, *index};
+  }
   std::string known;
-  for (const std::string& field : event_class.fields) known += ", " + field;
-  for (const char* usual : kUsual) known += fmt::format(", {}", usual);
+  for (const std::string& field : event_class.fields) {
+    known += ", " + field;
+  }
+  for (const char* usual : kUsual) {
+    known += fmt::format(", {}", usual);
+  }
   throw py::key_error(fmt::format("{} has no field '{}'; it has {}", event_class.name, name, known.substr(2)));
 }
 
@@ -44,19 +64,27 @@ class ColumnReader {
  public:
   ColumnReader(const TraceReader& reader, const std::optional<std::vector<std::string>>& names)
       : reader_(reader), has_names_(names.has_value()) {
-    if (names) names_ = *names;
+    if (names) {
+      names_ = *names;
+    }
     columns_.resize(names_.size());
   }
 
   void add(const Event& event) {
     const std::vector<Source>& sources = sources_of(*event.event_class);
-    for (std::size_t i = 0; i < sources.size(); ++i) add(columns_[i], sources[i], event);
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+      add(columns_[i], sources[i], event);
+    }
   }
 
   py::dict take() {
-    if (!has_names_) add_usual_names({});
+    if (!has_names_) {
+      add_usual_names({});
+    }
     py::dict result;
-    for (std::size_t i = 0; i < names_.size(); ++i) result[py::str(names_[i])] = columns_[i].take();
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      result[py::str(names_[i])] = columns_[i].take();
+    }
     return result;
   }
 
@@ -90,12 +118,20 @@ class ColumnReader {
   }
 
   const std::vector<Source>& sources_of(const EventClass& event_class) {
-    if (event_class.id >= sources_.size()) sources_.resize(event_class.id + 1);
+    if (event_class.id >= sources_.size()) {
+      sources_.resize(event_class.id + 1);
+    }
     std::unique_ptr<std::vector<Source>>& slot = sources_[event_class.id];
-    if (slot) return *slot;
-    if (!has_names_) add_usual_names(event_class.fields);
+    if (slot) {
+      return *slot;
+    }
+    if (!has_names_) {
+      add_usual_names(event_class.fields);
+    }
     slot = std::make_unique<std::vector<Source>>();
-    for (const std::string& name : names_) slot->push_back(find_source(event_class, name));
+    for (const std::string& name : names_) {
+      slot->push_back(find_source(event_class, name));
+    }
     return *slot;
   }
 
@@ -121,12 +157,22 @@ py::dict read_columns(TraceReader& reader, const std::string& event,
   std::vector<signed char> is_wanted;  // by EventClass::id: 1 wanted, 0 not, -1 not known yet
   std::size_t items = 0;
   while (const TraceItem item = reader.next()) {
-    if (++items % kCheckSignals == 0 && PyErr_CheckSignals() != 0) throw py::error_already_set();
-    if (item.event == nullptr) continue;
+    if (++items % kCheckSignals == 0 && PyErr_CheckSignals() != 0) {
+      throw py::error_already_set();
+    }
+    if (item.event == nullptr) {
+      continue;
+    }
     const std::size_t id = item.event->event_class->id;
-    if (id >= is_wanted.size()) is_wanted.resize(id + 1, -1);
-    if (is_wanted[id] < 0) is_wanted[id] = item.event->name() == event ? 1 : 0;
-    if (is_wanted[id] == 1) columns.add(*item.event);
+    if (id >= is_wanted.size()) {
+      is_wanted.resize(id + 1, -1);
+    }
+    if (is_wanted[id] < 0) {
+      is_wanted[id] = item.event->name() == event ? 1 : 0;
+    }
+    if (is_wanted[id] == 1) {
+      columns.add(*item.event);
+    }
   }
   return columns.take();
 }

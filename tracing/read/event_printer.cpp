@@ -69,7 +69,9 @@ bool is_number(const FieldValue& value) {
 }
 
 void append_real(Buffer& out, double value, bool json) {
-  if (json && !std::isfinite(value)) return append(out, "null");
+  if (json && !std::isfinite(value)) {
+    return append(out, "null");
+  }
   fmt::format_to(std::back_inserter(out), "{}", value);
 }
 
@@ -79,13 +81,23 @@ void append_text(Buffer& out, const FieldValue& value) {
     append(out, *label);
     out.push_back(':');
   }
-  if (is_number(value)) return append_number(out, value, value.is_hexadecimal());
-  if (const auto real = value.real()) return append_real(out, *real, false);
-  if (const auto text = value.string()) return append_quoted(out, *text);
-  if (value.is_variant()) return append_text(out, value[0]);
+  if (is_number(value)) {
+    return append_number(out, value, value.is_hexadecimal());
+  }
+  if (const auto real = value.real()) {
+    return append_real(out, *real, false);
+  }
+  if (const auto text = value.string()) {
+    return append_quoted(out, *text);
+  }
+  if (value.is_variant()) {
+    return append_text(out, value[0]);
+  }
   out.push_back(value.is_structure() ? '{' : '[');
   for (std::size_t i = 0; i < value.size(); ++i) {
-    if (i > 0) out.push_back(' ');
+    if (i > 0) {
+      out.push_back(' ');
+    }
     if (value.is_structure()) {
       append(out, value.member_name(i));
       out.push_back('=');
@@ -97,14 +109,26 @@ void append_text(Buffer& out, const FieldValue& value) {
 
 // As JSON: numbers in decimal, an enumeration as its label if it has one.
 void append_json(Buffer& out, const FieldValue& value) {
-  if (const auto label = value.enumeration_label()) return append_quoted(out, *label);
-  if (is_number(value)) return append_number(out, value, false);
-  if (const auto real = value.real()) return append_real(out, *real, true);
-  if (const auto text = value.string()) return append_quoted(out, *text);
-  if (value.is_variant()) return append_json(out, value[0]);
+  if (const auto label = value.enumeration_label()) {
+    return append_quoted(out, *label);
+  }
+  if (is_number(value)) {
+    return append_number(out, value, false);
+  }
+  if (const auto real = value.real()) {
+    return append_real(out, *real, true);
+  }
+  if (const auto text = value.string()) {
+    return append_quoted(out, *text);
+  }
+  if (value.is_variant()) {
+    return append_json(out, value[0]);
+  }
   out.push_back(value.is_structure() ? '{' : '[');
   for (std::size_t i = 0; i < value.size(); ++i) {
-    if (i > 0) out.push_back(',');
+    if (i > 0) {
+      out.push_back(',');
+    }
     if (value.is_structure()) {
       append_quoted(out, value.member_name(i));
       out.push_back(':');
@@ -120,8 +144,12 @@ void append_contexts(Buffer& out, const Event& event, char separator, AppendOne 
   const std::vector<std::string>& names = event.event_class->contexts;
   bool is_first = true;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (has_own_place(names[i])) continue;
-    if (!is_first) out.push_back(separator);
+    if (has_own_place(names[i])) {
+      continue;
+    }
+    if (!is_first) {
+      out.push_back(separator);
+    }
     is_first = false;
     append_one(names[i], event.context(i));
   }
@@ -149,11 +177,17 @@ class TextPrinter : public EventPrinter {
     const std::int64_t since = last_ns_ ? event.timestamp_ns - *last_ns_ : 0;
     last_ns_ = event.timestamp_ns;
     fmt::format_to(std::back_inserter(line_), " +{}.{:09} {}", since / kSecond, since % kSecond, event.name());
-    if (event.cpu_id) fmt::format_to(std::back_inserter(line_), " cpu {}", *event.cpu_id);
-    if (event.procname) fmt::format_to(std::back_inserter(line_), " {}", *event.procname);
+    if (event.cpu_id) {
+      fmt::format_to(std::back_inserter(line_), " cpu {}", *event.cpu_id);
+    }
+    if (event.procname) {
+      fmt::format_to(std::back_inserter(line_), " {}", *event.procname);
+    }
     if (event.vpid) {
       fmt::format_to(std::back_inserter(line_), " [{}", *event.vpid);
-      if (event.vtid) fmt::format_to(std::back_inserter(line_), "/{}", *event.vtid);
+      if (event.vtid) {
+        fmt::format_to(std::back_inserter(line_), "/{}", *event.vtid);
+      }
       line_.push_back(']');
     }
     if (has_contexts(event)) {
@@ -209,9 +243,15 @@ class JsonPrinter : public EventPrinter {
   void print(const Event& event) override {
     fmt::format_to(std::back_inserter(line_), R"({{"time_ns":{},"event":)", event.timestamp_ns);
     append_quoted(line_, event.name());
-    if (event.cpu_id) fmt::format_to(std::back_inserter(line_), R"(,"cpu_id":{})", *event.cpu_id);
-    if (event.vpid) fmt::format_to(std::back_inserter(line_), R"(,"vpid":{})", *event.vpid);
-    if (event.vtid) fmt::format_to(std::back_inserter(line_), R"(,"vtid":{})", *event.vtid);
+    if (event.cpu_id) {
+      fmt::format_to(std::back_inserter(line_), R"(,"cpu_id":{})", *event.cpu_id);
+    }
+    if (event.vpid) {
+      fmt::format_to(std::back_inserter(line_), R"(,"vpid":{})", *event.vpid);
+    }
+    if (event.vtid) {
+      fmt::format_to(std::back_inserter(line_), R"(,"vtid":{})", *event.vtid);
+    }
     if (event.procname) {
       append(line_, R"(,"procname":)");
       append_quoted(line_, *event.procname);
@@ -228,7 +268,9 @@ class JsonPrinter : public EventPrinter {
     append(line_, R"(,"fields":{)");
     const std::vector<std::string>& fields = event.event_class->fields;
     for (std::size_t i = 0; i < fields.size(); ++i) {
-      if (i > 0) line_.push_back(',');
+      if (i > 0) {
+        line_.push_back(',');
+      }
       append_quoted(line_, fields[i]);
       line_.push_back(':');
       append_json(line_, event.field(i));
@@ -271,11 +313,17 @@ class CsvPrinter : public EventPrinter {
     std::vector<std::string> cells(columns_.size());
     const auto set = [&](const std::string& name, const FieldValue& value) {
       const auto column = columns_.find(name);
-      if (column != columns_.end()) cells[column->second] = text_of(value);
+      if (column != columns_.end()) {
+        cells[column->second] = text_of(value);
+      }
     };
     const EventClass& recorded = *event.event_class;
-    for (std::size_t i = 0; i < recorded.contexts.size(); ++i) set(recorded.contexts[i], event.context(i));
-    for (std::size_t i = 0; i < recorded.fields.size(); ++i) set(recorded.fields[i], event.field(i));
+    for (std::size_t i = 0; i < recorded.contexts.size(); ++i) {
+      set(recorded.contexts[i], event.context(i));
+    }
+    for (std::size_t i = 0; i < recorded.fields.size(); ++i) {
+      set(recorded.fields[i], event.field(i));
+    }
     for (const std::string& text : cells) {
       line_.push_back(',');
       append_cell(text);
@@ -294,7 +342,9 @@ class CsvPrinter : public EventPrinter {
 
  private:
   static std::string text_of(const FieldValue& value) {
-    if (const auto text = value.string()) return std::string(*text);
+    if (const auto text = value.string()) {
+      return std::string(*text);
+    }
     Buffer out;
     if (is_number(value) && !value.enumeration_label()) {
       append_number(out, value, false);
@@ -306,10 +356,14 @@ class CsvPrinter : public EventPrinter {
 
   // RFC 4180: quotes around a cell with a comma, a quote or a line break; quotes inside are doubled.
   void append_cell(std::string_view text) {
-    if (text.find_first_of(",\"\r\n") == std::string_view::npos) return append(line_, text);
+    if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
+      return append(line_, text);
+    }
     line_.push_back('"');
     for (const char c : text) {
-      if (c == '"') line_.push_back('"');
+      if (c == '"') {
+        line_.push_back('"');
+      }
       line_.push_back(c);
     }
     line_.push_back('"');
@@ -326,12 +380,16 @@ bool has_own_place(const std::string& context) {
 
 void write_out(std::FILE* out, std::string_view text) {
   errno = 0;
-  if (std::fwrite(text.data(), 1, text.size(), out) != text.size() || std::fflush(out) != 0) throw OutputClosed{errno};
+  if (std::fwrite(text.data(), 1, text.size(), out) != text.size() || std::fflush(out) != 0) {
+    throw OutputClosed{errno};
+  }
 }
 
 void EventPrinter::end_line() {
   line_.push_back('\n');
-  if (line_.size() >= kWriteAt) flush();
+  if (line_.size() >= kWriteAt) {
+    flush();
+  }
 }
 
 void EventPrinter::flush() {

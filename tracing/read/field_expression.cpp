@@ -56,13 +56,19 @@ bool accepts(Operator comparison, std::partial_ordering order) {
 }
 
 std::optional<FieldValue> inside(FieldValue field, const FieldPath::Part& part) {
-  if (field.is_variant()) field = field[0];
+  if (field.is_variant()) {
+    field = field[0];
+  }
   if (const auto* const index = std::get_if<std::size_t>(&part)) {
     return field.is_array() && *index < field.size() ? std::optional(field[*index]) : std::nullopt;
   }
-  if (!field.is_structure()) return std::nullopt;
+  if (!field.is_structure()) {
+    return std::nullopt;
+  }
   for (std::size_t i = 0; i < field.size(); ++i) {
-    if (field.member_name(i) == std::get<std::string>(part)) return field[i];
+    if (field.member_name(i) == std::get<std::string>(part)) {
+      return field[i];
+    }
   }
   return std::nullopt;
 }
@@ -93,16 +99,26 @@ std::optional<FieldContent> look_up_in(const Event& event, const FieldPath& path
                                 : path.first == "vtid"   ? &event.vtid
                                 : path.first == "cpu_id" ? &event.cpu_id
                                                          : nullptr;
-    if (context != nullptr) return *context ? std::optional(FieldContent{**context, {}}) : std::nullopt;
+    if (context != nullptr) {
+      return *context ? std::optional(FieldContent{**context, {}}) : std::nullopt;
+    }
   }
   std::optional<FieldValue> field = event.field(path.first);
-  if (!field) field = event.context(path.first);
+  if (!field) {
+    field = event.context(path.first);
+  }
   for (const FieldPath::Part& part : path.rest) {
-    if (!field) return std::nullopt;
+    if (!field) {
+      return std::nullopt;
+    }
     field = inside(*field, part);
   }
-  if (!field) return std::nullopt;
-  if (field->is_variant()) field = (*field)[0];
+  if (!field) {
+    return std::nullopt;
+  }
+  if (field->is_variant()) {
+    field = (*field)[0];
+  }
   return content_of(*field);
 }
 
@@ -134,7 +150,9 @@ struct FieldExpression::Node {
   }
 
   void add_fields(std::vector<std::string>& names) const {
-    for (const auto& part : parts) part->add_fields(names);
+    for (const auto& part : parts) {
+      part->add_fields(names);
+    }
     if (kind == Kind::kComparison && std::find(names.begin(), names.end(), path.first) == names.end()) {
       names.push_back(path.first);
     }
@@ -142,8 +160,12 @@ struct FieldExpression::Node {
 
  private:
   bool compares(const std::optional<FieldContent>& content) const {
-    if (!content) return false;
-    if (content->label && std::holds_alternative<std::string>(value)) return accepts_text(*content->label);
+    if (!content) {
+      return false;
+    }
+    if (content->label && std::holds_alternative<std::string>(value)) {
+      return accepts_text(*content->label);
+    }
     return std::visit(
         [this]<class Content>(const Content& held) {
           if constexpr (std::is_same_v<Content, std::string_view>) {
@@ -158,14 +180,20 @@ struct FieldExpression::Node {
   }
 
   bool accepts_number(const Number& number) const {
-    if (comparison == Operator::kIsTrue) return std::is_neq(compare(number, Number(std::int64_t{0})));
+    if (comparison == Operator::kIsTrue) {
+      return std::is_neq(compare(number, Number(std::int64_t{0})));
+    }
     const auto* const expected = std::get_if<Number>(&value);
     return expected != nullptr && accepts(comparison, compare(number, *expected));
   }
 
   bool accepts_text(std::string_view text) const {
-    if (comparison == Operator::kIsTrue) return !text.empty();
-    if (comparison == Operator::kMatches) return std::regex_search(text.begin(), text.end(), pattern);
+    if (comparison == Operator::kIsTrue) {
+      return !text.empty();
+    }
+    if (comparison == Operator::kMatches) {
+      return std::regex_search(text.begin(), text.end(), pattern);
+    }
     const auto* const expected = std::get_if<std::string>(&value);
     return expected != nullptr && accepts(comparison, text <=> std::string_view(*expected));
   }
@@ -183,7 +211,9 @@ class Parser {
   NodePtr parse() {
     NodePtr root = parse_list(Node::Kind::kOr);
     skip_space();
-    if (at_ < text_.size()) fail(fmt::format("unexpected '{}'", text_.substr(at_)));
+    if (at_ < text_.size()) {
+      fail(fmt::format("unexpected '{}'", text_.substr(at_)));
+    }
     return root;
   }
 
@@ -191,11 +221,15 @@ class Parser {
   [[noreturn]] void fail(const std::string& what) const { throw ExpressionError(what, at_); }
 
   void skip_space() {
-    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
+    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) {
+      ++at_;
+    }
   }
   bool take(std::string_view symbol) {
     skip_space();
-    if (!text_.substr(at_).starts_with(symbol)) return false;
+    if (!text_.substr(at_).starts_with(symbol)) {
+      return false;
+    }
     at_ += symbol.size();
     return true;
   }
@@ -207,7 +241,9 @@ class Parser {
     do {
       node->parts.push_back(is_or ? parse_list(Node::Kind::kAnd) : parse_not());
     } while (take(is_or ? "||" : "&&"));
-    if (node->parts.size() == 1) return std::move(node->parts.front());
+    if (node->parts.size() == 1) {
+      return std::move(node->parts.front());
+    }
     return node;
   }
 
@@ -221,7 +257,9 @@ class Parser {
     }
     if (take("(")) {
       NodePtr node = parse_list(Node::Kind::kOr);
-      if (!take(")")) fail("expected ')'");
+      if (!take(")")) {
+        fail("expected ')'");
+      }
       return node;
     }
     return parse_comparison();
@@ -238,16 +276,22 @@ class Parser {
                                                                                {"<", Operator::kLess},
                                                                                {">", Operator::kGreater}}};
     for (const auto& [symbol, comparison] : kOperators) {
-      if (!take(symbol)) continue;
+      if (!take(symbol)) {
+        continue;
+      }
       node->comparison = comparison;
       skip_space();
       const std::size_t begin = at_;
       node->value = parse_value();
-      if (comparison == Operator::kMatches) set_pattern(*node, begin);
+      if (comparison == Operator::kMatches) {
+        set_pattern(*node, begin);
+      }
       return node;
     }
     skip_space();
-    if (at_ < text_.size() && text_[at_] == '=') fail("expected '==' to compare");
+    if (at_ < text_.size() && text_[at_] == '=') {
+      fail("expected '==' to compare");
+    }
     return node;
   }
 
@@ -272,8 +316,12 @@ class Parser {
   std::string parse_name() {
     skip_space();
     const std::size_t begin = at_;
-    while (at_ < text_.size() && continues_name(text_[at_])) ++at_;
-    if (at_ == begin) fail("expected the name of a field");
+    while (at_ < text_.size() && continues_name(text_[at_])) {
+      ++at_;
+    }
+    if (at_ == begin) {
+      fail("expected the name of a field");
+    }
     return std::string(text_.substr(begin, at_ - begin));
   }
 
@@ -286,9 +334,13 @@ class Parser {
       } else if (take("[")) {
         std::size_t index = 0;
         const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), index);
-        if (error != std::errc()) fail("expected the number of an element");
+        if (error != std::errc()) {
+          fail("expected the number of an element");
+        }
         at_ = static_cast<std::size_t>(end - text_.data());
-        if (!take("]")) fail("expected ']'");
+        if (!take("]")) {
+          fail("expected ']'");
+        }
         path.rest.emplace_back(index);
       } else {
         return path;
@@ -298,18 +350,28 @@ class Parser {
 
   Value parse_value() {
     skip_space();
-    if (at_ == text_.size()) fail("expected a value");
+    if (at_ == text_.size()) {
+      fail("expected a value");
+    }
     const char quote = text_[at_];
-    if (quote == '"' || quote == '\'') return parse_text(quote);
+    if (quote == '"' || quote == '\'') {
+      return parse_text(quote);
+    }
     const std::size_t begin = at_;
     while (at_ < text_.size() &&
            (continues_name(text_[at_]) || text_[at_] == '.' || text_[at_] == '-' || text_[at_] == '+')) {
       ++at_;
     }
     const std::string_view word = text_.substr(begin, at_ - begin);
-    if (word == "true") return Number(std::int64_t{1});
-    if (word == "false") return Number(std::int64_t{0});
-    if (const auto number = parse_number(word)) return *number;
+    if (word == "true") {
+      return Number(std::int64_t{1});
+    }
+    if (word == "false") {
+      return Number(std::int64_t{0});
+    }
+    if (const auto number = parse_number(word)) {
+      return *number;
+    }
     at_ = begin;
     fail(word.empty() ? "expected a value" : fmt::format("'{}' is no number; texts stand in quotes", word));
   }
@@ -323,7 +385,9 @@ class Parser {
         return value;
       }
       // Only the quote and the backslash need a backslash; other backslashes belong to regular expressions.
-      if (c == '\\' && at_ + 1 < text_.size() && (text_[at_ + 1] == quote || text_[at_ + 1] == '\\')) c = text_[++at_];
+      if (c == '\\' && at_ + 1 < text_.size() && (text_[at_ + 1] == quote || text_[at_ + 1] == '\\')) {
+        c = text_[++at_];
+      }
       value += c;
     }
     fail("a text has no closing quote");

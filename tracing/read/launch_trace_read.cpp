@@ -40,10 +40,16 @@ class PrintingSink : public tracing::TraceSink {
       : filter_(arguments.filter), printer_(printer), left_(arguments.limit) {}
 
   void on_event(const tracing::Event& event) override {
-    if (filter_.is_behind(event)) throw tracing::EndOfReading();
-    if (!filter_.accepts(event)) return;
+    if (filter_.is_behind(event)) {
+      throw tracing::EndOfReading();
+    }
+    if (!filter_.accepts(event)) {
+      return;
+    }
     printer_.print(event);
-    if (left_ && --*left_ == 0) throw Enough();
+    if (left_ && --*left_ == 0) {
+      throw Enough();
+    }
   }
   // A loss is never left out: it may have hidden the event that the user looks for.
   void on_loss(const tracing::Loss& loss) override { printer_.print(loss); }
@@ -61,7 +67,9 @@ class CountingSink : public tracing::TraceSink {
   std::map<std::string, std::uint64_t> counts() const {
     std::map<std::string, std::uint64_t> result;
     for (std::size_t id = 0; id < counts_.size(); ++id) {
-      if (counts_[id] > 0) result[names_[id]] += counts_[id];
+      if (counts_[id] > 0) {
+        result[names_[id]] += counts_[id];
+      }
     }
     return result;
   }
@@ -71,8 +79,12 @@ class CountingSink : public tracing::TraceSink {
   std::set<std::string> fields;  // and contexts
 
   void on_event(const tracing::Event& event) override {
-    if (filter_.is_behind(event)) throw tracing::EndOfReading();
-    if (!filter_.accepts(event)) return;
+    if (filter_.is_behind(event)) {
+      throw tracing::EndOfReading();
+    }
+    if (!filter_.accepts(event)) {
+      return;
+    }
     const std::size_t id = event.event_class->id;
     if (id >= counts_.size()) {
       counts_.resize(id + 1);
@@ -85,11 +97,15 @@ class CountingSink : public tracing::TraceSink {
       std::copy_if(contexts.begin(), contexts.end(), std::inserter(fields, fields.end()),
                    [](const std::string& context) { return !tracing::has_own_place(context); });
     }
-    if (left_ && --*left_ == 0) throw Enough();
+    if (left_ && --*left_ == 0) {
+      throw Enough();
+    }
   }
   void on_loss(const tracing::Loss& loss) override {
     (loss.kind == tracing::Loss::Kind::kEvents ? lost_events : lost_packets) += loss.count.value_or(0);
-    if (!loss.count) lost_unknown = true;
+    if (!loss.count) {
+      lost_unknown = true;
+    }
   }
 
  private:
@@ -120,7 +136,9 @@ void say_what_is_open(const tracing::TraceReader& reader) {
 }
 
 void say_that_there_is_no_such_node(const tracing::EventFilter& filter) {
-  if (filter.nodes.empty() || (filter.node_filter() != nullptr && filter.node_filter()->has_match())) return;
+  if (filter.nodes.empty() || (filter.node_filter() != nullptr && filter.node_filter()->has_match())) {
+    return;
+  }
   const std::vector<std::string> names =
       filter.node_filter() == nullptr ? std::vector<std::string>() : filter.node_filter()->names();
   const std::string there = names.empty() ? "no nodes" : fmt::format("{}", fmt::join(names, ", "));
@@ -136,7 +154,9 @@ int read_into(const Arguments& arguments, tracing::TraceSink& sink) {
   try {
     tracing::TraceReader reader(arguments.directories);
     say_what_is_open(reader);
-    if (arguments.limit != 0) reader.read(sink);
+    if (arguments.limit != 0) {
+      reader.read(sink);
+    }
     lacks_descriptions = reader.lacks_descriptions();
   } catch (const tracing::TraceReadError& error) {
     return print_error(error);
@@ -149,7 +169,9 @@ int read_into(const Arguments& arguments, tracing::TraceSink& sink) {
         "traced program ends or the session is stopped\n",
         stderr);
   }
-  if (arguments.limit != 0) say_that_there_is_no_such_node(arguments.filter);
+  if (arguments.limit != 0) {
+    say_that_there_is_no_such_node(arguments.filter);
+  }
   return kSuccess;
 }
 
@@ -157,14 +179,24 @@ int print_count(Arguments& arguments) {
   CountingSink counter(arguments.filter);
   const int exit_code = read_into(arguments, counter);
   std::uint64_t total = 0;
-  for (const auto& [name, count] : counter.counts()) total += count;
+  for (const auto& [name, count] : counter.counts()) {
+    total += count;
+  }
   const int width = std::max(5, static_cast<int>(std::to_string(total).size()));
   std::string text;
-  for (const auto& [name, count] : counter.counts()) text += fmt::format("{:>{}} {}\n", count, width, name);
+  for (const auto& [name, count] : counter.counts()) {
+    text += fmt::format("{:>{}} {}\n", count, width, name);
+  }
   text += fmt::format("{:>{}} in all\n", total, width);
-  if (counter.lost_events > 0) text += fmt::format("{:>{}} events lost\n", counter.lost_events, width);
-  if (counter.lost_packets > 0) text += fmt::format("{:>{}} packets lost\n", counter.lost_packets, width);
-  if (counter.lost_unknown) text += fmt::format("{:>{}} events were lost before the trace begins\n", "some", width);
+  if (counter.lost_events > 0) {
+    text += fmt::format("{:>{}} events lost\n", counter.lost_events, width);
+  }
+  if (counter.lost_packets > 0) {
+    text += fmt::format("{:>{}} packets lost\n", counter.lost_packets, width);
+  }
+  if (counter.lost_unknown) {
+    text += fmt::format("{:>{}} events were lost before the trace begins\n", "some", width);
+  }
   tracing::write_out(stdout, text);
   return exit_code;
 }
@@ -176,7 +208,9 @@ int print_events(Arguments& arguments) {
     CountingSink fields(arguments.filter, arguments.limit);
     try {
       tracing::TraceReader reader(arguments.directories);
-      if (arguments.limit != 0) reader.read(fields);
+      if (arguments.limit != 0) {
+        reader.read(fields);
+      }
     } catch (const tracing::TraceReadError&) {
       // The second reading, which prints, reports the error.
     } catch (const Enough&) {
@@ -193,8 +227,12 @@ int print_events(Arguments& arguments) {
 }
 
 std::optional<tracing::TimeBound> time_bound(const std::string& option, const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  if (const auto bound = tracing::TimeBound::parse(text)) return bound;
+  if (text.empty()) {
+    return std::nullopt;
+  }
+  if (const auto bound = tracing::TimeBound::parse(text)) {
+    return bound;
+  }
   throw CLI::ValidationError(option, fmt::format("'{}' is no time; write seconds since the epoch, "
                                                  "2026-01-31T12:00:00.5 or +SECONDS after the first event",
                                                  text));
@@ -245,9 +283,13 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
     arguments.filter.begin = time_bound("--from", from);
     arguments.filter.end = time_bound("--to", to);
-    for (const std::string& expression : expressions) add_expression(arguments.filter, expression);
+    for (const std::string& expression : expressions) {
+      add_expression(arguments.filter, expression);
+    }
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help
+    if (error.get_exit_code() == 0) {
+      return app.exit(error);  // --help
+    }
     fmt::print(stderr, "{}", launch::usage_error_of(app, error));
     return kUsage;
   }
@@ -255,7 +297,9 @@ int main(int argc, char** argv) {
     return arguments.count ? print_count(arguments) : print_events(arguments);
   } catch (const tracing::OutputClosed& closed) {
     // A reader that has gone, as `head` does, has seen enough.
-    if (closed.error == EPIPE) return kFailure;
+    if (closed.error == EPIPE) {
+      return kFailure;
+    }
     return print_error(fmt::format("cannot write the output: {}", std::strerror(closed.error)));
   } catch (const tracing::TraceReadError& error) {
     return print_error(error);

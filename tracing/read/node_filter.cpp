@@ -10,8 +10,12 @@
 namespace tracing {
 
 bool NodeFilter::is_wanted(ObjectId node) const {
-  if (node == kNoObject) return false;
-  if (node >= is_wanted_.size()) is_wanted_.resize(node + 1, -1);
+  if (node == kNoObject) {
+    return false;
+  }
+  if (node >= is_wanted_.size()) {
+    is_wanted_.resize(node + 1, -1);
+  }
   if (is_wanted_[node] < 0) {
     const std::string& name = model_.nodes()[node].name;
     const std::string last = name.substr(name.rfind('/') + 1);
@@ -24,7 +28,9 @@ bool NodeFilter::is_wanted(ObjectId node) const {
 
 std::vector<std::string> NodeFilter::names() const {
   std::vector<std::string> names;
-  for (const NodeObject& node : model_.nodes()) names.push_back(node.name);
+  for (const NodeObject& node : model_.nodes()) {
+    names.push_back(node.name);
+  }
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
@@ -32,13 +38,17 @@ std::vector<std::string> NodeFilter::names() const {
 
 bool NodeFilter::has_match() const {
   for (ObjectId node = 0; node < model_.nodes().size(); ++node) {
-    if (is_wanted(node)) return true;
+    if (is_wanted(node)) {
+      return true;
+    }
   }
   return false;
 }
 
 bool NodeFilter::is_wanted_callback(ObjectId id) const {
-  if (id == kNoObject) return false;
+  if (id == kNoObject) {
+    return false;
+  }
   const CallbackObject& callback = model_.callbacks()[id];
   switch (callback.owner) {
     case CallbackObject::Owner::kSubscription: {
@@ -59,9 +69,15 @@ bool NodeFilter::is_wanted_callback(ObjectId id) const {
 
 bool NodeFilter::is_wanted_handle(ProcessId process, std::string_view field, ros2::Handle handle) {
   const auto node_of = [](const auto& objects, ObjectId id) { return id == kNoObject ? kNoObject : objects[id].node; };
-  if (field == "node_handle") return is_wanted(model_.node(process, handle));
-  if (field == "callback") return is_wanted_callback(model_.callback(process, handle));
-  if (field == "publisher_handle") return is_wanted(node_of(model_.publishers(), model_.publisher(process, handle)));
+  if (field == "node_handle") {
+    return is_wanted(model_.node(process, handle));
+  }
+  if (field == "callback") {
+    return is_wanted_callback(model_.callback(process, handle));
+  }
+  if (field == "publisher_handle") {
+    return is_wanted(node_of(model_.publishers(), model_.publisher(process, handle)));
+  }
   if (field == "rmw_publisher_handle") {
     return is_wanted(node_of(model_.publishers(), model_.rmw_publisher(process, handle).id));
   }
@@ -71,11 +87,21 @@ bool NodeFilter::is_wanted_handle(ProcessId process, std::string_view field, ros
   if (field == "rmw_subscription_handle") {
     return is_wanted(node_of(model_.subscriptions(), model_.rmw_subscription(process, handle).id));
   }
-  if (field == "timer_handle") return is_wanted(node_of(model_.timers(), model_.timer(process, handle)));
-  if (field == "service_handle") return is_wanted(node_of(model_.services(), model_.service(process, handle)));
-  if (field == "rmw_service_handle") return is_wanted(node_of(model_.services(), model_.rmw_service(process, handle)));
-  if (field == "client_handle") return is_wanted(node_of(model_.clients(), model_.client(process, handle)));
-  if (field == "rmw_client_handle") return is_wanted(node_of(model_.clients(), model_.rmw_client(process, handle)));
+  if (field == "timer_handle") {
+    return is_wanted(node_of(model_.timers(), model_.timer(process, handle)));
+  }
+  if (field == "service_handle") {
+    return is_wanted(node_of(model_.services(), model_.service(process, handle)));
+  }
+  if (field == "rmw_service_handle") {
+    return is_wanted(node_of(model_.services(), model_.rmw_service(process, handle)));
+  }
+  if (field == "client_handle") {
+    return is_wanted(node_of(model_.clients(), model_.client(process, handle)));
+  }
+  if (field == "rmw_client_handle") {
+    return is_wanted(node_of(model_.clients(), model_.rmw_client(process, handle)));
+  }
   if (field == "handle") {  // of what an executor executes
     return is_wanted(node_of(model_.timers(), model_.timer(process, handle))) ||
            is_wanted(node_of(model_.subscriptions(), model_.subscription(process, handle)));
@@ -143,14 +169,18 @@ bool NodeFilter::accepts(const Event& event) {
   const ros2::AnyEvent* const decoded = decoder_.decode(event);
   if (decoded == nullptr) {
     const std::optional<ros2::ObjectEnd> end = ends_.decode(event);
-    if (!end) return running();
+    if (!end) {
+      return running();
+    }
     const bool wanted = running() || is_wanted_end(origin.process, *end);
     model_.on(origin, *end);
     return wanted;
   }
   std::visit(
       [&](const auto& fields) {
-        if constexpr (requires { model_.on(origin, fields); }) model_.on(origin, fields);
+        if constexpr (requires { model_.on(origin, fields); }) {
+          model_.on(origin, fields);
+        }
       },
       *decoded);
   if (const auto* const machine = std::get_if<ros2::RclLifecycleStateMachineInit>(decoded)) {
@@ -158,11 +188,15 @@ bool NodeFilter::accepts(const Event& event) {
         is_wanted(model_.node(origin.process, machine->node_handle));
   }
   const bool wanted = has_wanted_object(origin, *decoded);
-  if (std::holds_alternative<ros2::CallbackStart>(*decoded)) running_[thread].push_back(wanted);
+  if (std::holds_alternative<ros2::CallbackStart>(*decoded)) {
+    running_[thread].push_back(wanted);
+  }
   const bool accepted = wanted || running();
   if (std::holds_alternative<ros2::CallbackEnd>(*decoded)) {
     std::vector<bool>& callbacks = running_[thread];
-    if (!callbacks.empty()) callbacks.pop_back();
+    if (!callbacks.empty()) {
+      callbacks.pop_back();
+    }
   }
   return accepted;
 }

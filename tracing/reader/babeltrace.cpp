@@ -17,7 +17,9 @@ void throw_noted_error(const std::string& what, const std::string& remedy) {
     for (std::uint64_t i = 0; i < bt_error_get_cause_count(error); ++i) {  // the first cause is the innermost
       const bt_error_cause* cause = bt_error_borrow_cause_by_index(error, i);
       const std::string message = bt_error_cause_get_message(cause);
-      if (i == 0) reason = message;
+      if (i == 0) {
+        reason = message;
+      }
       details.insert(0, fmt::format("{}: {}\n", bt_error_cause_get_module_name(cause), message));
     }
     bt_error_release(error);
@@ -27,7 +29,9 @@ void throw_noted_error(const std::string& what, const std::string& remedy) {
 
 void check(int status, const char* call) {
   constexpr int kOk = BT_GRAPH_RUN_STATUS_OK;  // the same value in every status enumeration of the library
-  if (status != kOk) throw_noted_error(fmt::format("libbabeltrace2: {} failed", call), "");
+  if (status != kOk) {
+    throw_noted_error(fmt::format("libbabeltrace2: {} failed", call), "");
+  }
 }
 
 Plugin find_plugin(const char* name) {

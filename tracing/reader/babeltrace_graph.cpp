@@ -49,7 +49,9 @@ bt_graph_simple_sink_component_consume_func_status MessageGraph::consume(bt_mess
   if (status != BT_MESSAGE_ITERATOR_NEXT_STATUS_OK) {
     return static_cast<bt_graph_simple_sink_component_consume_func_status>(status);  // the same values by design
   }
-  for (std::uint64_t i = 0; i < count; ++i) static_cast<End*>(data)->messages.emplace_back(messages[i]);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    static_cast<End*>(data)->messages.emplace_back(messages[i]);
+  }
   return BT_GRAPH_SIMPLE_SINK_COMPONENT_CONSUME_FUNC_STATUS_OK;
 }
 
@@ -64,8 +66,12 @@ void MessageGraph::add_end() {
 }
 
 MessageGraph::Fetch MessageGraph::fetch(const std::string& what, const std::string& remedy) {
-  if (next_input_ == 0) return Fetch::kEnd;  // no source has a stream
-  if (!has_end_) add_end();
+  if (next_input_ == 0) {
+    return Fetch::kEnd;  // no source has a stream
+  }
+  if (!has_end_) {
+    add_end();
+  }
   end_.messages.clear();
   switch (bt_graph_run_once(graph_.get())) {
     case BT_GRAPH_RUN_ONCE_STATUS_OK:

@@ -59,7 +59,9 @@ BabeltraceReader::~BabeltraceReader() = default;
 // Replaces the messages by the next ones. Returns false when there are none left. Throws TraceReadError.
 bool BabeltraceReader::Implementation::fetch_messages() {
   if (!is_connected) {
-    for (const TraceDirectories& each : traces) add_source(graph, each);
+    for (const TraceDirectories& each : traces) {
+      add_source(graph, each);
+    }
     is_connected = true;
   }
   next_message = 0;
@@ -87,7 +89,9 @@ TraceItem BabeltraceReader::next() {
 }
 
 void BabeltraceReader::throw_damage() const {
-  if (implementation_->damage) throw TraceReadError(*implementation_->damage);
+  if (implementation_->damage) {
+    throw TraceReadError(*implementation_->damage);
+  }
 }
 
 const std::vector<std::string>& BabeltraceReader::damage() const {

@@ -36,11 +36,15 @@ struct StreamClass {
   std::optional<Context> context(std::string_view name) const {
     const ctf::StructureDecoder& contexts = layout.event_context();
     const std::optional<std::size_t> index = contexts.index_of(name);
-    if (!index) return std::nullopt;
+    if (!index) {
+      return std::nullopt;
+    }
     Context context{*index, std::nullopt};
     const ctf::FieldClass& type = *contexts.type()->members[*index].type;
     const bool is_usual = type.access == ctf::NumberAccess::kSigned32 || type.is_characters();
-    if (contexts.fixed_size() && is_usual) context.offset = contexts.fixed_places()[*index].offset;
+    if (contexts.fixed_size() && is_usual) {
+      context.offset = contexts.fixed_places()[*index].offset;
+    }
     return context;
   }
 
@@ -91,7 +95,9 @@ std::vector<fs::path> stream_files(const fs::path& directory, std::error_code& e
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
     const std::string name = entry->path().filename();
     std::error_code gone;
-    if (entry->is_regular_file(gone) && name != "metadata" && !name.starts_with('.')) files.push_back(entry->path());
+    if (entry->is_regular_file(gone) && name != "metadata" && !name.starts_with('.')) {
+      files.push_back(entry->path());
+    }
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -122,8 +128,12 @@ ctf::TraceClass parse_cut_metadata(const fs::path& file, const std::string& text
 }
 
 void add_names(const ctf::FieldClassPtr& structure, std::vector<std::string>& names) {
-  if (!structure) return;
-  for (const ctf::FieldMember& member : structure->members) names.push_back(member.name);
+  if (!structure) {
+    return;
+  }
+  for (const ctf::FieldMember& member : structure->members) {
+    names.push_back(member.name);
+  }
 }
 
 Recording recording_of_trace(const ctf::TraceClass& trace) {
@@ -185,9 +195,15 @@ TraceItem DirectReader::OpenStream::give() {
     event_.timestamp_ns = cursor.time_ns();
     event_.cpu_id = cursor.packet().cpu_id;
     const ctf::Record& contexts = cursor.stream_context();
-    if (stream_class.vpid) read_number(contexts, *stream_class.vpid, event_.vpid);
-    if (stream_class.vtid) read_number(contexts, *stream_class.vtid, event_.vtid);
-    if (stream_class.procname) read_text(contexts, *stream_class.procname, event_.procname);
+    if (stream_class.vpid) {
+      read_number(contexts, *stream_class.vpid, event_.vpid);
+    }
+    if (stream_class.vtid) {
+      read_number(contexts, *stream_class.vtid, event_.vtid);
+    }
+    if (stream_class.procname) {
+      read_text(contexts, *stream_class.procname, event_.procname);
+    }
     event_.record = &cursor.payload();
     event_.stream_context = &contexts;
     event_.event_context = &cursor.event_context();
@@ -225,7 +241,9 @@ DirectReader::DirectReader(const fs::path& directory, const std::vector<fs::path
     }
     Trace& trace = *traces_[known->second];
     descriptions_[known->second].directories.push_back(path);
-    if (is_open) trace.is_open = true;
+    if (is_open) {
+      trace.is_open = true;
+    }
     // The metadata of a session only grow, so the longest text is the newest.
     if (text.size() >= length[known->second]) {
       trace.declarations = std::move(declarations);
@@ -249,7 +267,9 @@ DirectReader::DirectReader(const fs::path& directory, const std::vector<fs::path
       event_class.trace = trace.number;
       event_class.recording = &trace.recording;
       const auto stream = trace.declarations.streams.find(event.stream_id);
-      if (stream != trace.declarations.streams.end()) add_names(stream->second.event_context, event_class.contexts);
+      if (stream != trace.declarations.streams.end()) {
+        add_names(stream->second.event_context, event_class.contexts);
+      }
       event_class.stream_contexts = event_class.contexts.size();
       add_names(event.context, event_class.contexts);
       add_names(event.payload, event_class.fields);
@@ -261,7 +281,9 @@ DirectReader::~DirectReader() = default;
 
 void DirectReader::note(const std::string& damage) {
   constexpr std::size_t kMost = 1000;  // lines; a large file may have millions of damaged packets
-  if (damage_.size() < kMost) damage_.push_back(damage);
+  if (damage_.size() < kMost) {
+    damage_.push_back(damage);
+  }
 }
 
 void DirectReader::open_trace(Trace& trace) {
@@ -282,7 +304,9 @@ void DirectReader::open_trace(Trace& trace) {
       }
       if (trace.is_open && list.is_short) {
         // The tracer is about to write the rest of the packet.
-        if (list.ends_early) list.packets.pop_back();
+        if (list.ends_early) {
+          list.packets.pop_back();
+        }
       } else if (trace.is_open && list.is_undescribed) {
         lacks_descriptions_ = true;
       } else if (!list.problem.empty()) {
@@ -292,11 +316,15 @@ void DirectReader::open_trace(Trace& trace) {
         // A stream without a number of its own is one file.
         const std::string name = packet.stream_instance_id ? std::string() : file.string();
         Found& stream = found[{packet.stream_id, packet.stream_instance_id, name}];
-        if (stream.name.empty()) stream.name = shown_path(file);
+        if (stream.name.empty()) {
+          stream.name = shown_path(file);
+        }
         stream.packets.push_back(std::move(packet));
       }
     }
-    if (gone) note(fmt::format("'{}': {}", path.string(), gone.message()));
+    if (gone) {
+      note(fmt::format("'{}': {}", path.string(), gone.message()));
+    }
   }
   for (auto& [key, stream] : found) {
     put_in_order(stream.packets);
@@ -333,17 +361,23 @@ constexpr auto kLaterFirst = [](const auto* a, const auto* b) { return a->is_lat
 // Before the first item.
 void DirectReader::open_streams() {
   is_begun_ = true;
-  for (const auto& trace : traces_) open_trace(*trace);
+  for (const auto& trace : traces_) {
+    open_trace(*trace);
+  }
   for (const auto& stream : streams_) {
     advance(*stream);
-    if (stream->item != ctf::StreamCursor::Item::kEnd) later_.push_back(stream.get());
+    if (stream->item != ctf::StreamCursor::Item::kEnd) {
+      later_.push_back(stream.get());
+    }
   }
   std::make_heap(later_.begin(), later_.end(), kLaterFirst);
 }
 
 // Moves behind the item that was given. Returns whether there is another one.
 bool DirectReader::advance_to_earliest() {
-  if (!is_begun_) open_streams();
+  if (!is_begun_) {
+    open_streams();
+  }
   if (earliest_ != nullptr) {
     advance(*earliest_);
     if (earliest_->item == ctf::StreamCursor::Item::kEnd) {
@@ -356,7 +390,9 @@ bool DirectReader::advance_to_earliest() {
       earliest_ = nullptr;
     }
   }
-  if (later_.empty()) return false;
+  if (later_.empty()) {
+    return false;
+  }
   std::pop_heap(later_.begin(), later_.end(), kLaterFirst);
   earliest_ = later_.back();
   later_.pop_back();
@@ -379,7 +415,9 @@ void DirectReader::read(TraceSink& sink) {
 }
 
 void DirectReader::throw_damage() const {
-  if (damage_.empty()) return;
+  if (damage_.empty()) {
+    return;
+  }
   throw TraceReadError(fmt::format("the trace '{}' is damaged or ends early: {}", directory_.string(), damage_.front()),
                        "what can be read beside the damage was read");
 }

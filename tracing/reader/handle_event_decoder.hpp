@@ -20,12 +20,20 @@ class HandleEventDecoder {
   // Returns nothing for another event.
   std::optional<Decoded> decode(const Event& event) {
     const std::size_t id = event.event_class->id;
-    if (id >= kinds_.size()) kinds_.resize(id + 1);
-    if (!kinds_[id]) kinds_[id] = kind_of(event);
+    if (id >= kinds_.size()) {
+      kinds_.resize(id + 1);
+    }
+    if (!kinds_[id]) {
+      kinds_[id] = kind_of(event);
+    }
     const Kind& kind = *kinds_[id];
-    if (!kind || event.event_class->fields.empty()) return std::nullopt;
+    if (!kind || event.event_class->fields.empty()) {
+      return std::nullopt;
+    }
     const std::optional<std::uint64_t> handle = event.field(0).unsigned_integer();
-    if (!handle) return std::nullopt;
+    if (!handle) {
+      return std::nullopt;
+    }
     return Decoded{*kind, *handle};
   }
 

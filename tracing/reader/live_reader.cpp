@@ -59,7 +59,9 @@ std::optional<KnownSession> ask_relay(const bt_component_class_source* lttng_liv
     throw TraceReadError(fmt::format("no relay daemon answers at {}", relay), kNoDaemonRemedy);
   }
   const babeltrace::ConstValue owned(answer);
-  if (!bt_value_is_array(answer)) return std::nullopt;
+  if (!bt_value_is_array(answer)) {
+    return std::nullopt;
+  }
   for (std::uint64_t i = 0; i < bt_value_array_get_length(answer); ++i) {
     const bt_value* const session = bt_value_array_borrow_element_by_index_const(answer, i);
     if (!has_text(session, "session-name", address.session) || !has_text(session, "target-hostname", address.host)) {
@@ -77,7 +79,9 @@ LiveAddress live_address(const std::string& text) {
   LiveAddress address;
   address.host = name_of_this_machine();
   address.session = text;
-  if (text.find("://") == std::string::npos) return address;
+  if (text.find("://") == std::string::npos) {
+    return address;
+  }
   const std::size_t host = text.find("/host/", kScheme.size());
   const std::size_t session = host == std::string::npos ? host : text.find('/', host + 6);
   if (!text.starts_with(kScheme) || session == std::string::npos || session + 1 == text.size()) {
@@ -118,10 +122,14 @@ struct LiveReader::Implementation {
 LiveReader::Implementation::Attach LiveReader::Implementation::attach() {
   auto made = std::make_unique<Connection>();
   const std::optional<KnownSession> known = ask_relay(made->graph.source_class(), address);
-  if (!known) return Attach::kNoSession;
+  if (!known) {
+    return Attach::kNoSession;
+  }
   if (known->viewers > 0) {
     // The relay daemon may not know yet that the last attachment has ended.
-    if (first_failure && may_attach_anew()) return Attach::kNotYet;
+    if (first_failure && may_attach_anew()) {
+      return Attach::kNotYet;
+    }
     throw TraceReadError(what + ": another viewer has attached to it",
                          "the relay daemon has one viewer for a session; end the other one");
   }
@@ -135,9 +143,13 @@ LiveReader::Implementation::Attach LiveReader::Implementation::attach() {
   connection = std::move(made);
   // The source attaches when it is asked for messages.
   const std::optional<MessageGraph::Fetch> fetched = fetch();
-  if (!fetched) return Attach::kNotYet;
+  if (!fetched) {
+    return Attach::kNotYet;
+  }
   // Streams may have begun after the first question.
-  if (known->streams > 0 || has_streams()) ++late_attachments;
+  if (known->streams > 0 || has_streams()) {
+    ++late_attachments;
+  }
   is_at_end = *fetched == MessageGraph::Fetch::kEnd;
   return Attach::kDone;
 }
@@ -153,7 +165,9 @@ std::optional<MessageGraph::Fetch> LiveReader::Implementation::fetch() {
   try {
     return connection->graph.fetch(what, "the relay daemon may have ended");
   } catch (const TraceReadError&) {
-    if (has_given || !may_attach_anew()) throw;
+    if (has_given || !may_attach_anew()) {
+      throw;
+    }
     connection.reset();
     return std::nullopt;
   }
@@ -164,7 +178,9 @@ std::optional<MessageGraph::Fetch> LiveReader::Implementation::fetch() {
 // failure: it measures how long they go on.
 bool LiveReader::Implementation::may_attach_anew() {
   const Clock::time_point now = Clock::now();
-  if (!first_failure || now - last_failure > kLongestFailing) first_failure = now;
+  if (!first_failure || now - last_failure > kLongestFailing) {
+    first_failure = now;
+  }
   last_failure = now;
   return now - *first_failure <= kLongestFailing;
 }
@@ -190,20 +206,32 @@ LiveReader::State LiveReader::next(TraceItem& item) {
   for (;;) {
     if (!reader.connection) {
       const Attach attached = reader.attach();
-      if (attached == Attach::kNotYet) return State::kNothingYet;
-      if (attached == Attach::kNoSession) return State::kEnd;
+      if (attached == Attach::kNotYet) {
+        return State::kNothingYet;
+      }
+      if (attached == Attach::kNoSession) {
+        return State::kEnd;
+      }
     }
     Implementation::Connection& connection = *reader.connection;
     while (connection.next_message < connection.graph.messages().size()) {
       item = connection.translator.translate(connection.graph.messages()[connection.next_message++].get());
-      if (!item) continue;
+      if (!item) {
+        continue;
+      }
       reader.has_given = true;
       return State::kItem;
     }
-    if (reader.is_at_end) return State::kEnd;
+    if (reader.is_at_end) {
+      return State::kEnd;
+    }
     const std::optional<MessageGraph::Fetch> fetched = reader.fetch();
-    if (!fetched) continue;
-    if (*fetched == MessageGraph::Fetch::kNothingYet) return State::kNothingYet;
+    if (!fetched) {
+      continue;
+    }
+    if (*fetched == MessageGraph::Fetch::kNothingYet) {
+      return State::kNothingYet;
+    }
     reader.is_at_end = *fetched == MessageGraph::Fetch::kEnd;
   }
 }

@@ -10,16 +10,22 @@ namespace tracing {
 namespace {
 
 std::optional<std::size_t> member_index(const bt_field_class* structure, const char* name) {
-  if (structure == nullptr) return std::nullopt;
+  if (structure == nullptr) {
+    return std::nullopt;
+  }
   for (std::uint64_t i = 0; i < bt_field_class_structure_get_member_count(structure); ++i) {
     const auto* member = bt_field_class_structure_borrow_member_by_index_const(structure, i);
-    if (bt_field_class_structure_member_get_name(member) == std::string_view(name)) return i;
+    if (bt_field_class_structure_member_get_name(member) == std::string_view(name)) {
+      return i;
+    }
   }
   return std::nullopt;
 }
 
 void add_names(const bt_field_class* structure, std::vector<std::string>& names) {
-  if (structure == nullptr) return;
+  if (structure == nullptr) {
+    return;
+  }
   for (std::uint64_t i = 0; i < bt_field_class_structure_get_member_count(structure); ++i) {
     names.emplace_back(
         bt_field_class_structure_member_get_name(bt_field_class_structure_borrow_member_by_index_const(structure, i)));
@@ -103,9 +109,15 @@ TraceItem MessageTranslator::translate_event(const bt_message* message) {
     event_.cpu_id = member(context, *known.cpu_id).integer();
   }
   const bt_field* const context = bt_event_borrow_common_context_field_const(recorded);
-  if (known.vpid) event_.vpid = member(context, *known.vpid).integer();
-  if (known.vtid) event_.vtid = member(context, *known.vtid).integer();
-  if (known.procname) event_.procname = member(context, *known.procname).string();
+  if (known.vpid) {
+    event_.vpid = member(context, *known.vpid).integer();
+  }
+  if (known.vtid) {
+    event_.vtid = member(context, *known.vtid).integer();
+  }
+  if (known.procname) {
+    event_.procname = member(context, *known.procname).string();
+  }
   event_.foreign_payload = bt_event_borrow_payload_field_const(recorded);
   event_.foreign_stream_context = context;
   event_.foreign_event_context = bt_event_borrow_specific_context_field_const(recorded);
@@ -144,7 +156,9 @@ TraceItem MessageTranslator::translate_loss(const bt_message* message, Loss::Kin
 const MessageTranslator::KnownClass& MessageTranslator::known_class(const bt_event* event) {
   const bt_event_class* event_class = bt_event_borrow_class_const(event);
   std::unique_ptr<KnownClass>& slot = classes_[event_class];
-  if (slot) return *slot;
+  if (slot) {
+    return *slot;
+  }
 
   auto known = std::make_unique<KnownClass>();
   bt_event_class_get_ref(event_class);
@@ -179,16 +193,24 @@ const MessageTranslator::KnownClass& MessageTranslator::known_class(const bt_eve
 
 const Stream& MessageTranslator::known_stream(const bt_stream* stream) {
   const Stream*& slot = stream_index_[stream];
-  if (slot != nullptr) return *slot;
+  if (slot != nullptr) {
+    return *slot;
+  }
 
   const bt_trace* trace = bt_stream_borrow_trace_const(stream);
   Stream description;
-  if (const char* name = bt_stream_get_name(stream)) description.name = name;
+  if (const char* name = bt_stream_get_name(stream)) {
+    description.name = name;
+  }
   description.trace = known_trace(trace);
   TraceDescription& of = traces_[description.trace];
-  if (of.directories.empty()) of.directories.push_back(std::filesystem::path(description.name).parent_path());
+  if (of.directories.empty()) {
+    of.directories.push_back(std::filesystem::path(description.name).parent_path());
+  }
   const bt_value* vpid = bt_trace_borrow_environment_entry_value_by_name_const(trace, "vpid");
-  if (vpid != nullptr && bt_value_is_signed_integer(vpid)) description.vpid = bt_value_integer_signed_get(vpid);
+  if (vpid != nullptr && bt_value_is_signed_integer(vpid)) {
+    description.vpid = bt_value_integer_signed_get(vpid);
+  }
   bt_stream_get_ref(stream);
   stream_references_.emplace_back(stream);
   slot = &streams_.emplace_back(std::move(description));
@@ -197,7 +219,9 @@ const Stream& MessageTranslator::known_stream(const bt_stream* stream) {
 
 std::size_t MessageTranslator::known_trace(const bt_trace* trace) {
   const auto [known, is_new] = trace_index_.try_emplace(trace, traces_.size());
-  if (!is_new) return known->second;
+  if (!is_new) {
+    return known->second;
+  }
   TraceDescription& description = traces_.emplace_back();
   description.uuid = uuid_text(bt_trace_get_uuid(trace));
   for (std::uint64_t i = 0; i < bt_trace_get_environment_entry_count(trace); ++i) {

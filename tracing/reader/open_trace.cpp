@@ -19,7 +19,9 @@ namespace fs = std::filesystem;
 // meanwhile has to wait for it, and we would get a signal, which is ignored by default.
 bool has_writer(const fs::path& path) {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (file < 0) return false;
+  if (file < 0) {
+    return false;
+  }
   bool has_writer = false;
   struct statfs system {};
   // NFS gives no lease without a delegation from the server.
@@ -40,7 +42,9 @@ bool is_being_written(const fs::path& directory) {
   std::error_code error;
   for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error)) {
     std::error_code gone;
-    if (entry->is_regular_file(gone) && has_writer(entry->path())) return true;
+    if (entry->is_regular_file(gone) && has_writer(entry->path())) {
+      return true;
+    }
   }
   return false;
 }

@@ -45,20 +45,28 @@ Decoder::~Decoder() = default;
 
 const AnyEvent* Decoder::decode(const Event& event) {
   const Plan& plan = plan_for(event);
-  if (plan.decode == nullptr) return nullptr;
+  if (plan.decode == nullptr) {
+    return nullptr;
+  }
   plan.decode(plan, event, decoded_);
   return &decoded_;
 }
 
 const Decoder::Plan& Decoder::plan_for(const Event& event) {
   const std::size_t id = event.event_class->id;
-  if (id >= plans_.size()) plans_.resize(id + 1);
-  if (plans_[id]) return *plans_[id];
+  if (id >= plans_.size()) {
+    plans_.resize(id + 1);
+  }
+  if (plans_[id]) {
+    return *plans_[id];
+  }
 
   plans_[id] = std::make_unique<Plan>();
   const auto maker = plan_makers().find(event.name());
   if (maker != plan_makers().end()) {
-    for (const std::string& problem : maker->second(event, *plans_[id])) report_(problem);
+    for (const std::string& problem : maker->second(event, *plans_[id])) {
+      report_(problem);
+    }
   }
   return *plans_[id];
 }

@@ -27,23 +27,33 @@ template <FieldType type, class Member>
 bool read_field(FieldValue field, Member& member) {
   if constexpr (type == FieldType::kPointer || type == FieldType::kUint64) {
     const std::optional<std::uint64_t> value = field.unsigned_integer();
-    if (value) member = *value;
+    if (value) {
+      member = *value;
+    }
     return value.has_value();
   } else if constexpr (type == FieldType::kInt64) {
     const std::optional<std::int64_t> value = field.integer();
-    if (value) member = *value;
+    if (value) {
+      member = *value;
+    }
     return value.has_value();
   } else if constexpr (type == FieldType::kBool) {
     const std::optional<std::int64_t> value = field.integer();
-    if (value) member = *value != 0;
+    if (value) {
+      member = *value != 0;
+    }
     return value.has_value();
   } else if constexpr (type == FieldType::kReal) {
     const std::optional<double> value = field.real();
-    if (value) member = *value;
+    if (value) {
+      member = *value;
+    }
     return value.has_value();
   } else if constexpr (type == FieldType::kString) {
     const std::optional<std::string_view> value = field.string();
-    if (value) member = *value;
+    if (value) {
+      member = *value;
+    }
     return value.has_value();
   } else if constexpr (type == FieldType::kGid) {
     member.size = std::min(field.size(), member.bytes.size());
@@ -54,7 +64,9 @@ bool read_field(FieldValue field, Member& member) {
   } else {
     static_assert(type == FieldType::kPointers);
     member.resize(field.size());
-    for (std::size_t i = 0; i < member.size(); ++i) member[i] = field[i].unsigned_integer().value_or(0);
+    for (std::size_t i = 0; i < member.size(); ++i) {
+      member[i] = field[i].unsigned_integer().value_or(0);
+    }
     return field.is_array();
   }
 }
@@ -104,7 +116,9 @@ template <class Struct>
 void read_fields(const Event& event, const std::vector<std::uint8_t>& indices, Struct& fields) {
   const std::uint8_t* index = indices.data();
   Struct::for_each_field(fields, [&]<FieldType type>(std::string_view, auto& member) {
-    if (const std::uint8_t field = *index++; field != kMissingField) read_field<type>(event.field(field), member);
+    if (const std::uint8_t field = *index++; field != kMissingField) {
+      read_field<type>(event.field(field), member);
+    }
   });
 }
 

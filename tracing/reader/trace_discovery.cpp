@@ -27,9 +27,13 @@ bool is_trace(const fs::path& directory) {
 
 std::vector<fs::path> trace_directories(const fs::path& directory) {
   std::vector<fs::path> found;
-  if (is_trace(directory)) return {directory};
+  if (is_trace(directory)) {
+    return {directory};
+  }
   for (fs::recursive_directory_iterator entry(directory), end; entry != end; ++entry) {
-    if (!entry->is_directory() || !is_trace(entry->path())) continue;
+    if (!entry->is_directory() || !is_trace(entry->path())) {
+      continue;
+    }
     found.push_back(entry->path());
     entry.disable_recursion_pending();
   }
@@ -47,7 +51,9 @@ std::string identity(const fs::path& directory) {
     };
     auto token = std::adjacent_find(tokens.begin(), tokens.end(), is_trace_block);
     for (; tokens.end() - token > 2 && !token->is("}"); ++token) {
-      if (token[0].is("uuid") && token[1].is("=")) return token[2].text;
+      if (token[0].is("uuid") && token[1].is("=")) {
+        return token[2].text;
+      }
     }
   } catch (const ctf::UnsupportedTrace&) {
     // The other reader may know it.
@@ -89,7 +95,9 @@ std::vector<TraceDirectories> group_by_identity(const std::vector<fs::path>& dir
   std::map<std::string, std::size_t> by_identity;
   for (const fs::path& path : directories) {
     const auto [known, is_new] = by_identity.try_emplace(identity(path), traces.size());
-    if (is_new) traces.emplace_back();
+    if (is_new) {
+      traces.emplace_back();
+    }
     traces[known->second].push_back(path);
   }
   return traces;

@@ -38,7 +38,9 @@ TraceReader::TraceReader(const std::vector<std::filesystem::path>& directories, 
       implementation_->direct = std::make_unique<DirectReader>(names, traces, open);
       return;
     } catch (const ctf::UnsupportedTrace& unsupported) {
-      if (decoder == Decoder::kDirect) throw TraceReadError(unsupported.what(), "");
+      if (decoder == Decoder::kDirect) {
+        throw TraceReadError(unsupported.what(), "");
+      }
     }
   }
   implementation_->babeltrace = std::make_unique<BabeltraceReader>(names, traces);

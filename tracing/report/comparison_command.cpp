@@ -23,7 +23,9 @@ namespace fs = std::filesystem;
 std::optional<std::pair<double, std::string>> number_and_unit(const std::string& text) {
   double number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || !std::isfinite(number) || number < 0) return std::nullopt;
+  if (error != std::errc() || !std::isfinite(number) || number < 0) {
+    return std::nullopt;
+  }
   std::string unit(end, text.data() + text.size());
   unit.erase(0, unit.find_first_not_of(' '));
   return std::pair(number, unit);
@@ -40,21 +42,31 @@ compare::RunSummary read_run(const std::vector<fs::path>& directories) {
     results = analysis.finish();
   } catch (const TraceReadError& failure) {
     results = analysis.finish();
-    if (results.overview.events == 0) throw;
+    if (results.overview.events == 0) {
+      throw;
+    }
     error = failure.what();
   }
   compare::RunSummary run = recorder.finish(analysis, results);
   run.directory = directories.front().native();
-  if (!results.overview.losses.empty()) run.remark = loss_phrase(results.overview);
-  if (!error.empty()) run.remark += (run.remark.empty() ? "" : ", ") + error;
-  if (!run.measurements.empty()) return run;
+  if (!results.overview.losses.empty()) {
+    run.remark = loss_phrase(results.overview);
+  }
+  if (!error.empty()) {
+    run.remark += (run.remark.empty() ? "" : ", ") + error;
+  }
+  if (!run.measurements.empty()) {
+    return run;
+  }
   throw std::runtime_error(
       fmt::format("{} has no callback, message or call of a service, so it can't be compared", run.directory));
 }
 
 // A directory is a trace, anything else a baseline.
 compare::Runs read_side(const std::string& path) {
-  if (!fs::is_directory(path)) return compare::read_baseline(path);
+  if (!fs::is_directory(path)) {
+    return compare::read_baseline(path);
+  }
   const fs::path directory = fs::weakly_canonical(path);
   return {directory.native(), {read_run({directory})}};
 }
@@ -63,7 +75,9 @@ compare::Runs read_side(const std::string& path) {
 
 bool set_least(compare::CompareOptions& options, const std::string& text) {
   const auto least = number_and_unit(text);
-  if (!least) return false;
+  if (!least) {
+    return false;
+  }
   const auto& [number, unit] = *least;
   if (unit == "%") {
     options.least_ratio = number / 100;
@@ -71,14 +85,18 @@ bool set_least(compare::CompareOptions& options, const std::string& text) {
   }
   static const std::map<std::string, double> kUnits{{"ns", 1}, {"us", 1e3}, {"ms", 1e6}, {"s", 1e9}};
   const auto found = kUnits.find(unit);
-  if (found == kUnits.end()) return false;
+  if (found == kUnits.end()) {
+    return false;
+  }
   options.least_ns = std::llround(number * found->second);
   return true;
 }
 
 std::optional<double> confidence_of(const std::string& text) {
   const auto confidence = number_and_unit(text);
-  if (!confidence || (confidence->second != "%" && !confidence->second.empty())) return std::nullopt;
+  if (!confidence || (confidence->second != "%" && !confidence->second.empty())) {
+    return std::nullopt;
+  }
   const double share = confidence->second == "%" ? confidence->first / 100 : confidence->first;
   return share > 0.5 && share < 1 ? std::optional(share) : std::nullopt;
 }
@@ -111,7 +129,9 @@ ComparisonOutcome compare_runs(const ComparisonArguments& arguments, const std::
 std::string save_baseline(const ComparisonArguments& arguments, const std::vector<fs::path>& directories) {
   const fs::path& file = arguments.save_baseline;
   std::vector<compare::RunSummary> runs;
-  if (arguments.append && fs::exists(file)) runs = compare::read_baseline(file).runs;
+  if (arguments.append && fs::exists(file)) {
+    runs = compare::read_baseline(file).runs;
+  }
   runs.push_back(read_run(directories));
   OutputFile output(file);
   output.write(compare::baseline_text(runs));

@@ -36,7 +36,9 @@ Json json_of(const compare::Overall& overall) {
 
 Json json_of(const std::vector<compare::Lone>& lone) {
   Json list = Json::array();
-  for (const compare::Lone& one : lone) list.push_back({{"kind", kind_name(one.kind)}, {"subject", one.subject}});
+  for (const compare::Lone& one : lone) {
+    list.push_back({{"kind", kind_name(one.kind)}, {"subject", one.subject}});
+  }
   return list;
 }
 
@@ -45,7 +47,9 @@ Json json_of(const std::vector<compare::Lone>& lone) {
 std::string comparison_json(const ComparisonReport& report, const std::vector<std::string>& failed) {
   const compare::Comparison& comparison = report.comparison;
   Json changes = Json::array();
-  for (const compare::Change& change : comparison.changes) changes.push_back(json_of(change));
+  for (const compare::Change& change : comparison.changes) {
+    changes.push_back(json_of(change));
+  }
   const Json json{{"version", 1},
                   {"before", json_of(report.before)},
                   {"after", json_of(report.after)},

@@ -53,10 +53,14 @@ std::string side_lines(const char* label, const compare::Runs& side, bool color)
                                          format_duration(static_cast<double>(run.duration_ns)));
     return run.remark.empty() ? text : text + ", " + styled(run.remark, Style::kBad, color);
   };
-  if (side.runs.size() == 1) return fmt::format("{}{}: {}\n", label, side.source, described(side.runs.front()));
+  if (side.runs.size() == 1) {
+    return fmt::format("{}{}: {}\n", label, side.source, described(side.runs.front()));
+  }
   std::string text = fmt::format("{}{}: {}\n", label, side.source, format_count(side.runs.size(), "run"));
   for (const compare::RunSummary& run : side.runs) {
-    if (!run.remark.empty()) text += fmt::format("{:11}{}: {}\n", "", run.directory, described(run));
+    if (!run.remark.empty()) {
+      text += fmt::format("{:11}{}: {}\n", "", run.directory, described(run));
+    }
   }
   return text;
 }
@@ -73,7 +77,9 @@ std::string result_line(const ComparisonReport& report, bool color) {
     changed.insert({change.kind, change.subject});
     slower = slower || change.is_slower();
   }
-  if (changed.empty()) return styled("no change holds", Style::kGood, color);
+  if (changed.empty()) {
+    return styled("no change holds", Style::kGood, color);
+  }
   return styled(plural(changed.size(), "subject has", "subjects have") + " changed",
                 slower ? Style::kBad : Style::kGood, color) +
          fmt::format("; with a confidence of {} none of them by chance", percent(report.options.confidence));
@@ -97,10 +103,14 @@ std::string head(const ComparisonReport& report, bool color) {
     text += fmt::format("; {} too few samples", plural(comparison.too_few_samples, "quantity has", "quantities have"));
   }
   text += fmt::format("\nResult     {}\n", result_line(report, color));
-  if (comparison.overall) text += "Overall    " + overall_line(*comparison.overall, color) + "\n";
+  if (comparison.overall) {
+    text += "Overall    " + overall_line(*comparison.overall, color) + "\n";
+  }
   const bool marked = std::any_of(comparison.changes.begin(), comparison.changes.end(),
                                   [](const Change& change) { return change.doubtful; });
-  if (marked) text += "           * events may be missing, so that the figures may be wrong\n";
+  if (marked) {
+    text += "           * events may be missing, so that the figures may be wrong\n";
+  }
   return text;
 }
 
@@ -108,12 +118,18 @@ std::string head(const ComparisonReport& report, bool color) {
 std::string section(Kind kind, const std::vector<Change>& all, const ReportOptions& options) {
   std::map<std::string, std::vector<const Change*>> by_subject;
   for (const Change& change : all) {
-    if (change.kind == kind) by_subject[change.subject].push_back(&change);
+    if (change.kind == kind) {
+      by_subject[change.subject].push_back(&change);
+    }
   }
-  if (by_subject.empty()) return "";
+  if (by_subject.empty()) {
+    return "";
+  }
   const auto largest = [](const std::vector<const Change*>& changes) {
     double size = 0;
-    for (const Change* change : changes) size = std::max(size, std::abs(change->shift.estimate));
+    for (const Change* change : changes) {
+      size = std::max(size, std::abs(change->shift.estimate));
+    }
     return size;
   };
   std::vector<std::pair<std::string, std::vector<const Change*>>> subjects(by_subject.begin(), by_subject.end());
@@ -121,7 +137,9 @@ std::string section(Kind kind, const std::vector<Change>& all, const ReportOptio
                    [&](const auto& a, const auto& b) { return largest(a.second) > largest(b.second); });
   const std::size_t shown = options.top == 0 ? subjects.size() : std::min(options.top, subjects.size());
   std::string title = title_of(kind);
-  if (shown < subjects.size()) title += fmt::format(", {} of {}", shown, subjects.size());
+  if (shown < subjects.size()) {
+    title += fmt::format(", {} of {}", shown, subjects.size());
+  }
   std::string text = fmt::format("\n{}\n", styled(title, Style::kBold, options.color));
   for (std::size_t i = 0; i < shown; ++i) {
     const auto& [subject, changes] = subjects[i];
@@ -136,17 +154,25 @@ std::string section(Kind kind, const std::vector<Change>& all, const ReportOptio
               fmt::format("  ({} to {})\n", signed_duration(change->shift.low), signed_duration(change->shift.high));
     }
     std::set<std::string> steps;
-    for (const Change* change : changes) steps.insert(change->changed_steps.begin(), change->changed_steps.end());
-    for (const std::string& step : steps) text += "    through " + shortened(step, options.width - 12) + "\n";
+    for (const Change* change : changes) {
+      steps.insert(change->changed_steps.begin(), change->changed_steps.end());
+    }
+    for (const std::string& step : steps) {
+      text += "    through " + shortened(step, options.width - 12) + "\n";
+    }
   }
   return text;
 }
 
 std::string lone_section(const char* title, const std::vector<Lone>& lone, const ReportOptions& options) {
-  if (lone.empty()) return "";
+  if (lone.empty()) {
+    return "";
+  }
   const std::size_t shown = options.top == 0 ? lone.size() : std::min(options.top, lone.size());
   std::string heading = title;
-  if (shown < lone.size()) heading += fmt::format(", {} of {}", shown, lone.size());
+  if (shown < lone.size()) {
+    heading += fmt::format(", {} of {}", shown, lone.size());
+  }
   std::string text = fmt::format("\n{}\n", styled(heading, Style::kBold, options.color));
   for (std::size_t i = 0; i < shown; ++i) {
     text += fmt::format("  {:9} {}\n", kind_name(lone[i].kind), shortened(lone[i].subject, options.width - 12));
@@ -176,7 +202,9 @@ std::vector<std::string> failures(const ComparisonReport& report, const std::set
       {"incomplete", is_incomplete(report.before) || is_incomplete(report.after)}};
   std::vector<std::string> failed;
   for (const std::string& word : fail_words()) {
-    if (fail_on.contains(word) && applies.at(word)) failed.push_back(word);
+    if (fail_on.contains(word) && applies.at(word)) {
+      failed.push_back(word);
+    }
   }
   return failed;
 }

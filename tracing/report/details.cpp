@@ -17,7 +17,9 @@ namespace tracing {
 namespace {
 
 std::string cost_section(const Report& report) {
-  if (report.verdict.processes.empty()) return "";
+  if (report.verdict.processes.empty()) {
+    return "";
+  }
   const TextTable table(36, {12, 12, 16, 18});
   std::string text = "\n" + table.row("Cost of tracing", {"events", "time", "of a processor", "for each callback"});
   for (const RecordedVerdict::ProcessCost& process : report.verdict.processes) {
@@ -30,9 +32,13 @@ std::string cost_section(const Report& report) {
 }
 
 std::string node_section(const TraceResults& results) {
-  if (results.ros2.nodes.empty()) return "";
+  if (results.ros2.nodes.empty()) {
+    return "";
+  }
   std::map<ProcessIndex, std::size_t> nodes_of_process;
-  for (const NodeResult& node : results.ros2.nodes) ++nodes_of_process[node.process];
+  for (const NodeResult& node : results.ros2.nodes) {
+    ++nodes_of_process[node.process];
+  }
   const Hosts hosts(results.overview);
   const TextTable table(56, {12, 14});
   std::string text = "\n" + table.row("Nodes", {"callbacks", "in callbacks"});
@@ -51,17 +57,25 @@ std::string node_section(const TraceResults& results) {
 }
 
 std::string callback_section(const TraceResults& results) {
-  if (results.ros2.callbacks.empty()) return "";
+  if (results.ros2.callbacks.empty()) {
+    return "";
+  }
   const TextTable table = duration_table();
   std::string text = "\n" + table.row("Callbacks", duration_titles());
   std::string last_node;
   for (const CallbackResult& callback : results.ros2.callbacks) {
     const std::string node = node_label(callback.node, callback.process, results.overview);
-    if (node != last_node) text += fmt::format("{}\n", node);
+    if (node != last_node) {
+      text += fmt::format("{}\n", node);
+    }
     last_node = node;
     text += table.row("  " + source_label(callback), duration_cells(callback.durations));
-    if (!callback.symbol.empty()) text += fmt::format("    {}\n", callback.symbol);
-    if (callback.intra_process > 0) text += fmt::format("    {} of them intra-process\n", callback.intra_process);
+    if (!callback.symbol.empty()) {
+      text += fmt::format("    {}\n", callback.symbol);
+    }
+    if (callback.intra_process > 0) {
+      text += fmt::format("    {} of them intra-process\n", callback.intra_process);
+    }
     if (callback.running.count > 0) {
       text += table.row("    running", duration_cells(callback.running));
       text += table.row("    waiting for a processor", duration_cells(callback.runnable));
@@ -73,13 +87,17 @@ std::string callback_section(const TraceResults& results) {
     if (callback.overruns > 0) {
       text += fmt::format("    {} took longer than the period\n", format_count(callback.overruns, "run"));
     }
-    if (callback.unfinished > 0) text += fmt::format("    {} more without an end\n", callback.unfinished);
+    if (callback.unfinished > 0) {
+      text += fmt::format("    {} more without an end\n", callback.unfinished);
+    }
   }
   return text;
 }
 
 std::string lifecycle_section(const TraceResults& results) {
-  if (results.ros2.lifecycle.empty()) return "";
+  if (results.ros2.lifecycle.empty()) {
+    return "";
+  }
   const TextTable table(36, {16, 16, 16});
   std::string text = "\n" + table.row("Lifecycle", {"from", "to", "duration"});
   std::string last_node;
@@ -88,7 +106,9 @@ std::string lifecycle_section(const TraceResults& results) {
   };
   for (const LifecycleResult& state : results.ros2.lifecycle) {
     const std::string node = node_label(state.node, state.process, results.overview);
-    if (node != last_node) text += fmt::format("{}\n", node);
+    if (node != last_node) {
+      text += fmt::format("{}\n", node);
+    }
     last_node = node;
     text += table.row("  " + state.state,
                       {since_begin(state.begin_ns), state.ended ? since_begin(state.end_ns) : "end of trace",
@@ -103,7 +123,9 @@ std::string lifecycle_section(const TraceResults& results) {
 }
 
 std::string unmatched_section(const Ros2Results& ros2) {
-  if (ros2.unmatched.empty()) return "";
+  if (ros2.unmatched.empty()) {
+    return "";
+  }
   std::string text = "\nEvents without the event that belongs to them\n";
   for (const UnmatchedResult& unmatched : ros2.unmatched) {
     text += fmt::format("{:>10} {}: {}\n", unmatched.count, unmatched.event, unmatched.reason);
@@ -141,7 +163,9 @@ std::string notes(const Report& report) {
         "session begin before the nodes?");
   }
   for (const TopicResult& topic : ros2.topics) {
-    if (topic.early == 0) continue;
+    if (topic.early == 0) {
+      continue;
+    }
     note(fmt::format(
         "{} of {} were taken up to {} before they were published: the clocks of two machines differ, and times between "
         "them are wrong.",

@@ -26,7 +26,9 @@ const std::vector<std::string>& duration_titles() {
 
 std::vector<std::string> duration_cells(const DurationSummary& took) {
   std::vector<std::string> cells{fmt::format("{}", took.count)};
-  if (took.count == 0) return cells;
+  if (took.count == 0) {
+    return cells;
+  }
   cells.push_back(format_duration(took.mean_ns));
   cells.push_back(took.count == 1 ? "-" : format_duration(took.stddev_ns));
   for (const std::int64_t value : {took.min_ns, took.p50_ns, took.p90_ns, took.p99_ns, took.max_ns}) {

@@ -19,11 +19,15 @@ std::string stream_label(const std::string& stream, const std::filesystem::path&
 
 std::string loss_section(const Report& report) {
   const TraceOverview& overview = report.results.overview;
-  if (overview.losses.empty()) return "";
+  if (overview.losses.empty()) {
+    return "";
+  }
   const TextTable table(56, {10, 10, 12, 12});
   std::string text = "\n" + table.row("Losses by stream", {"events", "packets", "from", "to"});
   const auto since_begin = [&](const std::optional<std::int64_t>& time) -> std::string {
-    if (!time || !overview.begin_ns) return "?";
+    if (!time || !overview.begin_ns) {
+      return "?";
+    }
     return fmt::format("{:+.3f} s", static_cast<double>(*time - *overview.begin_ns) / 1e9);
   };
   for (const LossResult& loss : overview.losses) {
@@ -35,7 +39,9 @@ std::string loss_section(const Report& report) {
   const Hosts hosts(overview);
   std::string doubtful;
   for (ProcessIndex process = 0; process < overview.processes.size(); ++process) {
-    if (!overview.processes[process].doubtful) continue;
+    if (!overview.processes[process].doubtful) {
+      continue;
+    }
     doubtful += (doubtful.empty() ? "" : ", ") + hosts.before(process) + process_label(overview.processes[process]);
   }
   return text + fmt::format("  What follows may be incomplete for: {}\n", doubtful.empty() ? "all" : doubtful);
@@ -64,7 +70,9 @@ std::vector<EventColumn> event_columns(const TraceOverview& overview) {
     }
   }
   others.title = fmt::format("{} of the kernel alone", others.processes.size());
-  if (!others.processes.empty()) columns.push_back(std::move(others));
+  if (!others.processes.empty()) {
+    columns.push_back(std::move(others));
+  }
   return columns;
 }
 
@@ -82,7 +90,9 @@ std::string event_section(const TraceOverview& overview) {
     std::size_t end = first;
     for (; end < columns.size(); ++end) {
       const std::size_t width = std::max<std::size_t>(columns[end].title.size() + 2, 10);
-      if (end > first && used + width > kReportWidth) break;
+      if (end > first && used + width > kReportWidth) {
+        break;
+      }
       titles.push_back(columns[end].title);
       widths.push_back(width);
       used += width;
@@ -93,7 +103,9 @@ std::string event_section(const TraceOverview& overview) {
       std::vector<std::string> cells{fmt::format("{}", count.total)};
       for (std::size_t column = first; column < end; ++column) {
         std::uint64_t events = 0;
-        for (const std::size_t process : columns[column].processes) events += count.by_process[process];
+        for (const std::size_t process : columns[column].processes) {
+          events += count.by_process[process];
+        }
         cells.push_back(fmt::format("{}", events));
       }
       text += table.row("  " + count.name, cells);

@@ -19,7 +19,9 @@ Json optional(const std::optional<Value>& value) {
 
 Json durations(const DurationSummary& summary) {
   Json json{{"count", summary.count}};
-  if (summary.count == 0) return json;
+  if (summary.count == 0) {
+    return json;
+  }
   json["mean_ns"] = summary.mean_ns;
   json["stddev_ns"] = summary.stddev_ns;
   json["min_ns"] = summary.min_ns;
@@ -46,11 +48,17 @@ Json callback(const CallbackResult& result, const TraceOverview& overview) {
             {"process", result.process},
             {"node", result.node},
             {"owner", owner_name(result.owner)}};
-  if (result.owner == CallbackResult::Owner::kSubscription) json["topic"] = result.owner_name;
+  if (result.owner == CallbackResult::Owner::kSubscription) {
+    json["topic"] = result.owner_name;
+  }
   const bool of_service =
       result.owner == CallbackResult::Owner::kService || result.owner == CallbackResult::Owner::kClient;
-  if (of_service) json["service"] = result.owner_name;
-  if (result.owner == CallbackResult::Owner::kTimer) json["period_ns"] = result.period_ns;
+  if (of_service) {
+    json["service"] = result.owner_name;
+  }
+  if (result.owner == CallbackResult::Owner::kTimer) {
+    json["period_ns"] = result.period_ns;
+  }
   json["address"] = result.address;
   json["symbol"] = result.symbol;
   json["duration"] = durations(result.durations);
@@ -268,7 +276,9 @@ Json process_starts(const std::vector<StartResult>& starts) {
 }
 
 Json startup(const std::optional<StartupResult>& result) {
-  if (!result) return nullptr;
+  if (!result) {
+    return nullptr;
+  }
   Json path = Json::array();
   for (const StartStep& step : result->critical_path) {
     path.push_back(
@@ -278,7 +288,9 @@ Json startup(const std::optional<StartupResult>& result) {
 }
 
 Json cost(const Report& report) {
-  if (!report.verdict.ns_per_event) return nullptr;
+  if (!report.verdict.ns_per_event) {
+    return nullptr;
+  }
   Json processes = Json::array();
   for (const RecordedVerdict::ProcessCost& process : report.verdict.processes) {
     processes.push_back({{"name", process.name},
@@ -332,7 +344,9 @@ Json losses(const TraceOverview& overview) {
 
 Json open_directories(const Report& report) {
   Json list = Json::array();
-  for (const std::filesystem::path& directory : report.open) list.push_back(directory.native());
+  for (const std::filesystem::path& directory : report.open) {
+    list.push_back(directory.native());
+  }
   return list;
 }
 
@@ -367,19 +381,39 @@ std::string json_report(const Report& report) {
             {"chains", Json::array()},
             {"lifecycle", Json::array()},
             {"unmatched", Json::array()}};
-  for (const CallbackResult& result : ros2.callbacks) json["callbacks"].push_back(callback(result, overview));
-  for (const TopicResult& result : ros2.topics) json["topics"].push_back(topic(result));
-  for (const CallResult& result : ros2.calls) json["calls"].push_back(call(result, overview));
-  for (const ActionResult& result : ros2.actions) json["actions"].push_back(action(result, overview));
-  for (const NodeResult& result : ros2.nodes) json["nodes"].push_back(node(result, overview));
-  for (const ExecutionResult& result : ros2.executions) json["executions"].push_back(execution(result, overview));
+  for (const CallbackResult& result : ros2.callbacks) {
+    json["callbacks"].push_back(callback(result, overview));
+  }
+  for (const TopicResult& result : ros2.topics) {
+    json["topics"].push_back(topic(result));
+  }
+  for (const CallResult& result : ros2.calls) {
+    json["calls"].push_back(call(result, overview));
+  }
+  for (const ActionResult& result : ros2.actions) {
+    json["actions"].push_back(action(result, overview));
+  }
+  for (const NodeResult& result : ros2.nodes) {
+    json["nodes"].push_back(node(result, overview));
+  }
+  for (const ExecutionResult& result : ros2.executions) {
+    json["executions"].push_back(execution(result, overview));
+  }
   for (const SubscriptionResult& result : ros2.subscriptions) {
     json["subscriptions"].push_back(subscription(result, overview));
   }
-  for (const ExecutorResult& result : ros2.executors) json["executors"].push_back(executor(result, overview));
-  for (const ChainResult& result : ros2.chains) json["chains"].push_back(chain(result, overview));
-  for (const LifecycleResult& result : ros2.lifecycle) json["lifecycle"].push_back(lifecycle_state(result, overview));
-  for (const UnmatchedResult& result : ros2.unmatched) json["unmatched"].push_back(unmatched_events(result));
+  for (const ExecutorResult& result : ros2.executors) {
+    json["executors"].push_back(executor(result, overview));
+  }
+  for (const ChainResult& result : ros2.chains) {
+    json["chains"].push_back(chain(result, overview));
+  }
+  for (const LifecycleResult& result : ros2.lifecycle) {
+    json["lifecycle"].push_back(lifecycle_state(result, overview));
+  }
+  for (const UnmatchedResult& result : ros2.unmatched) {
+    json["unmatched"].push_back(unmatched_events(result));
+  }
   json["unseen_chains"] = ros2.unseen_chains;
   json["has_all_chains"] = ros2.has_all_chains;
   json["internal_messages"] = ros2.internal_messages;

@@ -55,7 +55,9 @@ void print_error(const tracing::TraceReadError& error) {
 // Throws when the text can't be written.
 void print_out(const std::string& text) {
   errno = 0;
-  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return;
+  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) {
+    return;
+  }
   throw std::runtime_error(fmt::format("cannot write the output: {}", std::strerror(errno)));
 }
 
@@ -64,7 +66,9 @@ std::vector<std::filesystem::path> directories(const Arguments& arguments) {
   std::vector<std::filesystem::path> paths;
   for (const std::string& directory : arguments.directories) {
     const std::filesystem::path path = std::filesystem::weakly_canonical(directory);
-    if (std::find(paths.begin(), paths.end(), path) == paths.end()) paths.push_back(path);
+    if (std::find(paths.begin(), paths.end(), path) == paths.end()) {
+      paths.push_back(path);
+    }
   }
   return paths;
 }
@@ -72,7 +76,9 @@ std::vector<std::filesystem::path> directories(const Arguments& arguments) {
 // What the terminal allows: as many columns as it has, and as many rows of each table as fit with all tables on it.
 tracing::ReportOptions text_options(const Arguments& arguments) {
   tracing::ReportOptions options = arguments.text;
-  if (arguments.chain.size() == 2) options.chain = {arguments.chain[0], arguments.chain[1]};
+  if (arguments.chain.size() == 2) {
+    options.chain = {arguments.chain[0], arguments.chain[1]};
+  }
   winsize size{};
   if (isatty(STDOUT_FILENO) == 1) {
     const char* const no_color = std::getenv("NO_COLOR");
@@ -90,9 +96,13 @@ tracing::ReportOptions text_options(const Arguments& arguments) {
     const std::size_t lines = size.ws_row;
     options.compact = lines > 0 && lines < kOtherLines + kSecondLines + 3 * kTables;
     const std::size_t others = options.compact ? kOtherLines : kOtherLines + kSecondLines;
-    if (lines > 0) options.top = lines > others + kTables ? (lines - others) / kTables : 1;
+    if (lines > 0) {
+      options.top = lines > others + kTables ? (lines - others) / kTables : 1;
+    }
   }
-  if (arguments.top) options.top = *arguments.top;
+  if (arguments.top) {
+    options.top = *arguments.top;
+  }
   return options;
 }
 
@@ -124,9 +134,15 @@ int print_recorded(const Arguments& arguments) {
 
 std::optional<tracing::TimeBound> time_bound(const std::string& option, const std::string& text,
                                              const tracing::OutputFiles& files) {
-  if (text.empty()) return std::nullopt;
-  if (!files.any()) throw CLI::ValidationError(option, "goes with the options that write files, such as --html");
-  if (const auto bound = tracing::TimeBound::parse(text)) return bound;
+  if (text.empty()) {
+    return std::nullopt;
+  }
+  if (!files.any()) {
+    throw CLI::ValidationError(option, "goes with the options that write files, such as --html");
+  }
+  if (const auto bound = tracing::TimeBound::parse(text)) {
+    return bound;
+  }
   throw CLI::ValidationError(option, fmt::format("'{}' is no time; write seconds since the epoch, "
                                                  "2026-01-31T12:00:00.5 or +SECONDS after the first event",
                                                  text));
@@ -138,7 +154,9 @@ std::vector<tracing::ChainDefinition> named_chains(const std::vector<std::filesy
   for (const std::filesystem::path& path : paths) {
     try {
       for (tracing::ChainDefinition& chain : tracing::read_chains(path)) {
-        if (std::find(chains.begin(), chains.end(), chain) == chains.end()) chains.push_back(std::move(chain));
+        if (std::find(chains.begin(), chains.end(), chain) == chains.end()) {
+          chains.push_back(std::move(chain));
+        }
       }
     } catch (const std::runtime_error& error) {
       fmt::print(stderr, "launch report: warning: {}\n", error.what());
@@ -151,8 +169,12 @@ int write_files(const Arguments& arguments) {
   const std::vector<std::filesystem::path> paths = directories(arguments);
   const tracing::WrittenFiles written = tracing::write_files(paths, arguments.files, named_chains(paths));
   say_what_is_open(written.open);
-  for (const std::string& line : written.lines) print_out(line + "\n");
-  if (written.error.empty()) return kSuccess;
+  for (const std::string& line : written.lines) {
+    print_out(line + "\n");
+  }
+  if (written.error.empty()) {
+    return kSuccess;
+  }
   print_error(written.error);
   return kFailure;
 }
@@ -187,7 +209,9 @@ int save_baseline(const Arguments& arguments) {
 // What the options of a comparison need besides what CLI11 checks.
 void check_comparison(const CLI::App& app, const Arguments& arguments) {
   const tracing::ComparisonArguments& comparison = arguments.comparison;
-  if (arguments.directories.empty() && comparison.diff.empty()) throw CLI::RequiredError("directory");
+  if (arguments.directories.empty() && comparison.diff.empty()) {
+    throw CLI::RequiredError("directory");
+  }
   if (!arguments.directories.empty() && !comparison.diff.empty()) {
     throw CLI::ValidationError("--diff", "takes both traces itself; no other directory goes with it");
   }
@@ -215,7 +239,9 @@ int print_report(const Arguments& arguments) {
     report.results = analysis.finish();
   } catch (const tracing::TraceReadError& error) {
     report.results = analysis.finish();
-    if (report.results.overview.events == 0) throw;
+    if (report.results.overview.events == 0) {
+      throw;
+    }
     report.error = error.what();
     print_error(error);
     exit_code = kFailure;
@@ -242,7 +268,9 @@ void add_comparison(CLI::App& app, Arguments& arguments) {
       ->excludes(baseline);
   app.add_flag("--append", comparison.append, "Add the run to those of the baseline");
   std::string words;
-  for (const std::string& word : tracing::fail_words()) words += (words.empty() ? "" : ", ") + word;
+  for (const std::string& word : tracing::fail_words()) {
+    words += (words.empty() ? "" : ", ") + word;
+  }
   app.add_option("--fail-on", comparison.fail_on,
                  "Exit with 3 if the comparison finds one of these, separated by commas: " + words)
       ->option_text("WHAT")
@@ -253,7 +281,9 @@ void add_comparison(CLI::App& app, Arguments& arguments) {
          "--least",
          [&comparison](const std::vector<std::string>& texts) {
            for (const std::string& text : texts) {
-             if (tracing::set_least(comparison.options, text)) continue;
+             if (tracing::set_least(comparison.options, text)) {
+               continue;
+             }
              throw CLI::ValidationError(
                  "--least", fmt::format("'{}' is no change; write a part such as 5% or a time such as 20us", text));
            }
@@ -284,7 +314,9 @@ int main(int argc, char** argv) {
   CLI::App app("Reads traces and reports what is most worth a look: chains, callbacks, topics, executors, losses.",
                "launch report");
   std::string keys;
-  for (const std::string& key : tracing::sort_keys()) keys += (keys.empty() ? "" : ", ") + key;
+  for (const std::string& key : tracing::sort_keys()) {
+    keys += (keys.empty() ? "" : ", ") + key;
+  }
   app.add_option("directory", arguments.directories, "Directories of traces, or of what holds traces");
   CLI::Option* json = app.add_flag("--json", arguments.json, "Print one JSON object instead of text");
   CLI::Option* summary =
@@ -323,7 +355,9 @@ int main(int argc, char** argv) {
   app.add_flag("--events", arguments.text.events, "Also losses by buffer, and events by process");
   app.add_flag("--all", arguments.text.all, "Everything");
   add_comparison(app, arguments);
-  for (const char* option : {"--diff", "--baseline", "--save-baseline"}) live->excludes(app.get_option(option));
+  for (const char* option : {"--diff", "--baseline", "--save-baseline"}) {
+    live->excludes(app.get_option(option));
+  }
   // For the verdict of a session, which compares this with the events that the processes have fired.
   app.add_flag("--recorded", arguments.recorded)->group("");
   // For the page of a test, whose session has recorded the tests beside it, too.
@@ -345,18 +379,30 @@ int main(int argc, char** argv) {
     arguments.files.from = time_bound("--from", from, arguments.files);
     arguments.files.to = time_bound("--to", to, arguments.files);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help
+    if (error.get_exit_code() == 0) {
+      return app.exit(error);  // --help
+    }
     fmt::print(stderr, "{}", launch::usage_error_of(app, error));
     return kUsage;
   }
 
   arguments.comparison.json = arguments.json;
   try {
-    if (arguments.live) return report_live(arguments);
-    if (arguments.recorded) return print_recorded(arguments);
-    if (arguments.comparison.compares()) return print_comparison(arguments);
-    if (!arguments.comparison.save_baseline.empty()) return save_baseline(arguments);
-    if (arguments.files.any()) return write_files(arguments);
+    if (arguments.live) {
+      return report_live(arguments);
+    }
+    if (arguments.recorded) {
+      return print_recorded(arguments);
+    }
+    if (arguments.comparison.compares()) {
+      return print_comparison(arguments);
+    }
+    if (!arguments.comparison.save_baseline.empty()) {
+      return save_baseline(arguments);
+    }
+    if (arguments.files.any()) {
+      return write_files(arguments);
+    }
     return arguments.summary ? print_summary(arguments) : print_report(arguments);
   } catch (const tracing::TraceReadError& error) {
     print_error(error);

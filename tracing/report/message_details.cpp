@@ -40,20 +40,26 @@ std::string topic_section(const Ros2Results& ros2) {
     text = "\n" + header + text +
            "  (times: from rmw_publish to callback_start; untaken: by any subscription in the trace)\n";
   }
-  if (silent == 0) return text;
+  if (silent == 0) {
+    return text;
+  }
   return text +
          fmt::format("{}  ({} without messages)\n", text.empty() ? "\nTopics\n" : "", format_count(silent, "topic"));
 }
 
 std::string delivery_section(const TraceResults& results) {
-  if (results.ros2.subscriptions.empty()) return "";
+  if (results.ros2.subscriptions.empty()) {
+    return "";
+  }
   const TextTable table(36, {8, 8, 8, 8, 8, 8, 8, 8});
   std::string text;
   for (const SubscriptionResult& subscription : results.ros2.subscriptions) {
     text += fmt::format("{} to {}\n", subscription.topic,
                         node_label(subscription.node, subscription.process, results.overview));
     const auto part = [&](const char* name, const DurationSummary& took) {
-      if (took.count > 0) text += table.row(name, duration_cells(took));
+      if (took.count > 0) {
+        text += table.row(name, duration_cells(took));
+      }
     };
     part("  in all", subscription.latency);
     part("    rclcpp", subscription.rclcpp);
@@ -62,7 +68,9 @@ std::string delivery_section(const TraceResults& results) {
     part("    waiting for the executor", subscription.executor);
     part("    from the take to the callback", subscription.take);
     const auto lost = [&](const char* where, std::uint64_t count) {
-      if (count > 0) text += fmt::format("    {} {}\n", count, where);
+      if (count > 0) {
+        text += fmt::format("    {} {}\n", count, where);
+      }
     };
     lost("pushed out of the full queue of the subscription", subscription.overwritten);
     lost("pushed out of the full buffer within the process", subscription.overwritten_in_buffer);
@@ -80,10 +88,16 @@ std::string delivery_section(const TraceResults& results) {
 std::string chain_section(const TraceResults& results) {
   const Ros2Results& ros2 = results.ros2;
   const Hosts hosts(results.overview);
-  if (ros2.chains.empty()) return "";
+  if (ros2.chains.empty()) {
+    return "";
+  }
   std::string text = "\n" + duration_table().row("Chains", duration_titles());
-  for (const ChainResult& chain : ros2.chains) text += chain_details(chain, hosts);
-  if (!ros2.has_all_chains) text += "  (there were more chains than a report holds)\n";
+  for (const ChainResult& chain : ros2.chains) {
+    text += chain_details(chain, hosts);
+  }
+  if (!ros2.has_all_chains) {
+    text += "  (there were more chains than a report holds)\n";
+  }
   return text +
          "  (response: from an input to the first output; age: to the last one; reaction: from the input before)\n";
 }
@@ -91,7 +105,9 @@ std::string chain_section(const TraceResults& results) {
 std::string call_section(const TraceResults& results) {
   const Ros2Results& ros2 = results.ros2;
   const Hosts hosts(results.overview);
-  if (ros2.calls.empty()) return "";
+  if (ros2.calls.empty()) {
+    return "";
+  }
   const TextTable table = duration_table();
   std::string text = "\n" + table.row("Services", duration_titles());
   for (const CallResult& call : ros2.calls) {
@@ -124,13 +140,17 @@ std::string execution_label(const ExecutionResult& execution) {
 }
 
 std::string execution_section(const TraceResults& results) {
-  if (results.ros2.executions.empty()) return "";
+  if (results.ros2.executions.empty()) {
+    return "";
+  }
   const TextTable table = duration_table();
   std::string text = "\n" + table.row("Served by executors", duration_titles());
   std::string last_node;
   for (const ExecutionResult& execution : results.ros2.executions) {
     const std::string node = node_label(execution.node, execution.process, results.overview);
-    if (node != last_node) text += fmt::format("{}\n", node);
+    if (node != last_node) {
+      text += fmt::format("{}\n", node);
+    }
     last_node = node;
     std::vector<std::string> cells = duration_cells(execution.durations);
     cells.front() = fmt::format("{}", execution.count);
@@ -152,7 +172,9 @@ std::string chain_details(const ChainResult& chain, const Hosts& hosts) {
     text += fmt::format("  {}{}, {}\n", hosts.before(step.process), step.node.empty() ? "node unknown" : step.node,
                         step.callback);
   }
-  if (chain.is_loop) text += "    (a loop: the chain is not followed further)\n";
+  if (chain.is_loop) {
+    text += "    (a loop: the chain is not followed further)\n";
+  }
   text += table.row("  response", duration_cells(chain.response));
   text += table.row("  reaction", duration_cells(chain.reaction));
   return text + table.row("  age", duration_cells(chain.age));

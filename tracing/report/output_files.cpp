@@ -31,9 +31,15 @@ class Readers : public TraceSink {
   Readers(TraceAnalysis& analysis, AnalysisModelWriter* model, const OutputFiles& files)
       : analysis_(analysis), model_(model), with_analysis_(files.needs_timeline()), processes_(files.processes) {}
   void on_event(const Event& event) override {
-    if (!processes_.empty() && event.vpid && !processes_.contains(*event.vpid)) return;
-    if (with_analysis_) analysis_.on_event(event);
-    if (model_ != nullptr) model_->on_event(event);
+    if (!processes_.empty() && event.vpid && !processes_.contains(*event.vpid)) {
+      return;
+    }
+    if (with_analysis_) {
+      analysis_.on_event(event);
+    }
+    if (model_ != nullptr) {
+      model_->on_event(event);
+    }
     ++events_;
   }
   void on_loss(const Loss& loss) override { analysis_.on_loss(loss); }
@@ -48,11 +54,17 @@ class Readers : public TraceSink {
 };
 
 std::unique_ptr<AnalysisModelWriter> model_writer(const OutputFiles& files) {
-  if (files.analysis_model.empty()) return nullptr;
+  if (files.analysis_model.empty()) {
+    return nullptr;
+  }
   return std::make_unique<AnalysisModelWriter>(files.analysis_model, [&files](std::int64_t first_ns) {
     AnalysisModelWriter::Window window;
-    if (files.from) window.begin_ns = absolute(files.from, first_ns, 0);
-    if (files.to) window.end_ns = absolute(files.to, first_ns, 0);
+    if (files.from) {
+      window.begin_ns = absolute(files.from, first_ns, 0);
+    }
+    if (files.to) {
+      window.end_ns = absolute(files.to, first_ns, 0);
+    }
     return window;
   });
 }
@@ -71,17 +83,23 @@ TracedSystem read(const std::vector<fs::path>& directories, const OutputFiles& f
   try {
     reader.read(readers);
   } catch (const TraceReadError& error) {
-    if (readers.events() == 0) throw;
+    if (readers.events() == 0) {
+      throw;
+    }
     system.error = error.what();
   }
-  if (model) model->finish();
+  if (model) {
+    model->finish();
+  }
   system.results = analysis.finish();
   system.timeline = recorder.finish(analysis, system.results.overview);
   return system;
 }
 
 void choose_window(TracedSystem& system, const OutputFiles& files) {
-  if (!files.from && !files.to) return;
+  if (!files.from && !files.to) {
+    return;
+  }
   timeline::Timeline& timeline = system.timeline;
   const std::int64_t first_ns = timeline.begin_ns;
   const std::int64_t begin_ns = absolute(files.from, first_ns, timeline.begin_ns);
@@ -117,7 +135,9 @@ WrittenFiles write_files(const std::vector<fs::path>& directories, const OutputF
   written.error = system.error;
   written.open = system.open;
   const auto write = [&](auto function, const fs::path& file) {
-    if (file.empty()) return;
+    if (file.empty()) {
+      return;
+    }
     const std::string note = function(file);
     std::error_code failed;
     const std::uintmax_t size = fs::file_size(file, failed);

@@ -19,21 +19,31 @@ std::string node_name(const Event& event) {
 }  // namespace
 
 void RecordedProcessCounter::on_event(const Event& event) {
-  if (!event.vpid) return;
+  if (!event.vpid) {
+    return;
+  }
   const auto [found, is_new] = processes_.try_emplace(*event.vpid);
   Process& process = found->second;
-  if (is_new) process.begin_ns = event.timestamp_ns;
+  if (is_new) {
+    process.begin_ns = event.timestamp_ns;
+  }
   process.end_ns = event.timestamp_ns;
-  if (event.procname && process.name != *event.procname) process.name = *event.procname;
+  if (event.procname && process.name != *event.procname) {
+    process.name = *event.procname;
+  }
   ++process.events[event.event_class];
-  if (event.name() == "ros2:rcl_node_init") process.nodes.insert(node_name(event));
+  if (event.name() == "ros2:rcl_node_init") {
+    process.nodes.insert(node_name(event));
+  }
 }
 
 std::string RecordedProcessCounter::json() const {
   nlohmann::ordered_json processes = nlohmann::ordered_json::array();
   for (const auto& [vpid, process] : processes_) {
     std::map<std::string, std::uint64_t> events;  // several traces may have classes of one name
-    for (const auto& [event_class, count] : process.events) events[event_class->name] += count;
+    for (const auto& [event_class, count] : process.events) {
+      events[event_class->name] += count;
+    }
     processes.push_back({{"vpid", vpid},
                          {"name", process.name},
                          {"seconds", static_cast<double>(process.end_ns - process.begin_ns) / 1e9},

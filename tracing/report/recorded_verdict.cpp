@@ -22,7 +22,9 @@ std::set<fs::path> verdicts_in(const fs::path& directory) {
   std::error_code error;
   fs::recursive_directory_iterator entry(directory, fs::directory_options::skip_permission_denied, error);
   for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
-    if (entry->path().filename() == "verdict.json") files.insert(entry->path());
+    if (entry->path().filename() == "verdict.json") {
+      files.insert(entry->path());
+    }
   }
   return files;
 }
@@ -36,9 +38,13 @@ double number(const nlohmann::json& json, const char* key) {
 }
 
 void add_processes(const nlohmann::json& verdict, RecordedVerdict& result) {
-  if (!verdict.contains("processes") || !verdict["processes"].is_array()) return;
+  if (!verdict.contains("processes") || !verdict["processes"].is_array()) {
+    return;
+  }
   for (const nlohmann::json& process : verdict["processes"]) {
-    if (!process.is_object() || !process.contains("tracing") || !process["tracing"].is_object()) continue;
+    if (!process.is_object() || !process.contains("tracing") || !process["tracing"].is_object()) {
+      continue;
+    }
     const nlohmann::json& cost = process["tracing"];
     RecordedVerdict::ProcessCost added;
     added.name = text(process, "name");
@@ -46,21 +52,31 @@ void add_processes(const nlohmann::json& verdict, RecordedVerdict& result) {
     added.events = static_cast<std::uint64_t>(number(process, "events"));
     added.seconds = number(cost, "seconds");
     added.processor_share = number(cost, "processor_share");
-    if (cost.contains("ns_per_callback")) added.ns_per_callback = number(cost, "ns_per_callback");
+    if (cost.contains("ns_per_callback")) {
+      added.ns_per_callback = number(cost, "ns_per_callback");
+    }
     result.processes.push_back(std::move(added));
   }
 }
 
 // What the files of limited size have overwritten, or somebody has removed.
 void add_overwritten(const nlohmann::json& verdict, RecordedVerdict& result) {
-  if (!verdict.contains("channels") || !verdict["channels"].is_array()) return;
+  if (!verdict.contains("channels") || !verdict["channels"].is_array()) {
+    return;
+  }
   for (const nlohmann::json& channel : verdict["channels"]) {
-    if (!channel.is_object() || !channel.contains("before_first_packet")) continue;
+    if (!channel.is_object() || !channel.contains("before_first_packet")) {
+      continue;
+    }
     const nlohmann::json& before = channel["before_first_packet"];
-    if (!before.is_object()) continue;
+    if (!before.is_object()) {
+      continue;
+    }
     const auto packets = static_cast<std::uint64_t>(number(before, "packets"));
     const std::string why = text(before, "why");
-    if (packets == 0) continue;
+    if (packets == 0) {
+      continue;
+    }
     if (why == "lost") {
       result.lost_packets += packets;
     } else if (why == "removed") {
@@ -81,17 +97,25 @@ void add_overwritten(const nlohmann::json& verdict, RecordedVerdict& result) {
 RecordedVerdict read_verdicts(const std::vector<fs::path>& directories) {
   RecordedVerdict result;
   std::set<fs::path> files;
-  for (const fs::path& directory : directories) files.merge(verdicts_in(directory));
+  for (const fs::path& directory : directories) {
+    files.merge(verdicts_in(directory));
+  }
   for (const fs::path& file : files) {
     std::ifstream stream(file);
     const nlohmann::json verdict = nlohmann::json::parse(stream, nullptr, false);
-    if (!verdict.is_object()) continue;
+    if (!verdict.is_object()) {
+      continue;
+    }
     if (verdict.contains("absent") && verdict["absent"].is_array()) {
       for (const nlohmann::json& absence : verdict["absent"]) {
-        if (absence.is_string()) result.absences.push_back(absence.get<std::string>());
+        if (absence.is_string()) {
+          result.absences.push_back(absence.get<std::string>());
+        }
       }
     }
-    if (const std::string damage = text(verdict, "damage"); !damage.empty()) result.absences.push_back(damage);
+    if (const std::string damage = text(verdict, "damage"); !damage.empty()) {
+      result.absences.push_back(damage);
+    }
     if (verdict.contains("cut_short") && verdict["cut_short"] == true) {
       result.absences.emplace_back("the last events were not waited for");
     }
@@ -103,7 +127,9 @@ RecordedVerdict read_verdicts(const std::vector<fs::path>& directories) {
     }
     if (verdict.contains("event_cost") && verdict["event_cost"].is_object()) {
       const double ns = number(verdict["event_cost"], "ns");
-      if (ns > 0) result.ns_per_event = std::max(ns, result.ns_per_event.value_or(0));
+      if (ns > 0) {
+        result.ns_per_event = std::max(ns, result.ns_per_event.value_or(0));
+      }
     }
     add_processes(verdict, result);
   }

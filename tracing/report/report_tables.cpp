@@ -50,7 +50,9 @@ std::string marked(std::string label, bool doubtful) {
 }
 
 void sort_by(Row& row, const DurationSummary& took) {
-  if (took.count == 0) return;
+  if (took.count == 0) {
+    return;
+  }
   row.count = static_cast<double>(took.count);
   row.total = took.mean_ns * row.count;
   row.p50 = static_cast<double>(took.p50_ns);
@@ -62,7 +64,9 @@ void sort_by(Row& row, const DurationSummary& took) {
 std::string topics_of(const ChainResult& chain) {
   std::string text;
   for (const ChainResult::Step& step : chain.steps) {
-    if (!step.topic.empty()) text += (text.empty() ? "" : ", ") + step.topic;
+    if (!step.topic.empty()) {
+      text += (text.empty() ? "" : ", ") + step.topic;
+    }
   }
   return text;
 }
@@ -71,12 +75,16 @@ std::string topics_of(const ChainResult& chain) {
 
 bool is_chosen(const ChainResult& chain, const ReportOptions& options) {
   const auto any = [&](const auto& fits) { return std::any_of(chain.steps.begin(), chain.steps.end(), fits); };
-  if (!options.node.empty() && !any([&](const auto& step) { return matches(options.node, step.node); })) return false;
+  if (!options.node.empty() && !any([&](const auto& step) { return matches(options.node, step.node); })) {
+    return false;
+  }
   if (!options.topic.empty() &&
       !any([&](const auto& step) { return !step.topic.empty() && matches(options.topic, step.topic); })) {
     return false;
   }
-  if (options.chain.first.empty()) return true;
+  if (options.chain.first.empty()) {
+    return true;
+  }
   const auto first = std::find_if(chain.steps.begin(), chain.steps.end(),
                                   [&](const auto& step) { return matches(options.chain.first, step.node); });
   return std::any_of(first, chain.steps.end(),
@@ -89,10 +97,14 @@ std::string chain_table(const TraceResults& results, const ReportOptions& option
   const bool with_budget = std::any_of(ros2.chains.begin(), ros2.chains.end(),
                                        [](const ChainResult& chain) { return chain.budget_ns.has_value(); });
   std::vector<std::string> columns{"count", "p50", "p99", "max", "reaction p99", "age max"};
-  if (with_budget) columns.insert(columns.begin() + 4, {"budget", "over"});
+  if (with_budget) {
+    columns.insert(columns.begin() + 4, {"budget", "over"});
+  }
   ScreenTable table("Chains", columns, "");
   for (const ChainResult& chain : ros2.chains) {
-    if (!is_chosen(chain, options)) continue;
+    if (!is_chosen(chain, options)) {
+      continue;
+    }
     Row row{.label = marked(hosts.before(chain) + chain_label(chain), chain.doubtful)};
     row.remark = chain.name.empty() ? chain.steps.front().callback : topics_of(chain);
     row.cells = {count_cell(chain.response.count),
@@ -119,15 +131,21 @@ std::string callback_table(const TraceResults& results, const ReportOptions& opt
       std::any_of(results.ros2.callbacks.begin(), results.ros2.callbacks.end(),
                   [](const CallbackResult& callback) { return callback.allocations.value_or(0) > 0; });
   std::vector<std::string> columns{"rate", "count", "p50", "p99", "max", "jitter", "missed", "load"};
-  if (with_memory) columns.insert(columns.begin() + 5, "mallocs");
+  if (with_memory) {
+    columns.insert(columns.begin() + 5, "mallocs");
+  }
   ScreenTable table("Callbacks", columns, "total");
   const Hosts hosts(results.overview);
   const double span =
       results.overview.begin_ns ? static_cast<double>(*results.overview.end_ns - *results.overview.begin_ns) : 0;
   for (const CallbackResult& callback : results.ros2.callbacks) {
-    if (!matches(options.node, callback.node)) continue;
+    if (!matches(options.node, callback.node)) {
+      continue;
+    }
     const bool of_topic = callback.owner == CallbackResult::Owner::kSubscription;
-    if (!options.topic.empty() && !(of_topic && matches(options.topic, callback.owner_name))) continue;
+    if (!options.topic.empty() && !(of_topic && matches(options.topic, callback.owner_name))) {
+      continue;
+    }
     Row row{.label = marked(hosts.before(callback.process) + callback_label(callback), callback.doubtful)};
     row.remark = short_symbol(callback.symbol);
     const DurationSummary& took = callback.durations;
@@ -141,7 +159,9 @@ std::string callback_table(const TraceResults& results, const ReportOptions& opt
                  time_cell(callback.jitter, &DurationSummary::p99_ns),
                  count_cell(callback.missed, Style::kWarning),
                  span > 0 && took.count > 0 ? percent_cell(row.total / span) : Cell{"-"}};
-    if (with_memory) row.cells.insert(row.cells.begin() + 5, count_cell(callback.allocations.value_or(0)));
+    if (with_memory) {
+      row.cells.insert(row.cells.begin() + 5, count_cell(callback.allocations.value_or(0)));
+    }
     table.add(std::move(row));
   }
   return table.text(options);
@@ -153,13 +173,17 @@ std::string topic_table(const Ros2Results& ros2, const ReportOptions& options) {
   for (const SubscriptionResult& subscription : ros2.subscriptions) {
     dropped[subscription.topic] += subscription.dropped();
     DurationSummary& known = slowest[subscription.topic];
-    if (known.count == 0 || subscription.latency.p99_ns > known.p99_ns) known = subscription.latency;
+    if (known.count == 0 || subscription.latency.p99_ns > known.p99_ns) {
+      known = subscription.latency;
+    }
   }
   ScreenTable table("Topics", {"rate", "sent", "received", "dropped", "p50", "p99", "max"}, "p99");
   for (const TopicResult& topic : ros2.topics) {
     const std::uint64_t sent = std::max(topic.published, topic.intra_process_published);
     const std::uint64_t received = topic.received + topic.intra_process_received;
-    if (sent + received == 0 || !matches(options.topic, topic.name)) continue;
+    if (sent + received == 0 || !matches(options.topic, topic.name)) {
+      continue;
+    }
     if (!options.node.empty() &&
         std::none_of(ros2.subscriptions.begin(), ros2.subscriptions.end(), [&](const SubscriptionResult& subscription) {
           return subscription.topic == topic.name && matches(options.node, subscription.node);
@@ -184,11 +208,15 @@ std::string topic_table(const Ros2Results& ros2, const ReportOptions& options) {
 }
 
 std::string executor_table(const TraceResults& results, const ReportOptions& options) {
-  if (!options.node.empty() || !options.topic.empty()) return "";
+  if (!options.node.empty() || !options.topic.empty()) {
+    return "";
+  }
   ScreenTable table("Executors", {"busy", "callbacks", "longest busy", "in"}, "total");
   const Hosts hosts(results.overview);
   for (const ExecutorResult& executor : results.ros2.executors) {
-    if (executor.callbacks == 0) continue;
+    if (executor.callbacks == 0) {
+      continue;
+    }
     Row row{.label = marked(hosts.before(executor.process) + executor_label(executor, results), executor.doubtful)};
     row.total = executor.utilisation;
     row.count = static_cast<double>(executor.callbacks);
@@ -202,12 +230,18 @@ std::string executor_table(const TraceResults& results, const ReportOptions& opt
 }
 
 std::string service_table(const TraceResults& results, const ReportOptions& options) {
-  if (!options.topic.empty()) return "";
+  if (!options.topic.empty()) {
+    return "";
+  }
   const Hosts hosts(results.overview);
   ScreenTable table("Services", {"calls", "unanswered", "p50", "p99", "max"}, "p99");
   for (const CallResult& call : results.ros2.calls) {
-    if (is_of_action(call.service)) continue;
-    if (!matches(options.node, call.client) && !matches(options.node, call.server)) continue;
+    if (is_of_action(call.service)) {
+      continue;
+    }
+    if (!matches(options.node, call.client) && !matches(options.node, call.server)) {
+      continue;
+    }
     Row row{.label = fmt::format("{}, asked by {}{}", call.service, hosts.before(call.client_process),
                                  call.client.empty() ? "?" : call.client)};
     sort_by(row, call.round_trip);
@@ -222,11 +256,15 @@ std::string service_table(const TraceResults& results, const ReportOptions& opti
 }
 
 std::string action_table(const TraceResults& results, const ReportOptions& options) {
-  if (!options.topic.empty()) return "";
+  if (!options.topic.empty()) {
+    return "";
+  }
   const Hosts hosts(results.overview);
   ScreenTable table("Actions", {"goals", "results", "cancels", "feedback", "p50", "p99", "max"}, "p99");
   for (const ActionResult& action : results.ros2.actions) {
-    if (!matches(options.node, action.client) && !matches(options.node, action.server)) continue;
+    if (!matches(options.node, action.client) && !matches(options.node, action.server)) {
+      continue;
+    }
     Row row{.label = fmt::format("{}, asked by {}{}", action.name, hosts.before(action.client_process),
                                  action.client.empty() ? "?" : action.client)};
     sort_by(row, action.execution);
@@ -244,13 +282,17 @@ std::string action_table(const TraceResults& results, const ReportOptions& optio
 }
 
 std::string lifecycle_table(const TraceResults& results, const ReportOptions& options) {
-  if (!options.topic.empty()) return "";
+  if (!options.topic.empty()) {
+    return "";
+  }
   const Ros2Results& ros2 = results.ros2;
   const Hosts hosts(results.overview);
   const bool with_memory = std::any_of(ros2.lifecycle.begin(), ros2.lifecycle.end(),
                                        [](const LifecycleResult& result) { return result.process_allocations > 0; });
   std::vector<std::string> columns{"state at the end", "time in active", "changes"};
-  if (with_memory) columns.emplace_back("mallocs in active");
+  if (with_memory) {
+    columns.emplace_back("mallocs in active");
+  }
   ScreenTable table("Lifecycle nodes", columns, "name");
   struct Node {
     std::string state;
@@ -260,20 +302,26 @@ std::string lifecycle_table(const TraceResults& results, const ReportOptions& op
   };
   std::map<std::pair<std::string, ProcessIndex>, Node> nodes;
   for (const LifecycleResult& result : ros2.lifecycle) {
-    if (!matches(options.node, result.node)) continue;
+    if (!matches(options.node, result.node)) {
+      continue;
+    }
     Node& node = nodes[{result.node.empty() ? "?" : result.node, result.process}];
     node.state = result.state;
     if (result.state == "active") {
       node.active_ns += result.end_ns - result.begin_ns;
       node.allocations += result.allocations.value_or(0);
     }
-    if (result.ended) ++node.changes;
+    if (result.ended) {
+      ++node.changes;
+    }
   }
   for (const auto& [name, node] : nodes) {
     Row row{.label = hosts.before(name.second) + name.first};
     row.cells = {Cell{node.state}, Cell{format_duration(static_cast<double>(node.active_ns))},
                  count_cell(node.changes)};
-    if (with_memory) row.cells.push_back(count_cell(node.allocations, Style::kWarning));
+    if (with_memory) {
+      row.cells.push_back(count_cell(node.allocations, Style::kWarning));
+    }
     table.add(std::move(row));
   }
   return table.text(options);

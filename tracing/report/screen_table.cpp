@@ -12,11 +12,21 @@ namespace {
 constexpr std::size_t kLeastLabel = 24;
 
 double value_of(const Row& row, const std::string& key) {
-  if (key == "total") return row.total;
-  if (key == "count") return row.count;
-  if (key == "rate") return row.rate;
-  if (key == "p50") return row.p50;
-  if (key == "p99") return row.p99;
+  if (key == "total") {
+    return row.total;
+  }
+  if (key == "count") {
+    return row.count;
+  }
+  if (key == "rate") {
+    return row.rate;
+  }
+  if (key == "p50") {
+    return row.p50;
+  }
+  if (key == "p99") {
+    return row.p99;
+  }
   return row.max;
 }
 
@@ -28,7 +38,9 @@ const std::vector<std::string>& sort_keys() {
 }
 
 std::string styled(const std::string& text, Style style, bool color) {
-  if (!color || style == Style::kPlain || text.empty()) return text;
+  if (!color || style == Style::kPlain || text.empty()) {
+    return text;
+  }
   const char* code = "";
   switch (style) {
     case Style::kBold:
@@ -53,16 +65,24 @@ std::string styled(const std::string& text, Style style, bool color) {
 }
 
 std::string shortened(const std::string& text, std::size_t width) {
-  if (text.size() <= width) return text;
-  if (width <= 2) return text.substr(0, width);
+  if (text.size() <= width) {
+    return text;
+  }
+  if (width <= 2) {
+    return text.substr(0, width);
+  }
   const std::size_t end = (width - 2) / 2;
   return text.substr(0, width - 2 - end) + ".." + text.substr(text.size() - end);
 }
 
 std::string ScreenTable::text(const ReportOptions& options) const {
-  if (rows_.empty()) return "";
+  if (rows_.empty()) {
+    return "";
+  }
   std::vector<const Row*> rows;
-  for (const Row& row : rows_) rows.push_back(&row);
+  for (const Row& row : rows_) {
+    rows.push_back(&row);
+  }
   const std::string& key = options.sort.empty() ? key_ : options.sort;
   if (!key.empty()) {
     std::stable_sort(rows.begin(), rows.end(), [&key](const Row* a, const Row* b) {
@@ -75,14 +95,18 @@ std::string ScreenTable::text(const ReportOptions& options) const {
   for (std::size_t column = 0; column < columns_.size(); ++column) {
     std::size_t width = columns_[column].size();
     for (std::size_t i = 0; i < shown; ++i) {
-      if (column < rows[i]->cells.size()) width = std::max(width, rows[i]->cells[column].text.size());
+      if (column < rows[i]->cells.size()) {
+        width = std::max(width, rows[i]->cells[column].text.size());
+      }
     }
     widths.push_back(width + 2);
   }
   // The last columns give way to the labels.
   std::size_t used = 0;
   std::size_t fitting = 0;
-  while (fitting < widths.size() && used + widths[fitting] + kLeastLabel <= options.width) used += widths[fitting++];
+  while (fitting < widths.size() && used + widths[fitting] + kLeastLabel <= options.width) {
+    used += widths[fitting++];
+  }
   const std::string title = shown == rows.size() ? title_ : fmt::format("{}, {} of {}", title_, shown, rows.size());
   std::size_t label_width = title.size();
   for (std::size_t i = 0; i < shown; ++i) {
@@ -109,7 +133,9 @@ std::string ScreenTable::text(const ReportOptions& options) const {
     for (std::size_t column = 0; column < fitting && column < row.cells.size(); ++column) {
       const Cell& cell = row.cells[column];
       blanks += widths[column] - cell.text.size();
-      if (cell.text.empty()) continue;
+      if (cell.text.empty()) {
+        continue;
+      }
       line += std::string(blanks, ' ') + styled(cell.text, cell.style, options.color);
       blanks = 0;
     }

@@ -18,7 +18,9 @@ std::string process_section(const std::vector<StartResult>& starts) {
   };
   for (const StartResult& start : starts) {
     std::optional<std::int64_t> spawn;
-    if (start.spawn_ns) spawn = start.exec_ns - *start.spawn_ns;
+    if (start.spawn_ns) {
+      spawn = start.exec_ns - *start.spawn_ns;
+    }
     text += table.row(fmt::format("  {} [{}]", start.process, start.vpid),
                       {cell(spawn), cell(start.init_after_ns), cell(start.node_after_ns), cell(start.ready_after_ns),
                        cell(start.callback_after_ns), cell(start.publication_after_ns)});
@@ -46,7 +48,9 @@ std::string path_section(const StartupResult& startup) {
 }  // namespace
 
 std::string start_details(const TraceResults& results) {
-  if (results.starts.empty()) return "";
+  if (results.starts.empty()) {
+    return "";
+  }
   return process_section(results.starts) + (results.startup ? path_section(*results.startup) : "");
 }
 

@@ -17,13 +17,19 @@ std::string loss_phrase(const TraceOverview& overview, const RecordedVerdict& ve
   std::string text;
   if (events != 0 || packets != 0) {
     std::string counted;
-    if (events > 0) counted = format_count(events, "event");
-    if (packets > 0) counted += (events > 0 ? " and " : "") + format_count(packets, "packet");
+    if (events > 0) {
+      counted = format_count(events, "event");
+    }
+    if (packets > 0) {
+      counted += (events > 0 ? " and " : "") + format_count(packets, "packet");
+    }
     text = fmt::format("{}{} lost", overview.lost_uncounted() ? "at least " : "", counted);
   } else {
     text = overview.losses.empty() ? "none lost" : "some events lost";
   }
-  for (const std::string& overwritten : verdict.overwritten) text += ", " + overwritten;
+  for (const std::string& overwritten : verdict.overwritten) {
+    text += ", " + overwritten;
+  }
   return text;
 }
 
@@ -34,23 +40,31 @@ constexpr std::size_t kMostNamed = 5;
 // "; doubtful: talker [12], listener [13]", the processes that may have lost events; "" when none has.
 std::string doubtful_phrase(const TraceOverview& overview) {
   std::set<std::size_t> doubtful;
-  for (const LossResult& loss : overview.losses) doubtful.insert(loss.processes.begin(), loss.processes.end());
+  for (const LossResult& loss : overview.losses) {
+    doubtful.insert(loss.processes.begin(), loss.processes.end());
+  }
   const Hosts hosts(overview);
   std::string text;
   std::size_t named = 0;
   for (const std::size_t process : doubtful) {
-    if (named++ == kMostNamed) break;
+    if (named++ == kMostNamed) {
+      break;
+    }
     text += fmt::format("{}{}{}", text.empty() ? "; doubtful: " : ", ", hosts.before(process),
                         process_label(overview.processes.at(process)));
   }
-  if (doubtful.size() > kMostNamed) text += fmt::format(" and {} more", doubtful.size() - kMostNamed);
+  if (doubtful.size() > kMostNamed) {
+    text += fmt::format(" and {} more", doubtful.size() - kMostNamed);
+  }
   return text;
 }
 
 }  // namespace
 
 std::string summary_line(const TraceOverview& overview, const RecordedVerdict& verdict) {
-  if (overview.events == 0 && overview.losses.empty()) return "no events";
+  if (overview.events == 0 && overview.losses.empty()) {
+    return "no events";
+  }
   return fmt::format("{}, {}, {}{}", format_count(overview.events, "event"),
                      format_count(overview.processes.size(), "process"), loss_phrase(overview, verdict),
                      doubtful_phrase(overview));

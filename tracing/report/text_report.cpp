@@ -24,7 +24,9 @@ constexpr std::size_t kFindings = 5;
 std::uint64_t userspace_events(const TraceOverview& overview) {
   std::uint64_t events = 0;
   for (const EventCount& event : overview.event_counts) {
-    if (event.name.find(':') != std::string::npos) events += event.total;
+    if (event.name.find(':') != std::string::npos) {
+      events += event.total;
+    }
   }
   return events;
 }
@@ -32,12 +34,16 @@ std::uint64_t userspace_events(const TraceOverview& overview) {
 std::string cost_line(const Report& report) {
   const TraceOverview& overview = report.results.overview;
   const std::uint64_t events = userspace_events(overview);
-  if (!report.verdict.ns_per_event || events == 0) return "";
+  if (!report.verdict.ns_per_event || events == 0) {
+    return "";
+  }
   const double cost = *report.verdict.ns_per_event * static_cast<double>(events);
   const double span = static_cast<double>(*overview.end_ns - *overview.begin_ns);
   std::string text = fmt::format("Cost       {} of {} for each event", format_duration(cost),
                                  format_duration(*report.verdict.ns_per_event));
-  if (span > 0) text += fmt::format(", {:.2g} % of a processor", 100 * cost / span);
+  if (span > 0) {
+    text += fmt::format(", {:.2g} % of a processor", 100 * cost / span);
+  }
   return text + (events < overview.events ? ", without the events of the kernel\n" : "\n");
 }
 
@@ -69,16 +75,24 @@ std::string head(const Report& report, bool color) {
 }
 
 std::string absence_section(const std::vector<std::string>& absences, bool color) {
-  if (absences.empty()) return "";
+  if (absences.empty()) {
+    return "";
+  }
   std::string text = "\n" + styled("Not there", Style::kBold, color) + "\n";
-  for (const std::string& absence : absences) text += "  " + styled(absence, Style::kBad, color) + "\n";
+  for (const std::string& absence : absences) {
+    text += "  " + styled(absence, Style::kBad, color) + "\n";
+  }
   return text;
 }
 
 std::string finding_section(const Report& report, const ReportOptions& options) {
   std::vector<Finding> findings = find_worth_a_look(report.results);
-  if (findings.empty()) return "";
-  if (findings.size() > kFindings) findings.resize(kFindings);
+  if (findings.empty()) {
+    return "";
+  }
+  if (findings.size() > kFindings) {
+    findings.resize(kFindings);
+  }
   std::string text = "\n" + styled("Worth a look", Style::kBold, options.color) + "\n";
   for (const Finding& finding : findings) {
     const Style style = finding.weight >= 70 ? Style::kBad : finding.weight >= 40 ? Style::kWarning : Style::kPlain;
@@ -104,11 +118,15 @@ std::string finding_section(const Report& report, const ReportOptions& options) 
 std::string chosen_chains(const TraceResults& results, const ReportOptions& options) {
   std::string text;
   for (const ChainResult& chain : results.ros2.chains) {
-    if (!is_chosen(chain, options)) continue;
+    if (!is_chosen(chain, options)) {
+      continue;
+    }
     text +=
         "\n" + duration_table().row("Step by step", duration_titles()) + chain_details(chain, Hosts(results.overview));
   }
-  if (!text.empty()) return text;
+  if (!text.empty()) {
+    return text;
+  }
   return fmt::format("\nNo chain leads from {} to {}.\n", options.chain.first, options.chain.second);
 }
 
@@ -122,7 +140,9 @@ std::string text_report(const Report& of, const ReportOptions& options) {
   if (!options.chain.first.empty()) {
     return text + chain_table(results, options) + chosen_chains(results, options);
   }
-  if (options.node.empty() && options.topic.empty()) text += finding_section(report, options);
+  if (options.node.empty() && options.topic.empty()) {
+    text += finding_section(report, options);
+  }
   text += chain_table(results, options) + callback_table(results, options) + topic_table(results.ros2, options) +
           executor_table(results, options) + service_table(results, options) + action_table(results, options) +
           lifecycle_table(results, options);

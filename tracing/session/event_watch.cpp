@@ -31,7 +31,9 @@ LttngOwned<lttng_event_rule> make_rule(const EventRule& rule) {
   };
   check(made != nullptr ? LTTNG_EVENT_RULE_STATUS_OK : LTTNG_EVENT_RULE_STATUS_ERROR);
   check(lttng_event_rule_user_tracepoint_set_name_pattern(made.get(), rule.pattern.c_str()));
-  if (!rule.filter.empty()) check(lttng_event_rule_user_tracepoint_set_filter(made.get(), rule.filter.c_str()));
+  if (!rule.filter.empty()) {
+    check(lttng_event_rule_user_tracepoint_set_filter(made.get(), rule.filter.c_str()));
+  }
   if (rule.log_level) {
     const LttngOwned<lttng_log_level_rule> level(
         rule.exactly_that_level ? lttng_log_level_rule_exactly_create(*rule.log_level)
@@ -55,9 +57,13 @@ void EventWatch::ChannelDeleter::operator()(lttng_notification_channel* channel)
 EventWatch::EventWatch(const std::string& name, const std::vector<std::string>& rules,
                        std::function<void(const std::string&)> seen)
     : seen_(std::move(seen)), channel_(lttng_notification_channel_create(lttng_notification_endpoint())) {
-  if (!channel_) throw TraceError("cannot watch for events: the session daemon does not answer");
+  if (!channel_) {
+    throw TraceError("cannot watch for events: the session daemon does not answer");
+  }
   try {
-    for (const std::string& rule : rules) add(name, rule);
+    for (const std::string& rule : rules) {
+      add(name, rule);
+    }
   } catch (const TraceError&) {
     unregister();
     throw;
@@ -76,7 +82,9 @@ EventWatch::~EventWatch() {
 }
 
 void EventWatch::add(const std::string& name, const std::string& text) {
-  for (const EventRule& rule : expand_exclusions(parse_event_rule(text))) add(name, rule, text);
+  for (const EventRule& rule : expand_exclusions(parse_event_rule(text))) {
+    add(name, rule, text);
+  }
 }
 
 void EventWatch::add(const std::string& name, const EventRule& parsed, const std::string& text) {
@@ -101,7 +109,9 @@ void EventWatch::add(const std::string& name, const EventRule& parsed, const std
 }
 
 void EventWatch::unregister() {
-  for (const auto& trigger : triggers_) lttng_unregister_trigger(trigger.get());
+  for (const auto& trigger : triggers_) {
+    lttng_unregister_trigger(trigger.get());
+  }
   triggers_.clear();
 }
 
@@ -128,26 +138,40 @@ bool EventWatch::tell_next() {
   const auto status = lttng_notification_channel_get_next_notification(channel_.get(), &received);
   const LttngOwned<lttng_notification> notification(received, lttng_notification_destroy);
   // LTTng drops notifications that come too fast. The notifications that arrive suffice to report the event.
-  if (status == LTTNG_NOTIFICATION_CHANNEL_STATUS_NOTIFICATIONS_DROPPED) return true;
-  if (status != LTTNG_NOTIFICATION_CHANNEL_STATUS_OK) return false;
+  if (status == LTTNG_NOTIFICATION_CHANNEL_STATUS_NOTIFICATIONS_DROPPED) {
+    return true;
+  }
+  if (status != LTTNG_NOTIFICATION_CHANNEL_STATUS_OK) {
+    return false;
+  }
   const char* name = nullptr;
-  if (lttng_trigger_get_name(lttng_notification_get_trigger(received), &name) != LTTNG_TRIGGER_STATUS_OK) return true;
+  if (lttng_trigger_get_name(lttng_notification_get_trigger(received), &name) != LTTNG_TRIGGER_STATUS_OK) {
+    return true;
+  }
   const auto rule = std::find_if(rules_.begin(), rules_.end(), [&](const auto& entry) { return entry.first == name; });
-  if (rule != rules_.end()) seen_(rule->second);
+  if (rule != rules_.end()) {
+    seen_(rule->second);
+  }
   return true;
 }
 
 void EventWatch::clean_up(const std::string& name) {
   lttng_triggers* listed = nullptr;
-  if (lttng_list_triggers(&listed) != LTTNG_OK) return;
+  if (lttng_list_triggers(&listed) != LTTNG_OK) {
+    return;
+  }
   const LttngOwned<lttng_triggers> triggers(listed, lttng_triggers_destroy);
   unsigned int count = 0;
   lttng_triggers_get_count(listed, &count);
   for (unsigned int i = 0; i < count; ++i) {
     const lttng_trigger* const trigger = lttng_triggers_get_at_index(listed, i);
     const char* found = nullptr;
-    if (lttng_trigger_get_name(trigger, &found) != LTTNG_TRIGGER_STATUS_OK) continue;
-    if (std::string(found).starts_with(name + ":")) lttng_unregister_trigger(trigger);
+    if (lttng_trigger_get_name(trigger, &found) != LTTNG_TRIGGER_STATUS_OK) {
+      continue;
+    }
+    if (std::string(found).starts_with(name + ":")) {
+      lttng_unregister_trigger(trigger);
+    }
   }
 }
 

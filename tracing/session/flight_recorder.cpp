@@ -29,7 +29,9 @@ FlightRecorder::~FlightRecorder() {
 void FlightRecorder::request(const std::string& reason) {
   {
     const std::lock_guard lock(mutex_);
-    if (std::find(requested_.begin(), requested_.end(), reason) != requested_.end()) return;
+    if (std::find(requested_.begin(), requested_.end(), reason) != requested_.end()) {
+      return;
+    }
     requested_.push_back(reason);
   }
   changed_.notify_one();
@@ -39,7 +41,9 @@ void FlightRecorder::work() {
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [this] { return stop_ || !requested_.empty(); });
-    if (requested_.empty()) return;
+    if (requested_.empty()) {
+      return;
+    }
     std::vector<std::string> reasons = std::exchange(requested_, {});
     lock.unlock();
     told_(take(std::move(reasons)));
@@ -51,9 +55,13 @@ TakenSnapshot FlightRecorder::take(std::vector<std::string> reasons) {
   TakenSnapshot taken{.reasons = std::move(reasons), .directory = {}, .error = {}};
   try {
     record_snapshot(config_.lttng_session_name());
-    if (config_.over_network()) return taken;
+    if (config_.over_network()) {
+      return taken;
+    }
     std::vector<fs::path> snapshots = snapshots_in(config_.trace_directory());
-    if (snapshots.empty()) throw TraceError("LTTng has written no snapshot");
+    if (snapshots.empty()) {
+      throw TraceError("LTTng has written no snapshot");
+    }
     taken.directory = snapshots.back();
     judge_snapshot(taken.directory, config_.lttng_session_name(), config_.event_counters, taken.reasons);
     for (std::size_t oldest = 0; snapshots.size() - oldest > config_.snapshot_limit; ++oldest) {

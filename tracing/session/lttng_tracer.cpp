@@ -76,7 +76,9 @@ TraceConfig with_counters(TraceConfig config) {
 // For a session that ended in an error: what is in its directory is not complete.
 void write_failed_verdict(const std::string& session_name, const std::string& directory, const std::string& failure) {
   std::error_code none;
-  if (!directory.starts_with('/') || !std::filesystem::is_directory(directory, none)) return;
+  if (!directory.starts_with('/') || !std::filesystem::is_directory(directory, none)) {
+    return;
+  }
   LossAccount losses;
   losses.damage = failure;
   try {
@@ -88,7 +90,9 @@ void write_failed_verdict(const std::string& session_name, const std::string& di
 
 // Without its session nobody else would end it.
 void end_kernel_recorder(const std::string& directory) {
-  if (!directory.starts_with('/')) return;
+  if (!directory.starts_with('/')) {
+    return;
+  }
   try {
     finish_kernel_recorder(directory);
   } catch (const TraceError&) {
@@ -101,7 +105,9 @@ std::vector<Stream> streams_of(const LossAccount& losses, const std::string& dir
                                const std::function<bool()>& give_up) {
   std::set<std::string> in_files;
   for (const ChannelLoss& channel : losses.channels) {
-    if (channel.tracefile_size != 0) in_files.insert(channel.channel);
+    if (channel.tracefile_size != 0) {
+      in_files.insert(channel.channel);
+    }
   }
   return read_streams(directory, in_files, give_up);
 }
@@ -109,7 +115,9 @@ std::vector<Stream> streams_of(const LossAccount& losses, const std::string& dir
 // Whether the relay daemon has gone that gets the trace of the session. Throws TraceError if it is stopped: LTTng's
 // consumer waits for its answers, and the session daemon for the consumer, for ever.
 std::optional<Absence> look_for_relay_daemon(const SessionSummary& session) {
-  if (session.snapshot || session.path.empty() || session.path.starts_with('/')) return std::nullopt;
+  if (session.snapshot || session.path.empty() || session.path.starts_with('/')) {
+    return std::nullopt;
+  }
   RelayConnection connection(relay_ports(session.path), consumers_of(session_daemon_pid()));
   const RelayConnection::State state = connection.look();
   if (state == RelayConnection::State::kSilent) {
@@ -118,7 +126,9 @@ std::optional<Absence> look_for_relay_daemon(const SessionSummary& session) {
                                  "trace stop {}`",
                                  session.name));
   }
-  if (state != RelayConnection::State::kEnded) return std::nullopt;
+  if (state != RelayConnection::State::kEnded) {
+    return std::nullopt;
+  }
   return Absence{.text = "the relay daemon was gone before the session ended: what was recorded since then is lost",
                  .is_loss = true};
 }
@@ -163,11 +173,15 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
     const bool is_known = session && !session->path.empty();
     const std::string directory = is_known ? session->path : config.over_network() ? "" : config.trace_directory();
     end_kernel_recorder(directory);
-    if (!config.records_snapshots()) write_failed_verdict(name, directory, error.what());
+    if (!config.records_snapshots()) {
+      write_failed_verdict(name, directory, error.what());
+    }
     throw;
   }
   LossesByProcess by_process(with_counters(config), losses);
-  if (relay_daemon_gone) losses.absences.push_back(*relay_daemon_gone);
+  if (relay_daemon_gone) {
+    losses.absences.push_back(*relay_daemon_gone);
+  }
   timer.finished("losses");
   std::optional<std::uint64_t> lost_by_kernel;
   std::string kernel_failure;
@@ -179,9 +193,13 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
       losses.absences.push_back({.text = kernel_failure, .is_loss = true});
     }
   }
-  if (session) losses.of_snapshots = session->snapshot;
+  if (session) {
+    losses.of_snapshots = session->snapshot;
+  }
   losses.directory = recorder_directory(name);
-  if (!losses.directory.starts_with('/')) losses.directory.clear();
+  if (!losses.directory.starts_with('/')) {
+    losses.directory.clear();
+  }
   const bool local = session && session->path.starts_with('/');  // else it went to a relay daemon
   std::error_code unreadable;
   const bool rotated = local && std::filesystem::exists(session->path + "/archives", unreadable);
@@ -206,31 +224,43 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
                                .discarded_events = *lost_by_kernel,
                                .counted_by = LossSource::kTracefs});
   }
-  if (readable) judge(losses, by_process, streams, session->path, stopped);
+  if (readable) {
+    judge(losses, by_process, streams, session->path, stopped);
+  }
   timer.finished("losses by process");
   const bool hurried = losses.cut_short || (give_up && give_up());
   // The first session on a machine takes some 30 ms longer to end, because of the measurement. It disturbs no process
   // then.
-  if (!losses.processes.empty() && !hurried) losses.cost = try_event_cost(config.context_fields_ust);
+  if (!losses.processes.empty() && !hurried) {
+    losses.cost = try_event_cost(config.context_fields_ust);
+  }
   timer.finished("cost of events");
-  if (readable) write(losses, name, session->path);
+  if (readable) {
+    write(losses, name, session->path);
+  }
   timer.finished("verdict");
   losses.steps = std::move(steps);
-  if (!kernel_failure.empty()) throw TraceError(kernel_failure);
+  if (!kernel_failure.empty()) {
+    throw TraceError(kernel_failure);
+  }
   return losses;
 }
 
 std::optional<LossAccount> LttngTracer::pause(const std::string& name) {
   check_daemon_not_stopped();
   const std::optional<SessionSummary> session = find_session(name);
-  if (session) look_for_relay_daemon(*session);
+  if (session) {
+    look_for_relay_daemon(*session);
+  }
   const auto stopped = static_cast<std::uint64_t>(launch::monotonic_time());
   // Waits for the data, because a user who pauses wants to look at the trace.
   note_pause(CounterDirectory::of_session(name), name);
   check_lttng(lttng_stop_tracing_no_wait(name.c_str()), fmt::format("pause trace session '{}'", name));
   wait_for_data(name, {});
   pause_kernel_recorder(recorder_directory(name));
-  if (!session || !session->active || session->snapshot || !session->path.starts_with('/')) return std::nullopt;
+  if (!session || !session->active || session->snapshot || !session->path.starts_with('/')) {
+    return std::nullopt;
+  }
   // So a trace that is looked at meanwhile has a verdict. The end of the session writes another one.
   try {
     TraceConfig config;
@@ -241,7 +271,9 @@ std::optional<LossAccount> LttngTracer::pause(const std::string& name) {
     const std::vector<Stream> streams = streams_of(losses, session->path, {});
     count_in_packets(losses, streams);
     judge(losses, by_process, streams, session->path, stopped);
-    if (!losses.processes.empty()) losses.cost = try_event_cost(config.context_fields_ust);
+    if (!losses.processes.empty()) {
+      losses.cost = try_event_cost(config.context_fields_ust);
+    }
     write(losses, name, session->path);
     return losses;
   } catch (const TraceError&) {
@@ -260,9 +292,13 @@ std::string LttngTracer::record_snapshot(const std::string& name) {
   check_daemon_not_stopped();
   record_and_clear(name);
   const std::optional<std::filesystem::path> directory = snapshot_directory(name);
-  if (!directory) return {};
+  if (!directory) {
+    return {};
+  }
   const std::vector<std::filesystem::path> snapshots = snapshots_in(*directory);
-  if (snapshots.empty()) return {};
+  if (snapshots.empty()) {
+    return {};
+  }
   judge_snapshot(snapshots.back(), name, CounterDirectory::of_session(name), {"launch trace record_snapshot"});
   return snapshots.back().string();
 }

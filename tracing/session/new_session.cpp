@@ -26,13 +26,17 @@ std::string recording_directory(const TraceConfig& config) {
   }
   for (int number = 1;; ++number) {
     const std::filesystem::path appended = directory / fmt::format("appended-{}", number);
-    if (!std::filesystem::exists(appended)) return appended.string();
+    if (!std::filesystem::exists(appended)) {
+      return appended.string();
+    }
   }
 }
 
 int create(const TraceConfig& config, const std::string& directory) {
   const std::string name = config.lttng_session_name();
-  if (config.records_snapshots()) return lttng_create_session_snapshot(name.c_str(), nullptr);
+  if (config.records_snapshots()) {
+    return lttng_create_session_snapshot(name.c_str(), nullptr);
+  }
   if (config.live_timer != 0) {
     return lttng_create_session_live(name.c_str(), config.destination().c_str(), config.live_timer);
   }
@@ -43,7 +47,9 @@ int create(const TraceConfig& config, const std::string& directory) {
 
 NewSession::NewSession(const TraceConfig& config) : name_(config.lttng_session_name()) {
   const std::string directory = config.over_network() ? "" : recording_directory(config);
-  if (!std::filesystem::exists(directory)) directory_ = directory;
+  if (!std::filesystem::exists(directory)) {
+    directory_ = directory;
+  }
   const int result = create(config, directory);
   if (result == -LTTNG_ERR_EXIST_SESS) {
     throw TraceError(fmt::format("trace session '{}' exists already", name_),
@@ -53,7 +59,9 @@ NewSession::NewSession(const TraceConfig& config) : name_(config.lttng_session_n
 }
 
 NewSession::~NewSession() {
-  if (kept_) return;
+  if (kept_) {
+    return;
+  }
   if (directory_.empty()) {
     lttng_destroy_session_no_wait(name_.c_str());
     return;

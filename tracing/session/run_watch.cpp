@@ -81,7 +81,9 @@ void RunWatch::watch() {
 }
 
 void RunWatch::look_at_daemon() {
-  if (daemon_ == 0) return;
+  if (daemon_ == 0) {
+    return;
+  }
   const launch::ProcessStat daemon = launch::read_process_stat(daemon_);
   say(!runs(daemon, kDaemonName),
       fmt::format("the LTTng session daemon (process {}) has ended: nothing is recorded any more, and the trace ends "
@@ -94,10 +96,14 @@ void RunWatch::look_at_daemon() {
 }
 
 void RunWatch::look_at_consumers() {
-  if (!runs(launch::read_process_stat(daemon_), kDaemonName)) return;  // they end with it
+  if (!runs(launch::read_process_stat(daemon_), kDaemonName)) {
+    return;  // they end with it
+  }
   for (const pid_t consumer : consumers_) {
     const launch::ProcessStat process = launch::read_process_stat(consumer);
-    if (!runs(process, kConsumerName)) say(true, consumer_ended(consumer, daemon_));  // it never runs again
+    if (!runs(process, kConsumerName)) {
+      say(true, consumer_ended(consumer, daemon_));  // it never runs again
+    }
     say(is_stopped(process),
         fmt::format("LTTng's consumer (process {}) is stopped: events are lost when the buffers are full; continue it "
                     "with `kill -CONT {}`",
@@ -106,7 +112,9 @@ void RunWatch::look_at_consumers() {
 }
 
 void RunWatch::look_at_kernel_recorder() {
-  if (kernel_recorder_ == 0) return;
+  if (kernel_recorder_ == 0) {
+    return;
+  }
   // /proc has the first 15 bytes of the name.
   say(!runs(launch::read_process_stat(kernel_recorder_), std::string(kKernelRecorder).substr(0, 15)),
       fmt::format("the recorder of kernel events (process {}) has ended: kernel events are not recorded any more",
@@ -115,7 +123,9 @@ void RunWatch::look_at_kernel_recorder() {
 
 void RunWatch::look_at_room() {
   struct statvfs usage {};
-  if (directory_.empty() || statvfs(directory_.c_str(), &usage) != 0) return;
+  if (directory_.empty() || statvfs(directory_.c_str(), &usage) != 0) {
+    return;
+  }
   say(std::uint64_t{usage.f_bavail} * usage.f_frsize < kNoRoom,
       fmt::format("the file system of {} is full: events are lost from now on, also when there is room again; the "
                   "system goes on",
@@ -123,7 +133,9 @@ void RunWatch::look_at_room() {
 }
 
 void RunWatch::look_at_relay_daemon() {
-  if (!relay_) return;
+  if (!relay_) {
+    return;
+  }
   const RelayConnection::State state = relay_->look();
   say(state == RelayConnection::State::kEnded,
       fmt::format(
@@ -138,7 +150,9 @@ void RunWatch::look_at_relay_daemon() {
 
 void RunWatch::look_at_counters() {
   constexpr int kEvery = 10;  // looks
-  if (!counters_.empty() && ++looks_ % kEvery == 0) EventCounters::put_ended_processes_away(counters_);
+  if (!counters_.empty() && ++looks_ % kEvery == 0) {
+    EventCounters::put_ended_processes_away(counters_);
+  }
 }
 
 void RunWatch::say(bool is_so, const std::string& sentence) {

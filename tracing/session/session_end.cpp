@@ -44,7 +44,9 @@ void stop(const std::string& name) {
   // Takes 200 ms when applications have registered since the last stop: the consumer daemon then waits in steps of this
   // length for its own thread that writes the metadata.
   const int result = lttng_stop_tracing_no_wait(name.c_str());
-  if (result != -LTTNG_ERR_TRACE_ALREADY_STOPPED) check_lttng(result, fmt::format("stop trace session '{}'", name));
+  if (result != -LTTNG_ERR_TRACE_ALREADY_STOPPED) {
+    check_lttng(result, fmt::format("stop trace session '{}'", name));
+  }
 }
 
 }  // namespace
@@ -52,7 +54,9 @@ void stop(const std::string& name) {
 bool wait_for_data(const std::string& name, const std::function<bool()>& give_up) {
   const std::string doing = fmt::format("write the data of trace session '{}'", name);
   for (Polling data; check_lttng(lttng_data_pending(name.c_str()), doing) > 0; data.pause()) {
-    if (give_up && give_up()) return false;
+    if (give_up && give_up()) {
+      return false;
+    }
   }
   return true;
 }
@@ -75,7 +79,9 @@ LossAccount stop_and_account(const std::string& name, const std::function<bool()
 void destroy_session(const std::string& name, const std::function<bool()>& give_up) {
   check_lttng(lttng_destroy_session_no_wait(name.c_str()), fmt::format("destroy trace session '{}'", name));
   for (Polling gone; find_session(name).has_value(); gone.pause()) {
-    if (give_up && give_up()) break;
+    if (give_up && give_up()) {
+      break;
+    }
   }
 }
 
@@ -83,17 +89,25 @@ void destroy_rotated_session(const std::string& name, const std::function<bool()
   const std::string doing = fmt::format("destroy trace session '{}'", name);
   lttng_destruction_handle* destruction = nullptr;
   lttng_error_code result = lttng_destroy_session_ext(name.c_str(), &destruction);
-  if (result != LTTNG_OK) throw lttng_error(result, doing);
+  if (result != LTTNG_OK) {
+    throw lttng_error(result, doing);
+  }
   const std::unique_ptr<lttng_destruction_handle, void (*)(lttng_destruction_handle*)> owner(
       destruction, lttng_destruction_handle_destroy);
   lttng_destruction_handle_status status = LTTNG_DESTRUCTION_HANDLE_STATUS_TIMEOUT;
   while (status == LTTNG_DESTRUCTION_HANDLE_STATUS_TIMEOUT && !(give_up && give_up())) {
     status = lttng_destruction_handle_wait_for_completion(destruction, kGiveUpInterval.count());
   }
-  if (status == LTTNG_DESTRUCTION_HANDLE_STATUS_TIMEOUT) return;
+  if (status == LTTNG_DESTRUCTION_HANDLE_STATUS_TIMEOUT) {
+    return;
+  }
   result = LTTNG_ERR_NO_SESSIOND;  // the connection broke
-  if (status == LTTNG_DESTRUCTION_HANDLE_STATUS_COMPLETED) lttng_destruction_handle_get_result(destruction, &result);
-  if (result != LTTNG_OK) throw lttng_error(result, doing);
+  if (status == LTTNG_DESTRUCTION_HANDLE_STATUS_COMPLETED) {
+    lttng_destruction_handle_get_result(destruction, &result);
+  }
+  if (result != LTTNG_OK) {
+    throw lttng_error(result, doing);
+  }
 }
 
 }  // namespace tracing

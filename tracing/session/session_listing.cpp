@@ -28,7 +28,9 @@ std::vector<std::string> enabled_events(lttng_handle* handle, const char* channe
   std::vector<std::string> names;
   for (const lttng_event& event :
        LttngList<lttng_event>("list the events of a channel", lttng_list_events, handle, channel)) {
-    if (event.enabled != 0) names.emplace_back(event.name);
+    if (event.enabled != 0) {
+      names.emplace_back(event.name);
+    }
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -57,8 +59,12 @@ std::string process_name(int pid) {
                                                        &std::fclose);
       file) {
     std::array<char, 64> line{};
-    if (std::fgets(line.data(), line.size(), file.get()) != nullptr) name = line.data();
-    if (name.ends_with('\n')) name.pop_back();
+    if (std::fgets(line.data(), line.size(), file.get()) != nullptr) {
+      name = line.data();
+    }
+    if (name.ends_with('\n')) {
+      name.pop_back();
+    }
   }
   return fmt::format("{} {}", name, pid);
 }
@@ -67,11 +73,15 @@ std::vector<TraceableEvent> userspace_events() {
   const DomainHandle handle = domain_handle("", LTTNG_DOMAIN_UST);
   const LttngList<lttng_event> events("list the userspace events", lttng_list_tracepoints, handle.get());
   std::map<std::string, std::set<int>> processes;
-  for (const lttng_event& event : events) processes[event.name].insert(event.pid);
+  for (const lttng_event& event : events) {
+    processes[event.name].insert(event.pid);
+  }
   std::vector<TraceableEvent> traceable;
   for (const auto& [name, pids] : processes) {
     TraceableEvent event{.name = name, .processes = {}};
-    for (const int pid : pids) event.processes.push_back(process_name(pid));
+    for (const int pid : pids) {
+      event.processes.push_back(process_name(pid));
+    }
     traceable.push_back(std::move(event));
   }
   return traceable;
@@ -81,7 +91,9 @@ std::vector<TraceableEvent> userspace_events() {
 
 std::vector<SessionSummary> list_sessions() {
   check_daemon_not_stopped();
-  if (lttng_session_daemon_alive() != 1) return {};
+  if (lttng_session_daemon_alive() != 1) {
+    return {};
+  }
   std::vector<SessionSummary> summaries;
   for (lttng_session& session : LttngList<lttng_session>("list the trace sessions", lttng_list_sessions)) {
     std::uint64_t created = 0;
@@ -97,7 +109,9 @@ std::vector<SessionSummary> list_sessions() {
 
 std::optional<SessionSummary> find_session(const std::string& name) {
   for (SessionSummary& session : list_sessions()) {
-    if (session.name == name) return std::move(session);
+    if (session.name == name) {
+      return std::move(session);
+    }
   }
   return std::nullopt;
 }
@@ -112,7 +126,9 @@ SessionDetails describe_session(const std::string& name) {
   const LttngList<lttng_domain> domains(fmt::format("list the domains of session '{}'", name), lttng_list_domains,
                                         name.c_str());
   for (const lttng_domain& domain : domains) {
-    for (ChannelDetails& channel : channels_of(name, domain)) details.channels.push_back(std::move(channel));
+    for (ChannelDetails& channel : channels_of(name, domain)) {
+      details.channels.push_back(std::move(channel));
+    }
   }
   return details;
 }

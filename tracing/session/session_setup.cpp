@@ -51,18 +51,24 @@ std::vector<ChannelPlan> take_kernel_channels_without_modules(const TraceConfig&
     check_kernel_tracer();
   } catch (const TraceError& error) {
     // Relay daemons are LTTng's own.
-    if (!installed_program(kKernelRecorder) || geteuid() != 0 || config.over_network()) throw;
+    if (!installed_program(kKernelRecorder) || geteuid() != 0 || config.over_network()) {
+      throw;
+    }
     why = error.what();
   }
   if (why.empty()) {
     std::string unknown = drop_unknown_kernel_names(channels, kernel_event_names(), syscall_names());
-    if (!unknown.empty()) warnings.push_back(std::move(unknown));
+    if (!unknown.empty()) {
+      warnings.push_back(std::move(unknown));
+    }
     check_kernel_context_fields(channels, kernel_modules_version());
     return {};
   }
   std::vector<ChannelPlan> kernel;
   for (const ChannelPlan& channel : channels) {
-    if (channel.domain == LTTNG_DOMAIN_KERNEL) kernel.push_back(channel);
+    if (channel.domain == LTTNG_DOMAIN_KERNEL) {
+      kernel.push_back(channel);
+    }
   }
   check_kernel_recorder_fields(kernel);
   std::erase_if(channels, [](const ChannelPlan& channel) { return channel.domain == LTTNG_DOMAIN_KERNEL; });
@@ -99,7 +105,9 @@ void set_up(const TraceConfig& config, const std::vector<ChannelPlan>& channels,
         *installed_program(kKernelRecorder), session_name, recorder_directory(session_name), kernel,
         config.records_snapshots() ? KernelRecording::kSnapshots : KernelRecording::kEverything,
         consumers_of(session_daemon_pid()));
-    if (!unknown.empty()) report.warnings.push_back(std::move(unknown));
+    if (!unknown.empty()) {
+      report.warnings.push_back(std::move(unknown));
+    }
     timer.finished("kernel recorder");
   }
   session.keep();
@@ -109,10 +117,14 @@ void set_up(const TraceConfig& config, const std::vector<ChannelPlan>& channels,
 bool restart_unused_daemon() {
   constexpr std::chrono::seconds kSessionIsGone{2};
   constexpr std::chrono::milliseconds kPause{5};
-  if (!session_daemon_is_ours()) return false;
+  if (!session_daemon_is_ours()) {
+    return false;
+  }
   const auto give_up = std::chrono::steady_clock::now() + kSessionIsGone;  // LTTng tells nobody when it is
   while (!list_sessions().empty()) {
-    if (std::chrono::steady_clock::now() > give_up) return false;
+    if (std::chrono::steady_clock::now() > give_up) {
+      return false;
+    }
     std::this_thread::sleep_for(kPause);
   }
   restart_session_daemon();
@@ -142,7 +154,9 @@ SetupReport start_session(const TraceConfig& config) {
 
   report.started_daemon = ensure_session_daemon();
   timer.finished("session daemon");
-  for (std::string& warning : context_warnings(channels)) report.warnings.push_back(std::move(warning));
+  for (std::string& warning : context_warnings(channels)) {
+    report.warnings.push_back(std::move(warning));
+  }
   std::vector<ChannelPlan> through_tracefs;
   if (has_domain(channels, LTTNG_DOMAIN_KERNEL)) {
     through_tracefs = take_kernel_channels_without_modules(config, channels, report.warnings);
@@ -152,7 +166,9 @@ SetupReport start_session(const TraceConfig& config) {
   try {
     set_up(config, channels, through_tracefs, report, timer);
   } catch (const ConsumerEnded&) {
-    if (!restart_unused_daemon()) throw;
+    if (!restart_unused_daemon()) {
+      throw;
+    }
     report.warnings.emplace_back(
         "LTTng's consumer had been killed; the session daemon, which a launch had started, was restarted");
     timer.finished("session daemon again");

@@ -25,13 +25,17 @@ void save_session(const std::string& name, const std::string& directory) {
   const std::string doing = fmt::format("save trace session '{}'", name);
   const LttngOwned<lttng_save_session_attr> attributes(lttng_save_session_attr_create(),
                                                        lttng_save_session_attr_destroy);
-  if (!attributes) throw lttng_error(LTTNG_ERR_NOMEM, doing);
+  if (!attributes) {
+    throw lttng_error(LTTNG_ERR_NOMEM, doing);
+  }
   check_lttng(lttng_save_session_attr_set_session_name(attributes.get(), name.c_str()), doing);
   check_lttng(lttng_save_session_attr_set_overwrite(attributes.get(), 1), doing);
   if (!directory.empty()) {
     std::error_code error;
     std::filesystem::create_directories(directory, error);
-    if (error) throw TraceError(fmt::format("cannot {}: {}: {}", doing, directory, error.message()));
+    if (error) {
+      throw TraceError(fmt::format("cannot {}: {}: {}", doing, directory, error.message()));
+    }
     check_lttng(lttng_save_session_attr_set_output_url(attributes.get(), absolute(directory).c_str()), doing);
   }
   check_lttng(lttng_save_session(attributes.get()), doing);
@@ -41,7 +45,9 @@ void load_session(const std::string& name, const std::string& directory) {
   const std::string doing = fmt::format("load trace session '{}'", name);
   const LttngOwned<lttng_load_session_attr> attributes(lttng_load_session_attr_create(),
                                                        lttng_load_session_attr_destroy);
-  if (!attributes) throw lttng_error(LTTNG_ERR_NOMEM, doing);
+  if (!attributes) {
+    throw lttng_error(LTTNG_ERR_NOMEM, doing);
+  }
   check_lttng(lttng_load_session_attr_set_session_name(attributes.get(), name.c_str()), doing);
   if (!directory.empty()) {
     check_lttng(lttng_load_session_attr_set_input_url(attributes.get(), absolute(directory).c_str()), doing);

@@ -45,9 +45,13 @@ long number_of(const fs::path& snapshot) {
 void record(const std::string& name, bool clear) {
   check_lttng(lttng_snapshot_record(name.c_str(), nullptr, 0), fmt::format("record a snapshot of session '{}'", name));
   const std::optional<fs::path> directory = snapshot_directory(name);
-  if (!directory) return;
+  if (!directory) {
+    return;
+  }
   const std::vector<fs::path> snapshots = snapshots_in(*directory);
-  if (!snapshots.empty()) take_kernel_snapshot(*directory, snapshots.back(), clear);
+  if (!snapshots.empty()) {
+    take_kernel_snapshot(*directory, snapshots.back(), clear);
+  }
 }
 
 bool has_buffers_of_processes(const std::string& name) {
@@ -62,7 +66,9 @@ bool has_buffers_of_processes(const std::string& name) {
 void add_snapshot_output(const TraceConfig& config) {
   const std::string doing = fmt::format("add the output of snapshot session '{}'", config.lttng_session_name());
   const LttngOwned<lttng_snapshot_output> output(lttng_snapshot_output_create(), lttng_snapshot_output_destroy);
-  if (!output) throw lttng_error(LTTNG_ERR_NOMEM, doing);
+  if (!output) {
+    throw lttng_error(LTTNG_ERR_NOMEM, doing);
+  }
   check_lttng(lttng_snapshot_output_set_name(kSnapshotName, output.get()), doing);
   if (config.over_network()) {
     check_lttng(lttng_snapshot_output_set_network_url(config.url.c_str(), output.get()), doing);
@@ -78,14 +84,22 @@ void add_snapshot_output(const TraceConfig& config) {
 
 std::optional<fs::path> snapshot_directory(const std::string& name) {
   lttng_snapshot_output_list* listed = nullptr;
-  if (lttng_snapshot_list_output(name.c_str(), &listed) != 0) return std::nullopt;
+  if (lttng_snapshot_list_output(name.c_str(), &listed) != 0) {
+    return std::nullopt;
+  }
   const LttngOwned<lttng_snapshot_output_list> outputs(listed, lttng_snapshot_output_list_destroy);
   const lttng_snapshot_output* const output = lttng_snapshot_output_list_get_next(outputs.get());
-  if (output == nullptr) return std::nullopt;
+  if (output == nullptr) {
+    return std::nullopt;
+  }
   const std::string url = lttng_snapshot_output_get_ctrl_url(output);
-  if (url.starts_with('/')) return url;
+  if (url.starts_with('/')) {
+    return url;
+  }
   constexpr std::string_view kFile = "file://";
-  if (url.starts_with(kFile)) return url.substr(kFile.size());
+  if (url.starts_with(kFile)) {
+    return url.substr(kFile.size());
+  }
   return std::nullopt;
 }
 
@@ -103,7 +117,9 @@ std::vector<fs::path> snapshots_in(const fs::path& directory) {
 }
 
 std::string recorder_directory(const std::string& name) {
-  if (const auto snapshots = snapshot_directory(name)) return *snapshots;
+  if (const auto snapshots = snapshot_directory(name)) {
+    return *snapshots;
+  }
   const std::optional<SessionSummary> session = find_session(name);
   return session ? session->path : "";
 }

@@ -15,35 +15,49 @@ namespace launch_trace_testing {
 namespace {
 
 std::string fields_text(const EventClass& event_class) {
-  if (event_class.fields.empty()) return "no field";
+  if (event_class.fields.empty()) {
+    return "no field";
+  }
   return fmt::format("{}", fmt::join(event_class.fields, ", "));
 }
 
 }  // namespace
 
 std::optional<std::uint64_t> Value::unsigned_integer() const {
-  if (const auto* const number = std::get_if<std::uint64_t>(&data)) return *number;
+  if (const auto* const number = std::get_if<std::uint64_t>(&data)) {
+    return *number;
+  }
   const auto whole = integer();
   return whole && *whole >= 0 ? std::optional(static_cast<std::uint64_t>(*whole)) : std::nullopt;
 }
 
 std::optional<std::int64_t> Value::integer() const {
-  if (const auto* const number = std::get_if<std::int64_t>(&data)) return *number;
-  if (const auto* const enumeration = std::get_if<Enumeration>(&data)) return enumeration->number;
+  if (const auto* const number = std::get_if<std::int64_t>(&data)) {
+    return *number;
+  }
+  if (const auto* const enumeration = std::get_if<Enumeration>(&data)) {
+    return enumeration->number;
+  }
   const auto* const number = std::get_if<std::uint64_t>(&data);
   return number != nullptr && std::in_range<std::int64_t>(*number) ? std::optional(static_cast<std::int64_t>(*number))
                                                                    : std::nullopt;
 }
 
 std::optional<double> Value::real() const {
-  if (const auto* const number = std::get_if<double>(&data)) return *number;
-  if (const auto* const number = std::get_if<std::uint64_t>(&data)) return static_cast<double>(*number);
+  if (const auto* const number = std::get_if<double>(&data)) {
+    return *number;
+  }
+  if (const auto* const number = std::get_if<std::uint64_t>(&data)) {
+    return static_cast<double>(*number);
+  }
   const auto whole = integer();
   return whole ? std::optional(static_cast<double>(*whole)) : std::nullopt;
 }
 
 std::optional<std::string_view> Value::text() const {
-  if (const auto* const string = std::get_if<std::string>(&data)) return *string;
+  if (const auto* const string = std::get_if<std::string>(&data)) {
+    return *string;
+  }
   const auto* const enumeration = std::get_if<Enumeration>(&data);
   return enumeration != nullptr && !enumeration->label.empty() ? std::optional<std::string_view>(enumeration->label)
                                                                : std::nullopt;
@@ -63,12 +77,16 @@ std::string to_string(const Value& value) {
     }
     std::string operator()(const Value::Array& elements) const {
       std::vector<std::string> texts;
-      for (const Value& element : elements) texts.push_back(to_string(element));
+      for (const Value& element : elements) {
+        texts.push_back(to_string(element));
+      }
       return fmt::format("({})", fmt::join(texts, " "));
     }
     std::string operator()(const Value::Structure& members) const {
       std::vector<std::string> texts;
-      for (const Value::Member& member : members) texts.push_back(member.name + "=" + to_string(member.value));
+      for (const Value::Member& member : members) {
+        texts.push_back(member.name + "=" + to_string(member.value));
+      }
       return fmt::format("({})", fmt::join(texts, " "));
     }
   };
@@ -80,13 +98,17 @@ const Value* Event::find(std::string_view field) const {
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), field) - names.begin());
   };
   const std::size_t index = index_in(class_->fields);
-  if (index < class_->fields.size()) return &values_[index];
+  if (index < class_->fields.size()) {
+    return &values_[index];
+  }
   const std::size_t context = index_in(class_->contexts);
   return context < class_->contexts.size() ? &values_[class_->fields.size() + context] : nullptr;
 }
 
 const Value& Event::at(std::string_view field) const {
-  if (const Value* const value = find(field)) return *value;
+  if (const Value* const value = find(field)) {
+    return *value;
+  }
   throw std::out_of_range(fmt::format("{} has no field '{}'; it has {}", name(), field, fields_text(*class_)));
 }
 
@@ -101,19 +123,25 @@ namespace {
 
 std::uint64_t Event::handle(std::string_view field) const {
   const auto value = at(field).unsigned_integer();
-  if (!value) fail_kind(*this, field, "handle");
+  if (!value) {
+    fail_kind(*this, field, "handle");
+  }
   return *value;
 }
 
 std::int64_t Event::number(std::string_view field) const {
   const auto value = at(field).integer();
-  if (!value) fail_kind(*this, field, "integer of 64 bits with a sign");
+  if (!value) {
+    fail_kind(*this, field, "integer of 64 bits with a sign");
+  }
   return *value;
 }
 
 const std::string& Event::text(std::string_view field) const {
   const auto* const value = std::get_if<std::string>(&at(field).data);
-  if (value == nullptr) fail_kind(*this, field, "text");
+  if (value == nullptr) {
+    fail_kind(*this, field, "text");
+  }
   return *value;
 }
 

@@ -32,7 +32,9 @@ double distance_of(const Value& held, const Value& wanted) {
   }
   const auto a = held.real();
   const auto b = wanted.real();
-  if (!a || !b) return to_string(held) == to_string(wanted) ? 0 : kOtherKind;
+  if (!a || !b) {
+    return to_string(held) == to_string(wanted) ? 0 : kOtherKind;
+  }
   // Integers are compared as such: a real number does not hold 64 bits.
   const auto same = [](const auto& x, const auto& y) { return x && y && *x == *y; };
   const bool reals = std::holds_alternative<double>(held.data) || std::holds_alternative<double>(wanted.data);
@@ -46,29 +48,45 @@ double distance_of(const Value& held, const Value& wanted) {
 // The value at a path, as the language of conditions sees it.
 std::optional<tracing::FieldContent> content_at(const Event& event, const tracing::FieldPath& path) {
   if (path.rest.empty()) {
-    if (path.first == "procname") return tracing::FieldContent{std::string_view(event.procname()), {}};
+    if (path.first == "procname") {
+      return tracing::FieldContent{std::string_view(event.procname()), {}};
+    }
     const auto context = [](std::int64_t number) {
       return number < 0 ? std::nullopt : std::optional(tracing::FieldContent{number, {}});
     };
-    if (path.first == "vpid") return context(event.vpid());
-    if (path.first == "vtid") return context(event.vtid());
-    if (path.first == "cpu_id") return context(event.cpu_id());
+    if (path.first == "vpid") {
+      return context(event.vpid());
+    }
+    if (path.first == "vtid") {
+      return context(event.vtid());
+    }
+    if (path.first == "cpu_id") {
+      return context(event.cpu_id());
+    }
   }
   const Value* value = event.find(path.first);
   for (const tracing::FieldPath::Part& part : path.rest) {
-    if (value == nullptr) return std::nullopt;
+    if (value == nullptr) {
+      return std::nullopt;
+    }
     const Value* found = nullptr;
     if (const auto* const index = std::get_if<std::size_t>(&part)) {
       const Value::Array* const elements = value->array();
-      if (elements != nullptr && *index < elements->size()) found = &(*elements)[*index];
+      if (elements != nullptr && *index < elements->size()) {
+        found = &(*elements)[*index];
+      }
     } else if (const auto* const members = std::get_if<Value::Structure>(&value->data)) {
       for (const Value::Member& member : *members) {
-        if (member.name == std::get<std::string>(part)) found = &member.value;
+        if (member.name == std::get<std::string>(part)) {
+          found = &member.value;
+        }
       }
     }
     value = found;
   }
-  if (value == nullptr) return std::nullopt;
+  if (value == nullptr) {
+    return std::nullopt;
+  }
   struct Content {
     tracing::FieldContent operator()(std::uint64_t number) const { return {number, {}}; }
     tracing::FieldContent operator()(std::int64_t number) const { return {number, {}}; }
@@ -76,7 +94,9 @@ std::optional<tracing::FieldContent> content_at(const Event& event, const tracin
     tracing::FieldContent operator()(const std::string& text) const { return {std::string_view(text), {}}; }
     tracing::FieldContent operator()(const Value::Enumeration& enumeration) const {
       tracing::FieldContent content{enumeration.number, {}};
-      if (!enumeration.label.empty()) content.label = enumeration.label;
+      if (!enumeration.label.empty()) {
+        content.label = enumeration.label;
+      }
       return content;
     }
     tracing::FieldContent operator()(const Value::Array& array) const {
@@ -139,7 +159,9 @@ EventQuery& EventQuery::where(std::string_view expression) & {
 EventQuery& EventQuery::in_process(std::string_view process) & {
   std::int64_t vpid = 0;
   const auto [end, error] = std::from_chars(process.data(), process.data() + process.size(), vpid);
-  if (error == std::errc() && end == process.data() + process.size()) return in_process(vpid);
+  if (error == std::errc() && end == process.data() + process.size()) {
+    return in_process(vpid);
+  }
   const bool is_pattern = process.find_first_of("*?") != std::string_view::npos;
   const std::string name(is_pattern ? process : process.substr(0, kProcnameLength));
   return add(fmt::format("in process '{}'", name), {}, [name](const Event& event) {
@@ -202,7 +224,9 @@ bool EventQuery::matches(const Event& event) const {
 std::vector<const Event*> EventQuery::select(const Trace& trace) const {
   std::vector<const Event*> found;
   for (const Event& event : trace) {
-    if (matches(event)) found.push_back(&event);
+    if (matches(event)) {
+      found.push_back(&event);
+    }
   }
   return found;
 }

@@ -25,16 +25,22 @@ struct Cells {
 std::string fields_cell(const TableRow& row, const std::vector<std::string>& first, std::size_t width) {
   std::vector<std::string> names;
   for (const std::string& name : first) {
-    if (row.event->find(name) != nullptr) names.push_back(name);
+    if (row.event->find(name) != nullptr) {
+      names.push_back(name);
+    }
   }
   for (const std::string& name : row.event->event_class().fields) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+      names.push_back(name);
+    }
   }
   std::string text = row.note;
   for (const std::string& name : names) {
     const std::string field = fmt::format("{}{}={}", text.empty() ? "" : " ", name, to_string(row.event->at(name)));
     const bool is_wanted = std::find(first.begin(), first.end(), name) != first.end();
-    if (!is_wanted && text.size() + field.size() > width) return text + " ...";
+    if (!is_wanted && text.size() + field.size() > width) {
+      return text + " ...";
+    }
     text += field;
   }
   return text;
@@ -42,7 +48,9 @@ std::string fields_cell(const TableRow& row, const std::vector<std::string>& fir
 
 std::string process_text(const Event& event) {
   const std::string name = event.procname().empty() ? "?" : event.procname();
-  if (event.vtid() == event.vpid()) return fmt::format("{}[{}]", name, event.vpid());
+  if (event.vtid() == event.vpid()) {
+    return fmt::format("{}[{}]", name, event.vpid());
+  }
   return fmt::format("{}[{}/{}]", name, event.vpid(), event.vtid());
 }
 
@@ -50,7 +58,9 @@ std::string process_text(const Event& event) {
 std::vector<std::size_t> shown_rows(std::size_t count) {
   std::vector<std::size_t> shown;
   for (std::size_t i = 0; i < count; ++i) {
-    if (count <= kMostRows || i < kMostRows / 2 || i >= count - kMostRows / 2) shown.push_back(i);
+    if (count <= kMostRows || i < kMostRows / 2 || i >= count - kMostRows / 2) {
+      shown.push_back(i);
+    }
   }
   return shown;
 }
@@ -62,7 +72,9 @@ Distance distance_from(const EventQuery& query, const Event& event) {
   Distance distance{0, 0};
   for (const EventQuery::Condition& condition : query.conditions()) {
     const double one = condition.distance(event);
-    if (one == 0) continue;
+    if (one == 0) {
+      continue;
+    }
     ++distance.first;
     distance.second += one;
   }
@@ -82,10 +94,16 @@ std::string note_of(const EventQuery& query, const Event& event) {
 
 std::string names_text(const Trace& trace, const EventQuery& query) {
   std::map<std::string, std::size_t> counts;
-  for (const Event& event : trace) ++counts[event.name()];
-  if (counts.empty()) return "\nthe trace has no events";
+  for (const Event& event : trace) {
+    ++counts[event.name()];
+  }
+  if (counts.empty()) {
+    return "\nthe trace has no events";
+  }
   std::vector<std::string> names;
-  for (const auto& [name, count] : counts) names.push_back(name);
+  for (const auto& [name, count] : counts) {
+    names.push_back(name);
+  }
   const std::string nearest = launch::nearest_name(query.name(), names);
   if (!nearest.empty()) {
     return fmt::format("\nthe trace has no event of this name; did you mean '{}' ({} of them)?", nearest,
@@ -95,7 +113,9 @@ std::string names_text(const Trace& trace, const EventQuery& query) {
   constexpr std::size_t kMostNames = 12;
   std::size_t shown = 0;
   for (const auto& [name, count] : counts) {
-    if (++shown > kMostNames) return text + fmt::format("\n  ... and {} more names", counts.size() - kMostNames);
+    if (++shown > kMostNames) {
+      return text + fmt::format("\n  ... and {} more names", counts.size() - kMostNames);
+    }
     text += fmt::format("\n  {:>7} {}", count, name);
   }
   return text;
@@ -114,7 +134,9 @@ std::string event_table(const Trace& trace, const std::vector<TableRow>& rows, c
   std::string text;
   std::size_t next = 0;
   for (const std::size_t i : shown) {
-    if (i != next) text += fmt::format("\n  ... {} more", i - next);
+    if (i != next) {
+      text += fmt::format("\n  ... {} more", i - next);
+    }
     next = i + 1;
     const Event& event = *rows[i].event;
     std::string line = fmt::format("  {}  {:<{}}  {:<{}}  ", relative_time(trace, event.time_ns()), process_text(event),
@@ -129,7 +151,9 @@ std::string event_table(const Trace& trace, const std::vector<TableRow>& rows, c
 std::vector<TableRow> nearest_events(const Trace& trace, const EventQuery& query) {
   std::vector<std::pair<Distance, const Event*>> candidates;
   for (const Event& event : trace) {
-    if (query.matches_name(event)) candidates.emplace_back(distance_from(query, event), &event);
+    if (query.matches_name(event)) {
+      candidates.emplace_back(distance_from(query, event), &event);
+    }
   }
   // Of those that are equally near, the first ones.
   const auto nearer = [](const auto& a, const auto& b) {
@@ -142,13 +166,17 @@ std::vector<TableRow> nearest_events(const Trace& trace, const EventQuery& query
   std::sort(candidates.begin(), candidates.end(),
             [](const auto& a, const auto& b) { return a.second->position() < b.second->position(); });
   std::vector<TableRow> rows;
-  for (const auto& [distance, event] : candidates) rows.push_back({event, note_of(query, *event)});
+  for (const auto& [distance, event] : candidates) {
+    rows.push_back({event, note_of(query, *event)});
+  }
   return rows;
 }
 
 std::string nearest_text(const Trace& trace, const EventQuery& query) {
   const std::vector<TableRow> rows = nearest_events(trace, query);
-  if (rows.empty()) return names_text(trace, query);
+  if (rows.empty()) {
+    return names_text(trace, query);
+  }
   return "\nnearest events:" + event_table(trace, rows, fields_of(query));
 }
 
@@ -156,7 +184,9 @@ std::vector<std::string> fields_of(const EventQuery& query) {
   std::vector<std::string> names;
   for (const EventQuery::Condition& condition : query.conditions()) {
     for (const std::string& field : condition.fields) {
-      if (std::find(names.begin(), names.end(), field) == names.end()) names.push_back(field);
+      if (std::find(names.begin(), names.end(), field) == names.end()) {
+        names.push_back(field);
+      }
     }
   }
   return names;
@@ -173,7 +203,9 @@ std::string duration_text(std::int64_t ns) {
 }
 
 std::string counted(std::size_t count, const std::string& noun) {
-  if (count == 1) return "1 " + noun;
+  if (count == 1) {
+    return "1 " + noun;
+  }
   return fmt::format("{} {}", count, noun + (noun.ends_with("s") ? "es" : "s"));
 }
 

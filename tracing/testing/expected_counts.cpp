@@ -18,7 +18,9 @@ namespace {
 
 std::string quoted(const std::vector<std::string>& names) {
   std::vector<std::string> texts;
-  for (const std::string& name : names) texts.push_back("'" + name + "'");
+  for (const std::string& name : names) {
+    texts.push_back("'" + name + "'");
+  }
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
@@ -73,12 +75,18 @@ std::string kind_text(FieldKind kind, std::optional<std::size_t> length) {
 Verdict verdict_on_each(const Trace& trace, const EventQuery& all, const std::string& expected,
                         const std::function<bool(const Event&)>& holds, const std::vector<std::string>& fields) {
   const std::vector<const Event*> selected = all.select(trace);
-  if (selected.empty()) return {false, expected + "\n     saw: no such event" + nearest_text(trace, all)};
+  if (selected.empty()) {
+    return {false, expected + "\n     saw: no such event" + nearest_text(trace, all)};
+  }
   std::vector<TableRow> failed;
   for (const Event* const event : selected) {
-    if (!holds(*event)) failed.push_back({event});
+    if (!holds(*event)) {
+      failed.push_back({event});
+    }
   }
-  if (failed.empty()) return {true, fmt::format("{}\n     saw: {} of {}", expected, selected.size(), selected.size())};
+  if (failed.empty()) {
+    return {true, fmt::format("{}\n     saw: {} of {}", expected, selected.size(), selected.size())};
+  }
   return {false, fmt::format("{}\n     saw: {} of {} without it:{}", expected, failed.size(), selected.size(),
                              event_table(trace, failed, fields))};
 }
@@ -92,11 +100,15 @@ Verdict expect_count(const Trace& trace, const EventQuery& query, Count count) {
   verdict.text = fmt::format("expected: {} {}\n     saw: {} of {}", count_text(count), query.describe(),
                              found.empty() ? "none" : std::to_string(found.size()), counted(trace.size(), "event"));
   if (found.empty()) {
-    if (!verdict.holds) verdict.text += nearest_text(trace, query);
+    if (!verdict.holds) {
+      verdict.text += nearest_text(trace, query);
+    }
     return verdict;
   }
   std::vector<TableRow> rows;
-  for (const Event* const event : found) rows.push_back({event});
+  for (const Event* const event : found) {
+    rows.push_back({event});
+  }
   verdict.text += event_table(trace, rows, fields_of(query));
   return verdict;
 }
@@ -126,36 +138,54 @@ Verdict expect_field(const Trace& trace, const EventQuery& query, const std::str
 Verdict expect_event_names(const Trace& trace, const std::vector<std::string>& names, const std::string& among) {
   std::map<std::string, std::size_t> counts;
   for (const Event& event : trace) {
-    if (tracing::matches_pattern(among, event.name())) ++counts[event.name()];
+    if (tracing::matches_pattern(among, event.name())) {
+      ++counts[event.name()];
+    }
   }
   std::vector<std::string> missing;
   std::vector<std::string> others;
   for (const std::string& name : names) {
-    if (!counts.contains(name)) missing.push_back(name);
+    if (!counts.contains(name)) {
+      missing.push_back(name);
+    }
   }
   for (const auto& [name, count] : counts) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) others.push_back(name);
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+      others.push_back(name);
+    }
   }
   Verdict verdict{missing.empty() && others.empty(),
                   fmt::format("expected: events of exactly {}{}\n     saw: {}", counted(names.size(), "name"),
                               among == "*" ? "" : fmt::format(" among '{}'", among), counted(counts.size(), "name"))};
-  if (!missing.empty()) verdict.text += "\n missing: " + quoted(missing);
-  if (!others.empty()) verdict.text += "\n  others: " + quoted(others);
+  if (!missing.empty()) {
+    verdict.text += "\n missing: " + quoted(missing);
+  }
+  if (!others.empty()) {
+    verdict.text += "\n  others: " + quoted(others);
+  }
   return verdict;
 }
 
 Verdict expect_processes(const Trace& trace, const std::vector<std::string>& names) {
   std::vector<std::string> missing;
   for (const std::string& name : names) {
-    if (EventQuery("").in_process(std::string_view(name)).first(trace) == nullptr) missing.push_back(name);
+    if (EventQuery("").in_process(std::string_view(name)).first(trace) == nullptr) {
+      missing.push_back(name);
+    }
   }
   std::map<std::string, std::size_t> counts;
-  for (const Event& event : trace) ++counts[fmt::format("{}[{}]", event.procname(), event.vpid())];
+  for (const Event& event : trace) {
+    ++counts[fmt::format("{}[{}]", event.procname(), event.vpid())];
+  }
   std::string seen;
-  for (const auto& [name, count] : counts) seen += fmt::format("{}{} ({})", seen.empty() ? "" : ", ", name, count);
+  for (const auto& [name, count] : counts) {
+    seen += fmt::format("{}{} ({})", seen.empty() ? "" : ", ", name, count);
+  }
   Verdict verdict{missing.empty(), fmt::format("expected: events of {}\n     saw: {}", quoted(names),
                                                seen.empty() ? "no events" : seen)};
-  if (!missing.empty()) verdict.text += "\n missing: " + quoted(missing);
+  if (!missing.empty()) {
+    verdict.text += "\n missing: " + quoted(missing);
+  }
   return verdict;
 }
 
@@ -165,7 +195,9 @@ Verdict expect_matching_field(const Trace& trace, const Event& event, const std:
   EventQuery wanted = other;
   wanted.with(name, event.at(field));
   for (const Event* const found : wanted.select(trace)) {
-    if (found->position() == event.position()) continue;
+    if (found->position() == event.position()) {
+      continue;
+    }
     return {true, fmt::format("expected: {} of {} in another event\n     saw:{}", field, event.name(),
                               event_table(trace, {{&event}, {found}}, {field, name}))};
   }
@@ -178,11 +210,17 @@ Verdict expect_no_loss(const Trace& trace) {
   for (const Loss& loss : trace.losses()) {
     const std::string count = loss.count ? std::to_string(*loss.count) : "some";
     text += fmt::format("\n  {} {} lost", count, loss.whole_packets ? "packets" : "events");
-    if (loss.begin_ns != 0) text += fmt::format(" from {}", relative_time(trace, loss.begin_ns));
-    if (loss.end_ns != 0) text += fmt::format(" to {}", relative_time(trace, loss.end_ns));
+    if (loss.begin_ns != 0) {
+      text += fmt::format(" from {}", relative_time(trace, loss.begin_ns));
+    }
+    if (loss.end_ns != 0) {
+      text += fmt::format(" to {}", relative_time(trace, loss.end_ns));
+    }
     text += fmt::format(" in {}", std::filesystem::path(loss.stream).filename().string());
   }
-  for (const std::string& damage : trace.damage()) text += "\n  damaged: " + damage;
+  for (const std::string& damage : trace.damage()) {
+    text += "\n  damaged: " + damage;
+  }
   return {!trace.empty() && trace.losses().empty() && trace.damage().empty(), text};
 }
 

@@ -23,28 +23,50 @@ bool is_chosen(const CallbackChoice& choice, const CallbackRun& run) {
 
 std::string describe(const CallbackChoice& choice) {
   std::string text = choice.timers_only ? "timer callback" : "callback";
-  if (!choice.node.empty()) text += " of node '" + choice.node + "'";
-  if (!choice.topic.empty()) text += " of topic '" + choice.topic + "'";
-  if (!choice.service.empty()) text += " of service '" + choice.service + "'";
-  if (!choice.symbol.empty()) text += " with '" + choice.symbol + "' in its name";
+  if (!choice.node.empty()) {
+    text += " of node '" + choice.node + "'";
+  }
+  if (!choice.topic.empty()) {
+    text += " of topic '" + choice.topic + "'";
+  }
+  if (!choice.service.empty()) {
+    text += " of service '" + choice.service + "'";
+  }
+  if (!choice.symbol.empty()) {
+    text += " with '" + choice.symbol + "' in its name";
+  }
   return text;
 }
 
 std::string identity(const CallbackRun& run) {
   std::string text = run.node.empty() ? "?" : run.node;
-  if (!run.topic.empty()) text += " topic " + run.topic;
-  if (!run.service.empty()) text += " service " + run.service;
-  if (run.is_timer) text += " timer of " + duration_text(run.period_ns);
-  if (!run.symbol.empty()) text += " " + run.symbol;
+  if (!run.topic.empty()) {
+    text += " topic " + run.topic;
+  }
+  if (!run.service.empty()) {
+    text += " service " + run.service;
+  }
+  if (run.is_timer) {
+    text += " timer of " + duration_text(run.period_ns);
+  }
+  if (!run.symbol.empty()) {
+    text += " " + run.symbol;
+  }
   return text;
 }
 
 std::string other_callbacks(const Trace& trace) {
   std::map<std::string, std::size_t> counts;
-  for (const CallbackRun& run : trace.callbacks()) ++counts[identity(run)];
-  if (counts.empty()) return "\nthe trace has no callbacks";
+  for (const CallbackRun& run : trace.callbacks()) {
+    ++counts[identity(run)];
+  }
+  if (counts.empty()) {
+    return "\nthe trace has no callbacks";
+  }
   std::string text = "\nthe callbacks of the trace:";
-  for (const auto& [name, count] : counts) text += fmt::format("\n  {:>7} {}", count, name);
+  for (const auto& [name, count] : counts) {
+    text += fmt::format("\n  {:>7} {}", count, name);
+  }
   return text;
 }
 
@@ -62,7 +84,9 @@ Verdict verdict_on_callbacks(const Trace& trace, const std::string& expected, co
                              Bounds bounds) {
   Verdict verdict = verdict_on_samples(expected, samples, bounds,
                                        [&](const std::vector<Sample>& worst) { return callback_table(trace, worst); });
-  if (samples.empty()) verdict.text += other_callbacks(trace);
+  if (samples.empty()) {
+    verdict.text += other_callbacks(trace);
+  }
   return verdict;
 }
 
@@ -80,7 +104,9 @@ Verdict expect_callback_duration(const Trace& trace, const CallbackChoice& callb
   std::vector<Sample> samples;
   for (std::size_t i = 0; i < trace.callbacks().size(); ++i) {
     const CallbackRun& run = trace.callbacks()[i];
-    if (run.finished && is_chosen(callbacks, run)) samples.push_back({run.end_ns - run.start_ns, i});
+    if (run.finished && is_chosen(callbacks, run)) {
+      samples.push_back({run.end_ns - run.start_ns, i});
+    }
   }
   const std::string expected = fmt::format("each {} takes {}", describe(callbacks), bounds_text(duration));
   return verdict_on_callbacks(trace, expected, samples, duration);
@@ -91,9 +117,13 @@ Verdict expect_callback_period(const Trace& trace, const CallbackChoice& callbac
   std::vector<Sample> samples;
   for (std::size_t i = 0; i < trace.callbacks().size(); ++i) {
     const CallbackRun& run = trace.callbacks()[i];
-    if (!is_chosen(callbacks, run)) continue;
+    if (!is_chosen(callbacks, run)) {
+      continue;
+    }
     const auto [last, is_first] = last_starts.try_emplace({run.vpid, identity(run)}, run.start_ns);
-    if (!is_first) samples.push_back({run.start_ns - last->second, i});
+    if (!is_first) {
+      samples.push_back({run.start_ns - last->second, i});
+    }
     last->second = run.start_ns;
   }
   const std::string expected = fmt::format("from each {} to the next one {}", describe(callbacks), bounds_text(period));
@@ -110,8 +140,12 @@ Verdict expect_period(const Trace& trace, const EventQuery& query, Bounds period
   Verdict verdict = verdict_on_samples(expected, samples, period, [&](const std::vector<Sample>& worst) {
     return event_rows(trace, worst, fields_of(query));
   });
-  if (events.empty()) verdict.text += nearest_text(trace, query);
-  if (events.size() == 1) verdict.text += event_table(trace, {{events.front(), "[the only one]"}}, fields_of(query));
+  if (events.empty()) {
+    verdict.text += nearest_text(trace, query);
+  }
+  if (events.size() == 1) {
+    verdict.text += event_table(trace, {{events.front(), "[the only one]"}}, fields_of(query));
+  }
   return verdict;
 }
 
@@ -125,14 +159,18 @@ Verdict expect_duration(const Trace& trace, const EventQuery& begin, const Event
       samples.push_back({event.time_ns() - open->second->time_ns(), open->second->position()});
       begun.erase(open);
     }
-    if (begin.matches(event)) begun.try_emplace(thread, &event);
+    if (begin.matches(event)) {
+      begun.try_emplace(thread, &event);
+    }
   }
   const std::string expected = fmt::format("from each {} to the next {} of its thread {}", begin.describe(),
                                            end.describe(), bounds_text(duration));
   Verdict verdict = verdict_on_samples(expected, samples, duration, [&](const std::vector<Sample>& worst) {
     return event_rows(trace, worst, fields_of(begin));
   });
-  if (samples.empty()) verdict.text += nearest_text(trace, begin.first(trace) == nullptr ? begin : end);
+  if (samples.empty()) {
+    verdict.text += nearest_text(trace, begin.first(trace) == nullptr ? begin : end);
+  }
   return verdict;
 }
 

@@ -43,27 +43,37 @@ constexpr std::chrono::seconds kEndPatience{30};  // from SIGINT to SIGKILL
 fs::path make_directory() {
   const char* const parent = ::getenv("TMPDIR");
   std::string name = (fs::path(parent != nullptr && *parent != '\0' ? parent : "/tmp") / "launch-run-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::generic_category(), "cannot make " + name);
+  if (::mkdtemp(name.data()) == nullptr) {
+    throw std::system_error(errno, std::generic_category(), "cannot make " + name);
+  }
   return name;
 }
 
 // `launch` of the installation that this code belongs to, if it is part of one.
 fs::path neighbour_program() {
   Dl_info info;
-  if (::dladdr(reinterpret_cast<void*>(&neighbour_program), &info) == 0 || info.dli_fname == nullptr) return {};
+  if (::dladdr(reinterpret_cast<void*>(&neighbour_program), &info) == 0 || info.dli_fname == nullptr) {
+    return {};
+  }
   std::error_code ignored;
   // A library is in lib, a module of Python some folders below.
   fs::path folder = fs::canonical(info.dli_fname, ignored);
   while (folder.has_relative_path()) {
     folder = folder.parent_path();
-    if (fs::path program = folder / "bin" / "launch"; fs::exists(program, ignored)) return program;
+    if (fs::path program = folder / "bin" / "launch"; fs::exists(program, ignored)) {
+      return program;
+    }
   }
   return {};
 }
 
 fs::path launch_program(const RunOptions& options) {
-  if (!options.launch_program.empty()) return options.launch_program;
-  if (const char* const given = ::getenv("LAUNCH_PROGRAM"); given != nullptr && *given != '\0') return given;
+  if (!options.launch_program.empty()) {
+    return options.launch_program;
+  }
+  if (const char* const given = ::getenv("LAUNCH_PROGRAM"); given != nullptr && *given != '\0') {
+    return given;
+  }
   const fs::path neighbour = neighbour_program();
   return neighbour.empty() ? fs::path("launch") : neighbour;
 }
@@ -75,7 +85,9 @@ std::string read_file(const fs::path& path) {
 
 launch::UniqueFd new_file(const fs::path& path) {
   launch::UniqueFd file(::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
-  if (!file) throw std::system_error(errno, std::generic_category(), "cannot write " + path.string());
+  if (!file) {
+    throw std::system_error(errno, std::generic_category(), "cannot write " + path.string());
+  }
   return file;
 }
 
@@ -86,7 +98,9 @@ std::set<std::int64_t> started_processes(const std::string& out) {
   std::istringstream lines(out);
   std::smatch match;
   for (std::string line; std::getline(lines, line);) {
-    if (std::regex_match(line, match, pattern)) processes.insert(std::stoll(match[1]));
+    if (std::regex_match(line, match, pattern)) {
+      processes.insert(std::stoll(match[1]));
+    }
   }
   return processes;
 }
@@ -125,7 +139,9 @@ struct LaunchRun::State {
     environment["ROS_LOG_DIR"] = (directory / "log").string();
     environment["ROS_TRACE_DIR"] = traces.string();
     environment[launch::kSessionSuffixVariable] = suffix;
-    for (const auto& [name, value] : options.environment) environment[name] = value;
+    for (const auto& [name, value] : options.environment) {
+      environment[name] = value;
+    }
     const launch::UniqueFd out_file = new_file(out());
     const launch::UniqueFd err_file = new_file(err());
     ::inotify_add_watch(changes.get(), out().c_str(), IN_MODIFY);
@@ -146,13 +162,17 @@ struct LaunchRun::State {
   // Waits for the end of the launcher, or for output if `for_output`. False when the time is over.
   bool wait_until(Clock::time_point end, bool for_output) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
-    if (left <= 0) return false;
+    if (left <= 0) {
+      return false;
+    }
     pollfd descriptors[] = {{pidfd.get(), POLLIN, 0}, {changes.get(), POLLIN, 0}};
     if (::poll(descriptors, for_output ? 2 : 1, static_cast<int>(std::min<std::int64_t>(left, 1'000'000))) < 0) {
       return errno == EINTR;
     }
     char events[4096];
-    while (for_output && ::read(changes.get(), events, sizeof events) > 0) continue;
+    while (for_output && ::read(changes.get(), events, sizeof events) > 0) {
+      continue;
+    }
     return true;
   }
 
@@ -164,22 +184,32 @@ struct LaunchRun::State {
   // Waits for the end; false when the time is over.
   bool ends_before(Clock::time_point end) {
     while (is_running()) {
-      if (!wait_until(end, false)) return !is_running();
+      if (!wait_until(end, false)) {
+        return !is_running();
+      }
     }
     return true;
   }
 
   void end_gently() {
     ::kill(pid, SIGINT);
-    if (!ends_before(Clock::now() + kEndPatience)) ::kill(pid, SIGKILL);
+    if (!ends_before(Clock::now() + kEndPatience)) {
+      ::kill(pid, SIGKILL);
+    }
   }
 
   RunResult reap() {
-    if (has_ended) return result;
+    if (has_ended) {
+      return result;
+    }
     const int status = launch::wait_for(pid);
     has_ended = true;
-    if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
-    if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
+    if (WIFEXITED(status)) {
+      result.exit_code = WEXITSTATUS(status);
+    }
+    if (WIFSIGNALED(status)) {
+      result.signal = WTERMSIG(status);
+    }
     result.out = read_file(out());
     result.err = read_file(err());
     return result;
@@ -203,7 +233,9 @@ LaunchRun::~LaunchRun() {
     state_->reap();
   }
   std::error_code ignored;
-  if (!state_->keeps) fs::remove_all(state_->directory, ignored);
+  if (!state_->keeps) {
+    fs::remove_all(state_->directory, ignored);
+  }
 }
 
 RunResult LaunchRun::wait() {
@@ -215,7 +247,9 @@ RunResult LaunchRun::wait() {
 }
 
 RunResult LaunchRun::stop() {
-  if (!state_->has_ended && state_->is_running()) state_->end_gently();
+  if (!state_->has_ended && state_->is_running()) {
+    state_->end_gently();
+  }
   return state_->reap();
 }
 
@@ -224,8 +258,12 @@ bool LaunchRun::wait_for_output(const std::string& text) {
   const auto is_there = [&] { return out().find(text) != std::string::npos || err().find(text) != std::string::npos; };
   for (;;) {
     const bool running = state_->is_running();  // first, so that no output is missed
-    if (is_there()) return true;
-    if (!running || !state_->wait_until(end, true)) return is_there();
+    if (is_there()) {
+      return true;
+    }
+    if (!running || !state_->wait_until(end, true)) {
+      return is_there();
+    }
   }
 }
 
@@ -238,7 +276,9 @@ std::string LaunchRun::err() const {
 }
 
 Trace LaunchRun::trace() const {
-  if (!state_->has_ended) throw TraceError("the run has not ended; call wait() or stop() first");
+  if (!state_->has_ended) {
+    throw TraceError("the run has not ended; call wait() or stop() first");
+  }
   const bool is_ours = !state_->options.events.empty();
   const fs::path directory = is_ours ? state_->traces / state_->session : state_->traces;
   if (!fs::exists(directory) || fs::is_empty(directory)) {
@@ -246,14 +286,18 @@ Trace LaunchRun::trace() const {
                                  state_->result.exit_code, last_lines(state_->result.out),
                                  last_lines(state_->result.err)));
   }
-  if (!is_ours || state_->options.all_processes) return Trace(directory);
+  if (!is_ours || state_->options.all_processes) {
+    return Trace(directory);
+  }
 
   // The session records every program of the user. The launcher says which of them the run has started. Its own events
   // tell its process; they are missing if the session daemon was too busy to register it before its end.
   std::set<std::int64_t> processes = started_processes(state_->result.out);
   const Trace launchers(directory, {.accepts = [](const Event& event) { return event.name() == "launch:load"; }});
   const Event* const load = event("launch:load").with("file", state_->file.string()).first(launchers);
-  if (load != nullptr) processes.insert(load->vpid());
+  if (load != nullptr) {
+    processes.insert(load->vpid());
+  }
   return Trace(directory, {.accepts = [&](const Event& event) { return processes.contains(event.vpid()); }});
 }
 

@@ -8,10 +8,18 @@
 namespace launch_trace_testing {
 
 std::string count_text(Count count) {
-  if (count.most == 0) return "no";
-  if (count.least == count.most) return fmt::format("exactly {}", count.least);
-  if (count.most == Count{}.most) return fmt::format("at least {}", count.least);
-  if (count.least == 0) return fmt::format("at most {}", count.most);
+  if (count.most == 0) {
+    return "no";
+  }
+  if (count.least == count.most) {
+    return fmt::format("exactly {}", count.least);
+  }
+  if (count.most == Count{}.most) {
+    return fmt::format("at least {}", count.least);
+  }
+  if (count.least == 0) {
+    return fmt::format("at most {}", count.most);
+  }
   return fmt::format("{} to {}", count.least, count.most);
 }
 

@@ -19,12 +19,16 @@ std::int64_t excess(const Sample& sample, Bounds bounds) {
 
 Verdict verdict_on_samples(const std::string& expected, const std::vector<Sample>& samples, Bounds bounds,
                            const std::function<std::string(const std::vector<Sample>&)>& show) {
-  if (samples.empty()) return {false, fmt::format("expected: {}\n     saw: none", expected)};
+  if (samples.empty()) {
+    return {false, fmt::format("expected: {}\n     saw: none", expected)};
+  }
   std::vector<std::int64_t> sorted;
   std::vector<Sample> outside;
   for (const Sample& sample : samples) {
     sorted.push_back(sample.ns);
-    if (sample.ns < bounds.least.count() || sample.ns > bounds.most.count()) outside.push_back(sample);
+    if (sample.ns < bounds.least.count() || sample.ns > bounds.most.count()) {
+      outside.push_back(sample);
+    }
   }
   std::sort(sorted.begin(), sorted.end());
   std::string text = fmt::format("expected: {}\n     saw: {} of {} outside; least {}, median {}, most {}", expected,
@@ -37,7 +41,9 @@ Verdict verdict_on_samples(const std::string& expected, const std::vector<Sample
   if (!holds) {
     const auto worse = [&](const Sample& a, const Sample& b) { return excess(a, bounds) > excess(b, bounds); };
     std::stable_sort(outside.begin(), outside.end(), worse);
-    if (outside.size() > kMostRows) outside.resize(kMostRows);
+    if (outside.size() > kMostRows) {
+      outside.resize(kMostRows);
+    }
     std::sort(outside.begin(), outside.end(), [](const Sample& a, const Sample& b) { return a.item < b.item; });
     text += "\nworst:" + show(outside);
   }

@@ -54,7 +54,9 @@ std::int64_t Trace::end_ns() const {
 
 std::string to_string(const Trace& trace) {
   std::set<std::pair<std::string, std::int64_t>> processes;
-  for (const Event& event : trace) processes.emplace(event.host(), event.vpid());
+  for (const Event& event : trace) {
+    processes.emplace(event.host(), event.vpid());
+  }
   return fmt::format("a trace with {} of {}", counted(trace.size(), "event"), counted(processes.size(), "process"));
 }
 

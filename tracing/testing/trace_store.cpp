@@ -16,7 +16,9 @@ Value value_of(const tracing::FieldValue& field) {
   Value value;
   if (field.is_enumeration()) {
     Value::Enumeration enumeration{field.integer().value_or(0), {}};
-    if (const auto label = field.enumeration_label()) enumeration.label = *label;
+    if (const auto label = field.enumeration_label()) {
+      enumeration.label = *label;
+    }
     value.data = std::move(enumeration);
   } else if (const auto number = field.unsigned_integer()) {
     value.data = *number;
@@ -37,7 +39,9 @@ Value value_of(const tracing::FieldValue& field) {
     value.data = std::move(members);
   } else {
     Value::Array elements;
-    for (std::size_t i = 0; i < field.size(); ++i) elements.push_back(value_of(field[i]));
+    for (std::size_t i = 0; i < field.size(); ++i) {
+      elements.push_back(value_of(field[i]));
+    }
     value.data = std::move(elements);
   }
   return value;
@@ -71,7 +75,9 @@ TraceStore::TraceStore(const std::vector<std::filesystem::path>& paths, const Re
         continue;
       }
       Event event = stored(*item.event, host_of(reader, *item.event->event_class));
-      if (options.accepts && !options.accepts(event)) continue;
+      if (options.accepts && !options.accepts(event)) {
+        continue;
+      }
       event.position_ = events.size();
       events.push_back(std::move(event));
       analysis.on_event(*item.event);
@@ -96,7 +102,9 @@ void TraceStore::set_class(Event& stored, const tracing::EventClass& event_class
     EventClass known{event_class.name, host, event_class.fields, {}};
     for (std::size_t i = 0; i < event_class.contexts.size(); ++i) {
       const std::string& context = event_class.contexts[i];
-      if (context == "vpid" || context == "vtid" || context == "procname") continue;
+      if (context == "vpid" || context == "vtid" || context == "procname") {
+        continue;
+      }
       known.contexts.push_back(context);
       contexts_[event_class.id].push_back(i);
     }
@@ -120,8 +128,12 @@ Event TraceStore::stored(const tracing::Event& event, const std::string& host) {
   stored.procname_ = known->second;
   const std::vector<std::size_t>& contexts = contexts_[event.event_class->id];
   stored.values_.reserve(event.event_class->fields.size() + contexts.size());
-  for (std::size_t i = 0; i < event.event_class->fields.size(); ++i) stored.values_.push_back(value_of(event.field(i)));
-  for (const std::size_t context : contexts) stored.values_.push_back(value_of(event.context(context)));
+  for (std::size_t i = 0; i < event.event_class->fields.size(); ++i) {
+    stored.values_.push_back(value_of(event.field(i)));
+  }
+  for (const std::size_t context : contexts) {
+    stored.values_.push_back(value_of(event.context(context)));
+  }
   return stored;
 }
 
@@ -134,8 +146,12 @@ void TraceStore::add_callbacks(const tracing::timeline::Timeline& timeline) {
     run.finished = instance.finished;
     if (instance.callback != kNone) {
       const tracing::timeline::Callback& callback = timeline.callbacks[instance.callback];
-      if (callback.node != kNone) run.node = timeline.nodes[callback.node].name;
-      if (callback.topic != kNone) run.topic = timeline.topics[callback.topic];
+      if (callback.node != kNone) {
+        run.node = timeline.nodes[callback.node].name;
+      }
+      if (callback.topic != kNone) {
+        run.topic = timeline.topics[callback.topic];
+      }
       run.service = callback.service;
       run.is_timer = callback.owner == tracing::CallbackResult::Owner::kTimer;
       run.period_ns = callback.period_ns;
@@ -157,8 +173,12 @@ void TraceStore::add_deliveries(const tracing::timeline::Timeline& timeline) {
   deliveries.reserve(timeline.messages.size());
   for (const tracing::timeline::Message& message : timeline.messages) {
     Delivery delivery;
-    if (message.topic != kNone) delivery.topic = timeline.topics[message.topic];
-    if (message.publisher != kNone) delivery.publisher = node_name(timeline.publishers[message.publisher].node);
+    if (message.topic != kNone) {
+      delivery.topic = timeline.topics[message.topic];
+    }
+    if (message.publisher != kNone) {
+      delivery.publisher = node_name(timeline.publishers[message.publisher].node);
+    }
     if (message.subscription != kNone) {
       delivery.subscriber = node_name(timeline.subscriptions[message.subscription].node);
     }

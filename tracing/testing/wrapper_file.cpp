@@ -41,13 +41,17 @@ std::string attribute(const std::string& text) {
 // One word of a command line that is split as a shell splits it.
 std::string quoted_word(const std::string& word) {
   std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\"'\"'") : std::string(1, c);
+  for (const char c : word) {
+    quoted += c == '\'' ? std::string("'\"'\"'") : std::string(1, c);
+  }
   return quoted + "'";
 }
 
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + quoted_word(word);
+  for (const std::string& word : words) {
+    text += (text.empty() ? "" : " ") + quoted_word(word);
+  }
   return text;
 }
 

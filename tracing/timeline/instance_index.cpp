@@ -11,7 +11,9 @@ InstanceIndex::InstanceIndex(const std::vector<Instance>& instances, std::size_t
     std::vector<Index>& earlier = by_thread_[instances[id].thread];
     if (!earlier.empty()) {
       Index around = earlier.back();
-      while (around != kNone && instances[around].end_ns <= instances[id].start_ns) around = around_[around];
+      while (around != kNone && instances[around].end_ns <= instances[id].start_ns) {
+        around = around_[around];
+      }
       around_[id] = around;
     }
     earlier.push_back(static_cast<Index>(id));
@@ -28,7 +30,9 @@ Index InstanceIndex::last_until(Index thread, std::int64_t time_ns) const {
 
 Index InstanceIndex::running(Index thread, std::int64_t time_ns) const {
   Index id = last_until(thread, time_ns);
-  while (id != kNone && instances_[id].end_ns < time_ns) id = around_[id];
+  while (id != kNone && instances_[id].end_ns < time_ns) {
+    id = around_[id];
+  }
   return id;
 }
 

@@ -16,11 +16,19 @@ std::vector<GraphEdge> node_graph(const Timeline& timeline) {
   const auto edge = [&edges](const Endpoint& end, bool publishes) -> Traffic& {
     return edges[Key{end.node, end.topic, !publishes}];
   };
-  for (const Endpoint& publisher : timeline.publishers) edge(publisher, true);
-  for (const Endpoint& subscription : timeline.subscriptions) edge(subscription, false);
+  for (const Endpoint& publisher : timeline.publishers) {
+    edge(publisher, true);
+  }
+  for (const Endpoint& subscription : timeline.subscriptions) {
+    edge(subscription, false);
+  }
   for (const Message& message : timeline.messages) {
-    if (!message.repeated && message.publisher != kNone) ++edge(timeline.publishers[message.publisher], true).messages;
-    if (message.subscription == kNone) continue;
+    if (!message.repeated && message.publisher != kNone) {
+      ++edge(timeline.publishers[message.publisher], true).messages;
+    }
+    if (message.subscription == kNone) {
+      continue;
+    }
     Traffic& received = edge(timeline.subscriptions[message.subscription], false);
     ++received.messages;
     if (message.receiving_instance != kNone) {
@@ -30,7 +38,9 @@ std::vector<GraphEdge> node_graph(const Timeline& timeline) {
   std::vector<GraphEdge> graph;
   for (const auto& [key, traffic] : edges) {
     const auto& [node, topic, receives] = key;
-    if (node == kNone) continue;
+    if (node == kNone) {
+      continue;
+    }
     graph.push_back({node, topic, !receives, traffic.messages, traffic.latency.summary()});
   }
   return graph;

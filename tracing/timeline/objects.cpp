@@ -46,11 +46,21 @@ void copy_objects(const TraceAnalysis& analysis, Timeline& timeline) {
     const ProcessObject& process = analysis.processes()[id];
     timeline.processes.push_back({process.vpid.value_or(0), process.name, process.host, places[id]});
   }
-  for (const NodeObject& node : objects.nodes()) timeline.nodes.push_back({node.process, node.name});
-  for (const TopicObject& topic : objects.topics()) timeline.topics.push_back(topic.name);
-  for (const EndpointObject& end : objects.publishers()) timeline.publishers.push_back({end.node, end.topic});
-  for (const EndpointObject& end : objects.subscriptions()) timeline.subscriptions.push_back({end.node, end.topic});
-  for (const CallbackObject& object : objects.callbacks()) timeline.callbacks.push_back(callback_of(object, objects));
+  for (const NodeObject& node : objects.nodes()) {
+    timeline.nodes.push_back({node.process, node.name});
+  }
+  for (const TopicObject& topic : objects.topics()) {
+    timeline.topics.push_back(topic.name);
+  }
+  for (const EndpointObject& end : objects.publishers()) {
+    timeline.publishers.push_back({end.node, end.topic});
+  }
+  for (const EndpointObject& end : objects.subscriptions()) {
+    timeline.subscriptions.push_back({end.node, end.topic});
+  }
+  for (const CallbackObject& object : objects.callbacks()) {
+    timeline.callbacks.push_back(callback_of(object, objects));
+  }
 }
 
 }  // namespace tracing::timeline

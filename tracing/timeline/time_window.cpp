@@ -55,12 +55,16 @@ void keep_window(Timeline& timeline, std::int64_t begin_ns, std::int64_t end_ns)
   const std::size_t instances[] = {instances_before(timeline, begin_ns), instances_before(timeline, behind_ns)};
   const std::size_t messages[] = {messages_before(timeline, begin_ns), messages_before(timeline, behind_ns)};
   const auto moved = [](Index& reference, const std::size_t(&kept)[2]) {
-    if (reference == kNone) return;
+    if (reference == kNone) {
+      return;
+    }
     reference = reference < kept[0] || reference >= kept[1] ? kNone : static_cast<Index>(reference - kept[0]);
   };
   keep(timeline.instances, instances[0], std::max(instances[0], instances[1]));
   keep(timeline.messages, messages[0], std::max(messages[0], messages[1]));
-  for (Instance& instance : timeline.instances) moved(instance.message, messages);
+  for (Instance& instance : timeline.instances) {
+    moved(instance.message, messages);
+  }
   for (Message& message : timeline.messages) {
     moved(message.publishing_instance, instances);
     moved(message.receiving_instance, instances);
@@ -72,7 +76,9 @@ void keep_window(Timeline& timeline, std::int64_t begin_ns, std::int64_t end_ns)
 }
 
 std::int64_t end_of_first(const Timeline& timeline, std::size_t records) {
-  if (timeline.instances.size() + timeline.messages.size() + timeline.states.size() <= records) return timeline.end_ns;
+  if (timeline.instances.size() + timeline.messages.size() + timeline.states.size() <= records) {
+    return timeline.end_ns;
+  }
   std::int64_t low = timeline.begin_ns;
   std::int64_t high = timeline.end_ns;
   while (high - low > 1) {

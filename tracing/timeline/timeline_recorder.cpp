@@ -14,9 +14,13 @@ std::size_t TimelineRecorder::HashThreadId::operator()(const ThreadId& thread) c
 }
 
 Index TimelineRecorder::thread_of(const ThreadId& id) {
-  if (last_thread_ != kNone && id == last_thread_id_) return last_thread_;  // consecutive events often have one thread
+  if (last_thread_ != kNone && id == last_thread_id_) {
+    return last_thread_;  // consecutive events often have one thread
+  }
   const auto [found, is_new] = threads_.try_emplace(id, timeline_.threads.size());
-  if (is_new) timeline_.threads.push_back({id.process, id.vtid});
+  if (is_new) {
+    timeline_.threads.push_back({id.process, id.vtid});
+  }
   last_thread_id_ = id;
   last_thread_ = found->second;
   return last_thread_;
@@ -35,8 +39,12 @@ Message TimelineRecorder::message_of(const Publication& publication) {
   Message message;
   message.published_ns = publication.published_ns;
   message.called_ns = publication.published_ns;
-  if (publication.rcl_ns != 0) message.called_ns = publication.rcl_ns;
-  if (publication.rclcpp_ns != 0) message.called_ns = publication.rclcpp_ns;
+  if (publication.rcl_ns != 0) {
+    message.called_ns = publication.rcl_ns;
+  }
+  if (publication.rclcpp_ns != 0) {
+    message.called_ns = publication.rclcpp_ns;
+  }
   message.topic = publication.topic;
   message.publisher = publication.publisher;
   message.publishing_thread = thread_of(publication.thread);
@@ -49,7 +57,9 @@ void TimelineRecorder::on_publication(const Publication& publication) {
 
 // Without its publication a message has no place in the timeline.
 void TimelineRecorder::on_message(const MessageFlow& flow) {
-  if (flow.publication.publisher == kNoObject) return;
+  if (flow.publication.publisher == kNoObject) {
+    return;
+  }
   Flow told{message_of(flow.publication), flow.callback_begin_ns};
   told.message.subscription = flow.subscription;
   told.message.taking_thread = thread_of(flow.taking_thread);
@@ -58,19 +68,25 @@ void TimelineRecorder::on_message(const MessageFlow& flow) {
 }
 
 void TimelineRecorder::on_lifecycle_state(const LifecycleInterval& interval) {
-  if (interval.node == kNoObject) return;
+  if (interval.node == kNoObject) {
+    return;
+  }
   timeline_.lifecycle.push_back({interval.node, std::string(interval.state), interval.begin_ns, interval.end_ns});
 }
 
 void TimelineRecorder::on_thread_state(const ThreadInterval& interval) {
   const auto thread = threads_.find(interval.thread);
-  if (thread == threads_.end()) return;
+  if (thread == threads_.end()) {
+    return;
+  }
   Index other = kNone;
   if (!interval.other_name.empty()) {
     const auto next = static_cast<Index>(other_threads_.size());
     const auto [known, is_new] =
         other_threads_.try_emplace({interval.other_tid, std::string(interval.other_name)}, next);
-    if (is_new) timeline_.other_threads.push_back({interval.other_tid, std::string(interval.other_name)});
+    if (is_new) {
+      timeline_.other_threads.push_back({interval.other_tid, std::string(interval.other_name)});
+    }
     other = known->second;
   }
   timeline_.states.push_back({interval.begin_ns, interval.end_ns, thread->second, other,
@@ -95,7 +111,9 @@ void TimelineRecorder::join_messages() {
       taken = true;
       joined.push_back(*flow++);
     }
-    if (!taken) joined.push_back({publication, 0});
+    if (!taken) {
+      joined.push_back({publication, 0});
+    }
   }
   flows_ = std::move(joined);
 }

@@ -45,11 +45,17 @@ class Input {
   // Waits so long for input. Returns false at its end.
   bool look(milliseconds time) {
     pollfd readable{STDIN_FILENO, POLLIN, 0};
-    if (poll(&readable, 1, static_cast<int>(time.count())) <= 0) return true;
+    if (poll(&readable, 1, static_cast<int>(time.count())) <= 0) {
+      return true;
+    }
     std::array<char, 256> bytes{};
     const ssize_t count = read(STDIN_FILENO, bytes.data(), bytes.size());
-    if (count < 0) return errno == EINTR;
-    for (ssize_t i = 0; i < count; ++i) take(bytes[static_cast<std::size_t>(i)]);
+    if (count < 0) {
+      return errno == EINTR;
+    }
+    for (ssize_t i = 0; i < count; ++i) {
+      take(bytes[static_cast<std::size_t>(i)]);
+    }
     return count > 0;
   }
   std::size_t width() const { return width_; }
@@ -63,7 +69,9 @@ class Input {
     std::size_t width = 0;
     const auto [end, error] = std::from_chars(line_.data(), line_.data() + line_.size(), width);
     constexpr std::size_t kLeastWidth = 60;
-    if (error == std::errc() && width >= kLeastWidth) width_ = width;
+    if (error == std::errc() && width >= kLeastWidth) {
+      width_ = width;
+    }
     line_.clear();
   }
 
@@ -95,11 +103,15 @@ class Watch {
       nodes.catch_up();
       wait = state == LiveReader::State::kItem ? milliseconds(0) : kRetry;
       const Clock::duration since = Clock::now() - drawn;
-      if (since < kInterval) continue;
+      if (since < kInterval) {
+        continue;
+      }
       const double seconds = std::chrono::duration<double>(since).count();
       tracing::ReportOptions all = options();
       all.top = 0;
-      if (view_.events() > 0) tell("view", view_.screen(seconds, all));
+      if (view_.events() > 0) {
+        tell("view", view_.screen(seconds, all));
+      }
       view_.clear();
       drawn = Clock::now();
     }
@@ -109,8 +121,12 @@ class Watch {
     const Clock::time_point give_up = Clock::now() + kLongestEnd;
     while (Clock::now() < give_up) {
       const LiveReader::State state = read_some(reader, view_);
-      if (state == LiveReader::State::kEnd) return;
-      if (state == LiveReader::State::kNothingYet) poll(nullptr, 0, static_cast<int>(kRetry.count()));
+      if (state == LiveReader::State::kEnd) {
+        return;
+      }
+      if (state == LiveReader::State::kNothingYet) {
+        poll(nullptr, 0, static_cast<int>(kRetry.count()));
+      }
     }
   }
 

@@ -41,7 +41,9 @@ sockaddr_in local_address(std::uint16_t port) {
 
 launch::UniqueFd make_socket() {
   launch::UniqueFd made(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
-  if (!made) throw std::system_error(errno, std::generic_category(), "socket");
+  if (!made) {
+    throw std::system_error(errno, std::generic_category(), "socket");
+  }
   return made;
 }
 
@@ -64,19 +66,27 @@ bool accepts(std::uint16_t port) {
 
 std::string make_directory() {
   std::string name = (std::filesystem::temp_directory_path() / "launch-watch-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::generic_category(), "create " + name);
+  if (mkdtemp(name.data()) == nullptr) {
+    throw std::system_error(errno, std::generic_category(), "create " + name);
+  }
   return name;
 }
 
 // In the child: becomes the daemon, which ends when its parent does.
 [[noreturn]] void become(std::vector<std::string> words, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (getppid() != parent) _exit(0);
+  if (getppid() != parent) {
+    _exit(0);
+  }
   const int nothing = open("/dev/null", O_RDWR);
-  for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nothing, standard);
+  for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    dup2(nothing, standard);
+  }
   signal(SIGPIPE, SIG_DFL);
   std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
+  for (std::string& word : words) {
+    argv.push_back(word.data());
+  }
   argv.push_back(nullptr);
   execvp(argv[0], argv.data());
   _exit(kMissing);
@@ -86,8 +96,12 @@ std::string make_directory() {
 
 PrivateRelay::PrivateRelay() : directory_(make_directory()) {
   try {
-    for (int attempt = 1; pid_ < 0 && attempt <= kAttempts; ++attempt) start();
-    if (pid_ < 0) throw std::runtime_error("lttng-relayd ends as soon as it starts");
+    for (int attempt = 1; pid_ < 0 && attempt <= kAttempts; ++attempt) {
+      start();
+    }
+    if (pid_ < 0) {
+      throw std::runtime_error("lttng-relayd ends as soon as it starts");
+    }
   } catch (...) {
     end();
     throw;
@@ -101,20 +115,32 @@ PrivateRelay::~PrivateRelay() {
 void PrivateRelay::start() {
   {
     std::array<launch::UniqueFd, kPorts> sockets;
-    for (std::size_t i = 0; i < kPorts; ++i) ports_[i] = take_port(sockets[i] = make_socket());
+    for (std::size_t i = 0; i < kPorts; ++i) {
+      ports_[i] = take_port(sockets[i] = make_socket());
+    }
   }
   std::vector<std::string> words = {kProgram, "--output=" + directory_};
   const std::array<const char*, kPorts> options = {"--control-port", "--data-port", "--live-port"};
-  for (std::size_t i = 0; i < kPorts; ++i) words.push_back(fmt::format("{}=tcp://127.0.0.1:{}", options[i], ports_[i]));
+  for (std::size_t i = 0; i < kPorts; ++i) {
+    words.push_back(fmt::format("{}=tcp://127.0.0.1:{}", options[i], ports_[i]));
+  }
   const pid_t parent = getpid();
   pid_ = fork();
-  if (pid_ < 0) throw std::system_error(errno, std::generic_category(), "fork");
-  if (pid_ == 0) become(std::move(words), parent);
+  if (pid_ < 0) {
+    throw std::system_error(errno, std::generic_category(), "fork");
+  }
+  if (pid_ == 0) {
+    become(std::move(words), parent);
+  }
   while (!listens()) {
-    if (runs_for(kLook)) continue;
+    if (runs_for(kLook)) {
+      continue;
+    }
     const int status = launch::wait_for(pid_);
     pid_ = -1;
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != kMissing) return;
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != kMissing) {
+      return;
+    }
     throw std::runtime_error("there is no 'lttng-relayd' on this machine\n= help: install the package lttng-tools");
   }
 }
@@ -131,7 +157,9 @@ void PrivateRelay::end() {
   if (pid_ > 0) {
     constexpr std::chrono::seconds kLongestEnd{5};
     kill(pid_, SIGTERM);
-    if (runs_for(kLongestEnd)) kill(pid_, SIGKILL);
+    if (runs_for(kLongestEnd)) {
+      kill(pid_, SIGKILL);
+    }
     launch::wait_for(pid_);
   }
   std::error_code ignored;

@@ -57,7 +57,9 @@ void TracedNodes::start() {
   alive_ = std::move(input.write);
   problems_ = std::move(errors.read);
   // The answer to "press enter to start".
-  if (write(alive_.get(), "\n", 1) != 1) throw std::runtime_error("cannot start the session");
+  if (write(alive_.get(), "\n", 1) != 1) {
+    throw std::runtime_error("cannot start the session");
+  }
 }
 
 void TracedNodes::attach() {
@@ -65,17 +67,23 @@ void TracedNodes::attach() {
   while (!reader_.attach()) {
     if (!is_recorded_for(kRetry)) {
       std::string problem = launch::read_to_end(problems_);
-      while (problem.ends_with('\n')) problem.pop_back();
+      while (problem.ends_with('\n')) {
+        problem.pop_back();
+      }
       throw std::runtime_error(problem.empty() ? "the session has ended at once" : problem);
     }
-    if (Clock::now() > give_up) throw std::runtime_error("the relay daemon does not get the session");
+    if (Clock::now() > give_up) {
+      throw std::runtime_error("the relay daemon does not get the session");
+    }
   }
   catch_up();
 }
 
 // What is recorded before a viewer attaches is not read.
 void TracedNodes::catch_up() {
-  if (caught_up_ == reader_.late_attachments()) return;
+  if (caught_up_ == reader_.late_attachments()) {
+    return;
+  }
   caught_up_ = reader_.late_attachments();
   launch::wait_for(launch::spawn(
       {.program = "lttng",
@@ -91,7 +99,9 @@ bool TracedNodes::is_recorded_for(std::chrono::milliseconds time) const {
 
 void TracedNodes::end() {
   alive_.reset();
-  if (recorder_ < 0) return;
+  if (recorder_ < 0) {
+    return;
+  }
   launch::wait_for(recorder_);
   recorder_ = -1;
 }

@@ -56,13 +56,19 @@ void read_deadlines() noexcept {
 }
 
 void detail::note_callback_start() noexcept {
-  if (started.depth < started.times.size()) started.times[started.depth] = nanoseconds(CLOCK_MONOTONIC);
+  if (started.depth < started.times.size()) {
+    started.times[started.depth] = nanoseconds(CLOCK_MONOTONIC);
+  }
   ++started.depth;
 }
 
 void detail::check_callback(const void* callback) noexcept {
-  if (started.depth == 0) return;
-  if (--started.depth >= started.times.size()) return;
+  if (started.depth == 0) {
+    return;
+  }
+  if (--started.depth >= started.times.size()) {
+    return;
+  }
   const std::int64_t duration = nanoseconds(CLOCK_MONOTONIC) - started.times[started.depth];
   if (duration > callback_deadline) {
     lttng_ust_tracepoint(ros2_deadline, callback, callback, duration, callback_deadline);
@@ -75,7 +81,9 @@ void detail::note_message(const void* rmw_subscription_handle, const void* messa
 }
 
 void detail::check_message(const void* message) noexcept {
-  if (taken.message != message || taken.source_timestamp <= 0) return;
+  if (taken.message != message || taken.source_timestamp <= 0) {
+    return;
+  }
   const std::int64_t age = nanoseconds(CLOCK_REALTIME) - taken.source_timestamp;
   taken.source_timestamp = 0;
   if (age > message_deadline) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Opens the probes when libtracetools.so is loaded, or when the first session daemon starts if that is later. The
-/// probes are a separate library. So a process without a session daemon, and one that opts out
-/// (TRACETOOLS_RUNTIME_DISABLE=1), load neither lttng-ust nor its two threads.
+// Opens the probes when libtracetools.so is loaded, or when the first session daemon starts if that is later. The
+// probes are a separate library. So a process without a session daemon, and one that opts out
+// (TRACETOOLS_RUNTIME_DISABLE=1), load neither lttng-ust nor its two threads.
 #include "provider_loader.hpp"
 
 #include <dlfcn.h>
@@ -59,7 +59,9 @@ bool offer_state_dumps() {
   const bool offered = on_state_dump([](Session* session) {
     const bool first = session_reaches_process();
     const std::size_t dumped = ObjectState::instance().dump_to(session);
-    if (first) make_good(dumped);
+    if (first) {
+      make_good(dumped);
+    }
   });
   if (!offered && is_verbose()) {
     std::fputs("tracetools: this lttng-ust cannot ask for the state of objects: start sessions before processes\n",
@@ -85,9 +87,13 @@ bool load_provider() {
 
 void* load_provider_after(void* number) {
   static std::once_flag loaded;
-  if (!wait_for_daemon(static_cast<const std::int32_t*>(number))) return nullptr;
+  if (!wait_for_daemon(static_cast<const std::int32_t*>(number))) {
+    return nullptr;
+  }
   std::call_once(loaded, [] {
-    if (load_provider()) begin_state_dumps();
+    if (load_provider()) {
+      begin_state_dumps();
+    }
   });
   return nullptr;
 }
@@ -101,9 +107,13 @@ bool load_provider_later(const AwaitedDaemons& daemons) {
   bool started = true;
   for (const std::int32_t* const number : daemons) {
     pthread_t thread;
-    if (number == nullptr) continue;
+    if (number == nullptr) {
+      continue;
+    }
     started &= pthread_create(&thread, nullptr, &load_provider_after, const_cast<std::int32_t*>(number)) == 0;
-    if (started) pthread_detach(thread);
+    if (started) {
+      pthread_detach(thread);
+    }
   }
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
   return started;
@@ -140,10 +150,14 @@ bool can_load_later() {
     return;
   }
   begin_counting();
-  if (!offer_state_dumps()) session_reaches_process();  // it is unknown when a session does
+  if (!offer_state_dumps()) {
+    session_reaches_process();  // it is unknown when a session does
+  }
   const std::optional<AwaitedDaemons> daemons = can_load_later() ? awaited_daemons() : std::nullopt;
   traceable = (daemons && load_provider_later(*daemons)) || load_provider_now();
-  if (!traceable) return;
+  if (!traceable) {
+    return;
+  }
   count_missed_events();
   read_deadlines();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Tells whether a process that starts in this environment can be traced: exit status 0 if so, 1 if not.
+// Tells whether a process that starts in this environment can be traced: exit status 0 if so, 1 if not.
 #include <cstdio>
 
 #include "tracetools/tracetools.h"

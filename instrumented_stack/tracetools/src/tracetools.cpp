@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The functions of tracetools.h, one trio per row of events.h and events_ext.h, and the definitions of their
-/// tracepoints. The probes that write the records are in libtracetools_provider.so: see provider_loader.cpp.
+// The functions of tracetools.h, one trio per row of events.h and events_ext.h, and the definitions of their
+// tracepoints. The probes that write the records are in libtracetools_provider.so: see provider_loader.cpp.
 #include "tracetools/tracetools.h"
 
 // Some functions do not pass on every parameter (rclcpp_publish). Without tracepoints none does.
@@ -119,31 +119,32 @@ inline void fetch_followers<tracetools::event::rclcpp_executor_get_next_ready>()
   } else if (lttng_ust_tracepoint_enabled(provider, name)) { \
     record_##provider##_##name arguments;                    \
   }
-#define DEFINE_FUNCTIONS(prefix, provider, name, parameters, arguments)                      \
-  template <typename... Arguments>                                                           \
-  [[gnu::noinline]] static void watched_##provider##_##name(Arguments... values) {           \
-    if (lttng_ust_tracepoint_enabled(provider, name)) record_##provider##_##name(values...); \
-    watch<tracetools::event::name>(values...);                                               \
-  }                                                                                          \
-  [[gnu::hot]] void prefix##_##name parameters {                                             \
-    if constexpr (tracetools::is_init_event<tracetools::event::name>) {                      \
-      KEEP(provider, name, WITHOUT_PARENTHESES arguments)                                    \
-    } else {                                                                                 \
-      NOTE(name, WITHOUT_PARENTHESES arguments)                                              \
-      fetch_followers<tracetools::event::name>();                                            \
-      RECORD_IF_WANTED(provider, name, arguments)                                            \
-    }                                                                                        \
-  }                                                                                          \
-  bool prefix##_enabled_##name(void) {                                                       \
-    return IS_WANTED(name, lttng_ust_tracepoint_enabled(provider, name));                    \
-  }                                                                                          \
-  void prefix##_do_##name parameters {                                                       \
-    if constexpr (tracetools::is_init_event<tracetools::event::name>) {                      \
-      KEEP(provider, name, WITHOUT_PARENTHESES arguments)                                    \
-    } else {                                                                                 \
-      NOTE(name, WITHOUT_PARENTHESES arguments)                                              \
-      RECORD_IF_WANTED(provider, name, arguments)                                            \
-    }                                                                                        \
+#define DEFINE_FUNCTIONS(prefix, provider, name, parameters, arguments)            \
+  template <typename... Arguments>                                                 \
+  [[gnu::noinline]] static void watched_##provider##_##name(Arguments... values) { \
+    if (lttng_ust_tracepoint_enabled(provider, name))                              \
+      record_##provider##_##name(values...);                                       \
+    watch<tracetools::event::name>(values...);                                     \
+  }                                                                                \
+  [[gnu::hot]] void prefix##_##name parameters {                                   \
+    if constexpr (tracetools::is_init_event<tracetools::event::name>) {            \
+      KEEP(provider, name, WITHOUT_PARENTHESES arguments)                          \
+    } else {                                                                       \
+      NOTE(name, WITHOUT_PARENTHESES arguments)                                    \
+      fetch_followers<tracetools::event::name>();                                  \
+      RECORD_IF_WANTED(provider, name, arguments)                                  \
+    }                                                                              \
+  }                                                                                \
+  bool prefix##_enabled_##name(void) {                                             \
+    return IS_WANTED(name, lttng_ust_tracepoint_enabled(provider, name));          \
+  }                                                                                \
+  void prefix##_do_##name parameters {                                             \
+    if constexpr (tracetools::is_init_event<tracetools::event::name>) {            \
+      KEEP(provider, name, WITHOUT_PARENTHESES arguments)                          \
+    } else {                                                                       \
+      NOTE(name, WITHOUT_PARENTHESES arguments)                                    \
+      RECORD_IF_WANTED(provider, name, arguments)                                  \
+    }                                                                              \
   }
 
 #define DEFINE_EVENT(name, parameters, arguments) DEFINE_FUNCTIONS(ros_trace, ros2, name, parameters, arguments)

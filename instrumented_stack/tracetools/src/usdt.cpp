@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The functions of tracetools.h for tools that probe programs in user space. Each event is an SDT note of this library
-/// (`readelf -n`), which perf, bpftrace and SystemTap see. An unused probe is one `nop`.
-///
-/// The arguments of a probe are those of the C function. Such tools start sessions without the process noticing, so
-/// there is no state dump.
+// The functions of tracetools.h for tools that probe programs in user space. Each event is an SDT note of this library
+// (`readelf -n`), which perf, bpftrace and SystemTap see. An unused probe is one `nop`.
+//
+// The arguments of a probe are those of the C function. Such tools start sessions without the process noticing, so
+// there is no state dump.
 #include "tracetools/tracetools.h"
 
 // A counter per probe, which the tools raise while they use it. The functions ..._enabled_... read it.

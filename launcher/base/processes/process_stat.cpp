@@ -16,12 +16,16 @@ ProcessStat read_process_stat(pid_t pid) {
   std::getline(file, line);
   const std::size_t open = line.find('(');
   const std::size_t close = line.rfind(')');
-  if (open == std::string::npos || close == std::string::npos || close + 4 >= line.size()) return {};
+  if (open == std::string::npos || close == std::string::npos || close + 4 >= line.size()) {
+    return {};
+  }
   ProcessStat process{.name = line.substr(open + 1, close - open - 1)};
   std::istringstream fields(line.substr(close + 1));
   fields >> process.state >> process.parent;
   std::string field;
-  for (int i = 0; i < kFieldsBeforeStart; ++i) fields >> field;
+  for (int i = 0; i < kFieldsBeforeStart; ++i) {
+    fields >> field;
+  }
   fields >> process.started;
   return process;
 }

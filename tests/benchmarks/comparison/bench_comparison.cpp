@@ -24,7 +24,9 @@ constexpr int kCallbacks = 50;
 
 void run(const std::string& command) {
   const int status = std::system(command.c_str());
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw std::runtime_error("failed: " + command);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+    throw std::runtime_error("failed: " + command);
+  }
 }
 
 class Comparisons {
@@ -60,7 +62,9 @@ std::string name_of(int callback) {
 std::set<std::string> changed_callbacks(const json& comparison) {
   std::set<std::string> names;
   for (const json& change : comparison["changes"]) {
-    if (change["kind"] == "callback") names.insert(change["subject"]);
+    if (change["kind"] == "callback") {
+      names.insert(change["subject"]);
+    }
   }
   return names;
 }
@@ -74,8 +78,12 @@ void count(int pairs, int seconds) {
     const fs::path same = comparisons.record(fmt::format("run_{}", pair + 1), -1);
     const int slow = pair * 7 % kCallbacks;
     const fs::path changed = comparisons.record(fmt::format("slow_{}", pair), slow);
-    if (!comparisons.compare(before, same)["changes"].empty()) ++alarms;
-    if (changed_callbacks(comparisons.compare(before, changed)) == std::set{name_of(slow)}) ++found;
+    if (!comparisons.compare(before, same)["changes"].empty()) {
+      ++alarms;
+    }
+    if (changed_callbacks(comparisons.compare(before, changed)) == std::set{name_of(slow)}) {
+      ++found;
+    }
     fmt::print("pair {}: {} of {} with a change where there is none, exactly the slow callback found in {}\n", pair + 1,
                alarms, pair + 1, found);
     std::fflush(stdout);

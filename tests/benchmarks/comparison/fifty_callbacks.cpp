@@ -21,7 +21,9 @@ constexpr auto kPeriod = std::chrono::milliseconds(20);
 // The same number of steps each time, so that its duration varies as that of real work does.
 void work() {
   volatile std::uint64_t value = 1;
-  for (int step = 0; step < 20'000; ++step) value = value * 6364136223846793005 + 1442695040888963407;
+  for (int step = 0; step < 20'000; ++step) {
+    value = value * 6364136223846793005 + 1442695040888963407;
+  }
 }
 
 class Callbacks {
@@ -30,7 +32,9 @@ class Callbacks {
 
   void run(int number) const {
     work();
-    if (number == slow_) std::this_thread::sleep_for(longer_);
+    if (number == slow_) {
+      std::this_thread::sleep_for(longer_);
+    }
   }
 
  private:
@@ -42,7 +46,9 @@ class Callbacks {
 
 int main(int argc, char** argv) {
   rclcpp::init(argc, argv);
-  if (argc < 2) return 2;
+  if (argc < 2) {
+    return 2;
+  }
   const Callbacks callbacks(argc > 2 ? std::atoi(argv[2]) : -1,
                             std::chrono::milliseconds(argc > 3 ? std::atoi(argv[3]) : 2));
   rclcpp::executors::SingleThreadedExecutor timers;

@@ -59,14 +59,18 @@ double milliseconds(std::int64_t nanoseconds) {
 double mebibytes_of(pid_t pid) {
   std::ifstream maps(fmt::format("/proc/{}/smaps_rollup", pid));
   for (std::string line; std::getline(maps, line);) {
-    if (line.starts_with("Pss:")) return static_cast<double>(std::stol(line.substr(4))) / 1024;
+    if (line.starts_with("Pss:")) {
+      return static_cast<double>(std::stol(line.substr(4))) / 1024;
+    }
   }
   return 0;
 }
 
 void measure(Measured& measured, const char* program) {
   int pipe_ends[2];
-  if (pipe(pipe_ends) != 0) latency::fail("no pipe");
+  if (pipe(pipe_ends) != 0) {
+    latency::fail("no pipe");
+  }
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDOUT_FILENO);
@@ -75,13 +79,15 @@ void measure(Measured& measured, const char* program) {
   char* const argv[] = {const_cast<char*>(program), nullptr};
   const std::int64_t begin = now(CLOCK_MONOTONIC);
   pid_t pid = -1;
-  if (posix_spawn(&pid, program, &actions, nullptr, argv, environ) != 0)
+  if (posix_spawn(&pid, program, &actions, nullptr, argv, environ) != 0) {
     latency::fail(fmt::format("{} does not start", program));
+  }
   posix_spawn_file_actions_destroy(&actions);
   close(pipe_ends[1]);
   Ready ready{};
-  if (read(pipe_ends[0], &ready, sizeof ready) != sizeof ready)
+  if (read(pipe_ends[0], &ready, sizeof ready) != sizeof ready) {
     latency::fail(fmt::format("{} does not start", program));
+  }
   close(pipe_ends[0]);
   measured.to_main.values.push_back(milliseconds(ready.main_begun - begin));
   measured.to_ready.values.push_back(milliseconds(ready.ready - begin));

@@ -26,7 +26,9 @@ struct Ready {
 // To standard output.
 inline void tell_ready(std::int64_t main_begun) {
   const Ready ready = {main_begun, now(CLOCK_MONOTONIC), now(CLOCK_PROCESS_CPUTIME_ID)};
-  if (write(STDOUT_FILENO, &ready, sizeof ready) != sizeof ready) std::exit(EXIT_FAILURE);
+  if (write(STDOUT_FILENO, &ready, sizeof ready) != sizeof ready) {
+    std::exit(EXIT_FAILURE);
+  }
 }
 
 }  // namespace node_start

@@ -44,8 +44,12 @@ std::size_t write_trace(const std::filesystem::path& directory, std::size_t even
   });
   const auto write = [&](const testing::SequenceEvent& entry, std::int64_t later_ns) {
     ros2::AnyEvent event = entry.event;
-    if (auto* publish = std::get_if<ros2::RmwPublish>(&event)) publish->timestamp += later_ns;
-    if (auto* take = std::get_if<ros2::RmwTake>(&event)) take->source_timestamp += later_ns;
+    if (auto* publish = std::get_if<ros2::RmwPublish>(&event)) {
+      publish->timestamp += later_ns;
+    }
+    if (auto* take = std::get_if<ros2::RmwTake>(&event)) {
+      take->source_timestamp += later_ns;
+    }
     writer.write(entry.thread.vpid == testing::kPing.vpid ? 0 : 1, entry.time_ns + later_ns, entry.thread, event);
   };
   std::size_t written = 0;
@@ -98,7 +102,9 @@ std::uint64_t read_with_library(const std::string& trace) {
   std::uint64_t sum = 0;
   launch_trace::Reader reader(trace);
   for (const launch_trace::Item& item : reader) {
-    if (const auto* const event = item.event()) sum += sum_of_fields(*event, event->event_class().fields.size());
+    if (const auto* const event = item.event()) {
+      sum += sum_of_fields(*event, event->event_class().fields.size());
+    }
   }
   return sum;
 }
@@ -107,7 +113,9 @@ class DecodingSink : public TraceSink {
  public:
   std::size_t ros2_events = 0;
   void on_event(const Event& event) override {
-    if (decoder_.decode(event) != nullptr) ++ros2_events;
+    if (decoder_.decode(event) != nullptr) {
+      ++ros2_events;
+    }
   }
   void on_loss(const Loss&) override {}
 
@@ -118,7 +126,9 @@ class DecodingSink : public TraceSink {
 // CPU seconds of a command; its output is thrown away.
 double cpu_seconds_of(const std::vector<std::string>& command) {
   std::vector<char*> arguments;
-  for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
+  for (const std::string& argument : command) {
+    arguments.push_back(const_cast<char*>(argument.c_str()));
+  }
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -126,7 +136,9 @@ double cpu_seconds_of(const std::vector<std::string>& command) {
   pid_t child = 0;
   const int error = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) throw std::runtime_error(fmt::format("cannot run {}", command[0]));
+  if (error != 0) {
+    throw std::runtime_error(fmt::format("cannot run {}", command[0]));
+  }
   int status = 0;
   rusage usage{};
   if (wait4(child, &status, 0, &usage) != child || status != 0) {
@@ -159,7 +171,9 @@ void compare(const std::string& self, std::size_t events) {
       {"launch report --summary", {LAUNCH_REPORT, "--summary", trace}},
   };
   for (int round = 0; round < kRounds; ++round) {
-    for (Reader& reader : readers) reader.seconds.push_back(cpu_seconds_of(reader.command));
+    for (Reader& reader : readers) {
+      reader.seconds.push_back(cpu_seconds_of(reader.command));
+    }
   }
   fmt::print("{} events in 2 streams, with vpid, vtid and procname; CPU time, best of {}\n", events, kRounds);
   for (const Reader& reader : readers) {
@@ -167,7 +181,9 @@ void compare(const std::string& self, std::size_t events) {
                static_cast<double>(events) / reader.best() / 1e6, readers[0].best() / reader.best());
     const auto speeds = [&](const Reader& of) {
       std::vector<double> values;
-      for (const double seconds : of.seconds) values.push_back(static_cast<double>(events) / seconds / 1e6);
+      for (const double seconds : of.seconds) {
+        values.push_back(static_cast<double>(events) / seconds / 1e6);
+      }
       return values;
     };
     benchmarks::report({reader.name, "M events/s", speeds(reader), readers[0].name, speeds(readers[0]), true});
@@ -192,7 +208,9 @@ int main(int argc, char** argv) {
       TraceReader(argv[2]).read(sink);
       return sink.ros2_events > 0 ? EXIT_SUCCESS : EXIT_FAILURE;
     }
-    if (way == "--library") return read_with_library(argv[2]) > 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    if (way == "--library") {
+      return read_with_library(argv[2]) > 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    }
     if (way == "--count") {
       CountingSink sink;
       TraceReader(argv[2]).read(sink);

@@ -37,9 +37,13 @@ double thread_cpu_ns() {
 template <typename Step>
 void measure(benchmark::State& state, Step step) {
   const double begin = thread_cpu_ns();
-  for (auto _ : state) step();
+  for (auto _ : state) {
+    step();
+  }
   const double per_step = (thread_cpu_ns() - begin) / static_cast<double>(state.iterations());
-  if (floor_ns == 0) floor_ns = per_step;
+  if (floor_ns == 0) {
+    floor_ns = per_step;
+  }
   state.counters["of_floor"] = per_step / floor_ns;
   state.SetLabel(TRACETOOLS_TRACEPOINT_ENABLED(rcl_publish) ? "recorded" : "idle");
 }

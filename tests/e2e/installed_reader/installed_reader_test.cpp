@@ -52,7 +52,9 @@ TEST(InstalledReader, ServesAProjectThatFindsIt) {
   const std::string build_root = fs::path(READER_BUILD).parent_path().parent_path().string();
   int headers = 0;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(prefix)) {
-    if (!entry.is_regular_file() || entry.path().string().find(".so") != std::string::npos) continue;
+    if (!entry.is_regular_file() || entry.path().string().find(".so") != std::string::npos) {
+      continue;
+    }
     const std::string text = test_support::read_file(entry.path());
     EXPECT_EQ(text.find(build_root), std::string::npos) << entry.path() << " holds a path of the build";
     if (entry.path().extension() == ".hpp") {

@@ -146,7 +146,9 @@ message(STATUS "in the folder: '${builtin_interfaces_TARGETS}', ${builtin_interf
   // One line of the file, once for the function and once for the rest.
   const std::string line = "cmake_policy(PUSH )";
   int reads = 0;
-  for (auto at = configured.err.find(line); at != std::string::npos; at = configured.err.find(line, at + 1)) ++reads;
+  for (auto at = configured.err.find(line); at != std::string::npos; at = configured.err.find(line, at + 1)) {
+    ++reads;
+  }
   EXPECT_EQ(reads, 2) << configured.err;
 }
 
@@ -170,7 +172,9 @@ TEST_F(InstalledStack, HoldsNoPathOfTheBuild) {
   int files = 0;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(prefix_)) {
     const std::string extension = entry.path().extension().string();
-    if (extension != ".cmake" && extension != ".hpp" && extension != ".h" && extension != ".xml") continue;
+    if (extension != ".cmake" && extension != ".hpp" && extension != ".h" && extension != ".xml") {
+      continue;
+    }
     ++files;
     EXPECT_EQ(test_support::read_file(entry.path()).find(build_root), std::string::npos) << entry.path();
   }

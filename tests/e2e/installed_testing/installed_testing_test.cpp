@@ -38,7 +38,9 @@ TEST_F(InstalledTesting, HasNoPathOfTheBuildAndNoPrivateHeader) {
   const std::string build_root = fs::path(TESTING_BUILD).parent_path().parent_path().string();
   int headers = 0;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(prefix_)) {
-    if (!entry.is_regular_file() || entry.path().string().find(".so") != std::string::npos) continue;
+    if (!entry.is_regular_file() || entry.path().string().find(".so") != std::string::npos) {
+      continue;
+    }
     const std::string text = read_file(entry.path());
     EXPECT_THAT(text, Not(HasSubstr(build_root))) << entry.path();
     if (entry.path().extension() == ".hpp") {
@@ -71,7 +73,9 @@ TEST_F(InstalledTesting, ServesTheExampleInPython) {
                                                        {"PYTHONPATH", (prefix_ / PYTHON_MODULE_DESTINATION).string()},
                                                        {"PYTHONDONTWRITEBYTECODE", "1"}};
   const std::vector<std::string> import_pytest{PYTHON, "-c", "import pytest"};
-  if (run_command(import_pytest).exit_code != 0) GTEST_SKIP() << "pytest is not installed";
+  if (run_command(import_pytest).exit_code != 0) {
+    GTEST_SKIP() << "pytest is not installed";
+  }
   const CommandResult passed =
       run({.argv = {PYTHON, "-m", "pytest", "-p", "no:cacheprovider", kExample + "/test_ping_pong.py"},
            .environment = environment});

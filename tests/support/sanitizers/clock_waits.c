@@ -23,7 +23,9 @@ static struct timespec on_wall_clock(clockid_t clock, const struct timespec* dea
     wall.tv_nsec -= kNanosecondsPerSecond;
     ++wall.tv_sec;
   }
-  if (wall.tv_sec < 0) wall = (struct timespec){0, 0};  // long ago
+  if (wall.tv_sec < 0) {
+    wall = (struct timespec){0, 0};  // long ago
+  }
   return wall;
 }
 

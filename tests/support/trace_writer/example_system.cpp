@@ -64,7 +64,9 @@ class Example {
     write(kDisplay, us(8000), RclLifecycleTransition{kStateMachine, "configuring", "inactive"});
     write(kDisplay, us(9000), RclLifecycleTransition{kStateMachine, "inactive", "activating"});
     write(kDisplay, us(9500), RclLifecycleTransition{kStateMachine, "activating", "active"});
-    for (const Thread& thread : {kSensor, kFilter, kDisplay}) write(thread, us(10'000), RclcppExecutorGetNextReady{});
+    for (const Thread& thread : {kSensor, kFilter, kDisplay}) {
+      write(thread, us(10'000), RclcppExecutorGetNextReady{});
+    }
     switches(us(11'000), kFilter, 1, kIdle);
   }
 
@@ -94,7 +96,9 @@ class Example {
     publish(kFilter, points);
     finish(kFilter, filter + work);
     switches(filter + work + us(10), kFilter, 1, kIdle);
-    if (number % 50 == 49) return;
+    if (number % 50 == 49) {
+      return;
+    }
     take(kDisplay, points + us(150), points);
     write(kDisplay, points + us(200), CallbackStart{kCallback, false});
     finish(kDisplay, points + us(250));
@@ -110,10 +114,14 @@ class Example {
 
   // On the processor of kFilter.
   void switches(std::int64_t after, const Thread& previous, std::int64_t state, const Thread& next) {
-    if (has_scheduler_) scheduler_.switches(kCpu, kExampleBegin + after, previous, state, next);
+    if (has_scheduler_) {
+      scheduler_.switches(kCpu, kExampleBegin + after, previous, state, next);
+    }
   }
   void wakes(std::int64_t after, const Thread& woken) {
-    if (has_scheduler_) scheduler_.wakes(kCpu, kExampleBegin + after, kIdle, woken);
+    if (has_scheduler_) {
+      scheduler_.wakes(kCpu, kExampleBegin + after, kIdle, woken);
+    }
   }
 
   // The launcher started the process `after` nanoseconds after the begin. It is recorded right before the begin.
@@ -188,7 +196,9 @@ class Example {
 void write_example_system(const std::filesystem::path& directory, std::uint64_t cycles, ExampleEvents events) {
   Example example(directory, events);
   example.begin();
-  for (std::uint64_t number = 0; number < cycles; ++number) example.cycle(number);
+  for (std::uint64_t number = 0; number < cycles; ++number) {
+    example.cycle(number);
+  }
   example.end();
 }
 

@@ -24,13 +24,19 @@ class BitWriter {
   explicit BitWriter(bool big_endian) : big_endian_(big_endian) {}
 
   void align(std::uint32_t alignment) {
-    while (size_ % alignment != 0) bit(false);
+    while (size_ % alignment != 0) {
+      bit(false);
+    }
   }
   void number(std::uint64_t value, std::uint32_t bits) {
-    for (std::uint32_t i = 0; i < bits; ++i) bit(((value >> (big_endian_ ? bits - 1 - i : i)) & 1) != 0);
+    for (std::uint32_t i = 0; i < bits; ++i) {
+      bit(((value >> (big_endian_ ? bits - 1 - i : i)) & 1) != 0);
+    }
   }
   void text(const std::string& text) {
-    for (const char c : text) number(static_cast<std::uint8_t>(c), 8);
+    for (const char c : text) {
+      number(static_cast<std::uint8_t>(c), 8);
+    }
     number(0, 8);
   }
   std::uint64_t size() const { return size_; }
@@ -43,7 +49,9 @@ class BitWriter {
 
  private:
   void bit(bool set) {
-    if (size_ / 8 == bytes_.size()) bytes_.push_back('\0');
+    if (size_ / 8 == bytes_.size()) {
+      bytes_.push_back('\0');
+    }
     const auto mask = static_cast<char>(1U << (big_endian_ ? 7 - size_ % 8 : size_ % 8));
     char& byte = bytes_[size_ / 8];
     byte = static_cast<char>(set ? byte | mask : byte & ~mask);
@@ -72,13 +80,17 @@ class RandomTraceWriter {
     compact_ = below(2) == 0;
     clock_bits_ = compact_ ? 27 : 32;
     contexts_ = below(2) == 0;
-    for (std::uint64_t i = 0, count = 1 + below(6); i < count; ++i) events_.push_back(random_event());
+    for (std::uint64_t i = 0, count = 1 + below(6); i < count; ++i) {
+      events_.push_back(random_event());
+    }
     context_ = below(2) == 0 ? usual_contexts() : structure(1);
   }
 
   void write() {
     const std::size_t streams = 1 + below(3);
-    for (std::size_t stream = 0; stream < streams; ++stream) write_stream(stream);
+    for (std::size_t stream = 0; stream < streams; ++stream) {
+      write_stream(stream);
+    }
     std::ofstream(directory_ / "metadata") << metadata();
   }
 
@@ -141,7 +153,9 @@ class RandomTraceWriter {
               const std::uint64_t length = below(12);
               out.align(alignment);
               out.number(length, 16);
-              for (std::uint64_t i = 0; i < length; ++i) out.number('a' + below(26), 8);
+              for (std::uint64_t i = 0; i < length; ++i) {
+                out.number('a' + below(26), 8);
+              }
             }};
   }
 
@@ -151,7 +165,9 @@ class RandomTraceWriter {
             [this, length](BitWriter& out) {
               out.align(8);
               const std::uint64_t used = below(length + 1);
-              for (std::uint64_t i = 0; i < length; ++i) out.number(i < used ? 'x' : 0, 8);
+              for (std::uint64_t i = 0; i < length; ++i) {
+                out.number(i < used ? 'x' : 0, 8);
+              }
             }};
   }
 
@@ -173,14 +189,18 @@ class RandomTraceWriter {
     name_it(element.declaration, fmt::format("@[{}]", length));
     element.write = [length, alignment = element.alignment, each = element.write](BitWriter& out) {
       out.align(alignment);  // also when there are no elements
-      for (std::uint64_t i = 0; i < length; ++i) each(out);
+      for (std::uint64_t i = 0; i < length; ++i) {
+        each(out);
+      }
     };
     return element;
   }
 
   // A field before it holds its length.
   RandomField random_sequence(int depth) {
-    if (below(3) == 0) return random_text_sequence();
+    if (below(3) == 0) {
+      return random_text_sequence();
+    }
     RandomField element = random_field(depth - 1, false);
     const std::uint32_t alignment = number_alignment(32);
     name_it(element.declaration, fmt::format("@[ __length{} ]", lengths_));
@@ -190,7 +210,9 @@ class RandomTraceWriter {
       out.align(alignment);
       out.number(length, 32);
       out.align(of_elements);
-      for (std::uint64_t i = 0; i < length; ++i) each(out);
+      for (std::uint64_t i = 0; i < length; ++i) {
+        each(out);
+      }
     };
     element.alignment = std::max(element.alignment, alignment);
     return element;
@@ -198,7 +220,9 @@ class RandomTraceWriter {
 
   RandomField random_variant(int depth) {
     std::vector<RandomField> options;
-    for (std::uint64_t i = 0, count = 2 + below(2); i < count; ++i) options.push_back(random_field(depth - 1, false));
+    for (std::uint64_t i = 0, count = 2 + below(2); i < count; ++i) {
+      options.push_back(random_field(depth - 1, false));
+    }
     const std::uint32_t size = 8;
     std::string labels;
     std::string declarations;
@@ -248,15 +272,33 @@ class RandomTraceWriter {
     const std::uint64_t kinds = depth > 0 ? 10 : 6;
     for (;;) {
       const std::uint64_t kind = below(kinds);
-      if (kind <= 1) return random_integer();
-      if (kind == 2) return random_real();
-      if (kind == 3) return random_string();
-      if (kind == 5) return random_enumeration();
-      if (kind == 9) return random_structure(depth);
-      if (!as_member) continue;
-      if (kind == 4) return random_text_array();
-      if (kind == 6) return random_array(depth);
-      if (kind == 7) return random_sequence(depth);
+      if (kind <= 1) {
+        return random_integer();
+      }
+      if (kind == 2) {
+        return random_real();
+      }
+      if (kind == 3) {
+        return random_string();
+      }
+      if (kind == 5) {
+        return random_enumeration();
+      }
+      if (kind == 9) {
+        return random_structure(depth);
+      }
+      if (!as_member) {
+        continue;
+      }
+      if (kind == 4) {
+        return random_text_array();
+      }
+      if (kind == 6) {
+        return random_array(depth);
+      }
+      if (kind == 7) {
+        return random_sequence(depth);
+      }
       return random_variant(depth);
     }
   }
@@ -276,7 +318,9 @@ class RandomTraceWriter {
     }
     return {declaration, alignment, [members, alignment](BitWriter& out) {
               out.align(alignment);
-              for (const RandomField& member : members) member.write(out);
+              for (const RandomField& member : members) {
+                member.write(out);
+              }
             }};
   }
 
@@ -288,7 +332,9 @@ class RandomTraceWriter {
   RandomEvent random_event() {
     RandomEvent event;
     // libbabeltrace2 2.0.4 ends the program (Assertion `tgt_fc` failed) at a sequence or a variant in such a context.
-    if (below(4) == 0) event.context = structure(0);
+    if (below(4) == 0) {
+      event.context = structure(0);
+    }
     event.fields = structure(3);
     return event;
   }
@@ -299,8 +345,12 @@ class RandomTraceWriter {
     std::uint64_t discarded = 0;
     std::uint64_t sequence = below(3);
     for (std::uint64_t packet = 0, count = 1 + below(4); packet < count; ++packet) {
-      if (below(4) == 0) discarded += below(100);
-      if (below(4) == 0) sequence += below(5);
+      if (below(4) == 0) {
+        discarded += below(100);
+      }
+      if (below(4) == 0) {
+        sequence += below(5);
+      }
       clock += below(1'000'000);
       file += packet_bytes(stream, clock, sequence++, discarded);
     }
@@ -310,16 +360,22 @@ class RandomTraceWriter {
   std::string packet_bytes(std::size_t stream, std::uint64_t& clock, std::uint64_t sequence, std::uint64_t discarded) {
     BitWriter out(big_endian_);
     out.number(0xC1FC1FC1, 32);
-    for (int i = 0; i < 16; ++i) out.number(0x11, 8);
+    for (int i = 0; i < 16; ++i) {
+      out.number(0x11, 8);
+    }
     out.number(0, 32);
     out.number(stream, 64);
     out.number(clock, 64);
     const std::uint64_t sizes = out.size();
-    for (int i = 0; i < 3; ++i) out.number(0, 64);
+    for (int i = 0; i < 3; ++i) {
+      out.number(0, 64);
+    }
     out.number(sequence, 64);
     out.number(discarded, 64);
     out.number(stream, 32);
-    for (std::uint64_t i = 0, count = below(40); i < count; ++i) write_event(out, clock);
+    for (std::uint64_t i = 0, count = below(40); i < count; ++i) {
+      write_event(out, clock);
+    }
     const std::uint64_t content = out.size();
     out.align(8);
     out.patch(sizes, clock, 64);
@@ -348,11 +404,17 @@ class RandomTraceWriter {
       out.number(event, 32);
       out.number(clock, 64);
     } else {
-      if (!compact_) out.align(8);
+      if (!compact_) {
+        out.align(8);
+      }
       out.number(clock, clock_bits_);
     }
-    if (contexts_) context_.write(out);
-    if (events_[event].context) events_[event].context->write(out);
+    if (contexts_) {
+      context_.write(out);
+    }
+    if (events_[event].context) {
+      events_[event].context->write(out);
+    }
     events_[event].fields.write(out);
   }
 
@@ -377,12 +439,16 @@ class RandomTraceWriter {
         "stream {{ id = 0; packet.context := struct packet_context; event.header := struct header;\n",
         big_endian_ ? "be" : "le", clock_bits_, compact_ ? 1 : 8, compact_ ? 5 : 16, compact_ ? 1 : 8,
         compact_ ? 30 : 65534, compact_ ? 31 : 65535);
-    if (contexts_) text += fmt::format("  event.context := struct {{ {} }};\n", context_.declaration);
+    if (contexts_) {
+      text += fmt::format("  event.context := struct {{ {} }};\n", context_.declaration);
+    }
     text += "};\n";
     for (std::size_t i = 0; i < events_.size(); ++i) {
       const RandomEvent& event = events_[i];
       text += fmt::format("event {{ name = \"random:event{}\"; id = {}; stream_id = 0;\n", i, i);
-      if (event.context) text += fmt::format("  context := struct {{\n{} }};\n", event.context->declaration);
+      if (event.context) {
+        text += fmt::format("  context := struct {{\n{} }};\n", event.context->declaration);
+      }
       text += fmt::format("  fields := struct {{\n{} }}; }};\n", event.fields.declaration);
     }
     return text;

@@ -14,7 +14,9 @@ class TemporaryDirectory {
  public:
   TemporaryDirectory() {
     std::string name = std::filesystem::temp_directory_path() / "trace_test_XXXXXX";
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot create " + name);
+    if (mkdtemp(name.data()) == nullptr) {
+      throw std::runtime_error("cannot create " + name);
+    }
     path_ = name;
   }
   ~TemporaryDirectory() { std::filesystem::remove_all(path_); }

@@ -16,14 +16,26 @@ namespace tracing::testing {
 
 inline std::string text_of(const FieldValue& value) {
   std::string label;
-  if (const auto known = value.enumeration_label()) label = fmt::format("'{}' ", *known);
-  if (const auto number = value.unsigned_integer()) return fmt::format("{}u{}", label, *number);
-  if (const auto number = value.integer()) return fmt::format("{}i{}", label, *number);
-  if (const auto number = value.real()) return fmt::format("r{}", *number);
-  if (const auto string = value.string()) return fmt::format("\"{}\"", *string);
+  if (const auto known = value.enumeration_label()) {
+    label = fmt::format("'{}' ", *known);
+  }
+  if (const auto number = value.unsigned_integer()) {
+    return fmt::format("{}u{}", label, *number);
+  }
+  if (const auto number = value.integer()) {
+    return fmt::format("{}i{}", label, *number);
+  }
+  if (const auto number = value.real()) {
+    return fmt::format("r{}", *number);
+  }
+  if (const auto string = value.string()) {
+    return fmt::format("\"{}\"", *string);
+  }
   std::string text = value.is_array() ? "[" : value.is_structure() ? "{" : value.is_variant() ? "<" : "?";
   for (std::size_t i = 0; i < value.size(); ++i) {
-    if (value.is_structure()) text += fmt::format("{}=", value.member_name(i));
+    if (value.is_structure()) {
+      text += fmt::format("{}=", value.member_name(i));
+    }
     text += text_of(value[i]) + " ";
   }
   return text;
@@ -59,7 +71,9 @@ inline std::vector<std::string> trace_text(const std::filesystem::path& director
   TraceReader(directory, decoder).read(sink);
   std::stable_sort(sink.lines.begin(), sink.lines.end());
   std::vector<std::string> lines;
-  for (auto& line : sink.lines) lines.push_back(std::move(line.second));
+  for (auto& line : sink.lines) {
+    lines.push_back(std::move(line.second));
+  }
   return lines;
 }
 

@@ -62,7 +62,9 @@ TraceWriter::TraceWriter(const std::filesystem::path& directory, Options options
 void TraceWriter::write(unsigned cpu, std::int64_t time_ns, const Thread& thread, const ros2::AnyEvent& event) {
   std::visit(
       [&]<class Struct>(const Struct& known) {
-        if constexpr (!std::is_same_v<Struct, std::monostate>) write(cpu, time_ns, thread, known);
+        if constexpr (!std::is_same_v<Struct, std::monostate>) {
+          write(cpu, time_ns, thread, known);
+        }
       },
       event);
 }
@@ -80,7 +82,9 @@ std::uint16_t TraceWriter::declare(std::string_view name, const std::string& fie
 void TraceWriter::write_raw(unsigned cpu, std::int64_t time_ns, const Thread& thread, std::uint16_t id,
                             std::string_view payload) {
   Cpu& stream = cpus_[cpu];
-  if (stream.events.empty()) stream.begin_ns = time_ns;
+  if (stream.events.empty()) {
+    stream.begin_ns = time_ns;
+  }
   stream.end_ns = time_ns;
   append(stream.events, id);
   append(stream.events, static_cast<std::uint64_t>(time_ns));
@@ -90,11 +94,17 @@ void TraceWriter::write_raw(unsigned cpu, std::int64_t time_ns, const Thread& th
     const std::string_view name = thread.procname.substr(0, kProcnameSize - 2);
     stream.events.append(name);
     stream.events.append(kProcnameSize - name.size(), '\0');
-    if (options_.vppid) append(stream.events, *options_.vppid);
-    if (options_.pid_ns) append(stream.events, thread.pid_ns);
+    if (options_.vppid) {
+      append(stream.events, *options_.vppid);
+    }
+    if (options_.pid_ns) {
+      append(stream.events, thread.pid_ns);
+    }
   }
   stream.events.append(payload);
-  if (stream.events.size() > options_.packet_size) end_packet(cpu);
+  if (stream.events.size() > options_.packet_size) {
+    end_packet(cpu);
+  }
 }
 
 void TraceWriter::end_packet(unsigned cpu) {
@@ -129,7 +139,9 @@ void TraceWriter::lose_packets(unsigned cpu, std::uint64_t count) {
 
 void TraceWriter::finish() {
   for (auto& [cpu, stream] : cpus_) {
-    if (!stream.events.empty()) end_packet(cpu);
+    if (!stream.events.empty()) {
+      end_packet(cpu);
+    }
   }
   std::ofstream(directory_ / "metadata") << metadata();
 }

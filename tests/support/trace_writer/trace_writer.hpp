@@ -96,7 +96,9 @@ struct AppendField {
       payload.append(reinterpret_cast<const char*>(member.bytes.data()), 16);
     } else if constexpr (type == ros2::FieldType::kPointers) {
       append(payload, static_cast<std::uint64_t>(member.size()));
-      for (const ros2::Handle handle : member) append(payload, handle);
+      for (const ros2::Handle handle : member) {
+        append(payload, handle);
+      }
     } else {
       append(payload, member);
     }

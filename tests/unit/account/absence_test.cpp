@@ -22,13 +22,17 @@ constexpr std::uint64_t kOneSecond = 1'000'000'000;
 
 RecordedEvents rules(const std::vector<std::string>& patterns) {
   RecordedEvents events;
-  for (const std::string& pattern : patterns) events.rules.push_back({.channel = "ros2", .pattern = pattern});
+  for (const std::string& pattern : patterns) {
+    events.rules.push_back({.channel = "ros2", .pattern = pattern});
+  }
   return events;
 }
 
 std::vector<std::string> texts(const std::vector<tracing::Absence>& absences) {
   std::vector<std::string> texts;
-  for (const tracing::Absence& absence : absences) texts.push_back(absence.text);
+  for (const tracing::Absence& absence : absences) {
+    texts.push_back(absence.text);
+  }
   return texts;
 }
 
@@ -47,7 +51,9 @@ TEST(Absence, OfProcessesIsToldWithWhatTheyFiredMeanwhile) {
 
 TEST(Absence, OfManyProcessesIsSummedUp) {
   std::vector<EventCounts> many;
-  for (int i = 0; i < 8; ++i) many.push_back({.pid = i, .process = "node", .missed = 10});
+  for (int i = 0; i < 8; ++i) {
+    many.push_back({.pid = i, .process = "node", .missed = 10});
+  }
   const std::vector<std::string> told = texts(absent_processes(many));
   ASSERT_EQ(told.size(), 6u);
   EXPECT_EQ(told.back(), "3 processes more recorded late or never: 30 events missing");

@@ -37,7 +37,9 @@ TEST(SessionPauses, ForgiveWhatWasFiredInThem) {
     std::vector<EventCounts> forgiven = counts;
     tracing::forgive_pauses(forgiven, counters, session);
     std::vector<std::uint64_t> left;
-    for (const EventCounts& process : forgiven) left.push_back(process.missed);
+    for (const EventCounts& process : forgiven) {
+      left.push_back(process.missed);
+    }
     return left;
   };
   EXPECT_EQ(missed("run"), (std::vector<std::uint64_t>{10, 0, 0, 0, 50}));

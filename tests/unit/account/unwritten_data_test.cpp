@@ -94,7 +94,9 @@ TEST(UnwrittenData, BuffersThatWereFullAtTheEndAreNoFailureToWrite) {
 TEST(UnwrittenData, ASessionThatWasRotatedEndsWithoutLastPackets) {
   LossAccount losses = account();
   std::vector<Stream> rotated = streams();
-  for (Stream& stream : rotated) stream.in_archives = true;
+  for (Stream& stream : rotated) {
+    stream.in_archives = true;
+  }
   tracing::find_unwritten(losses, rotated, 4 * kSecond, false);
   EXPECT_TRUE(losses.channels[0].unwritten.empty());
 }

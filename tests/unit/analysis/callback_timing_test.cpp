@@ -19,7 +19,9 @@ void run(Feed& feed, ros2::Handle callback, std::int64_t begin_ns, std::int64_t 
 TEST(CallbackTiming, MeasuresATimerAgainstItsPeriod) {
   Feed feed;
   feed(ros2::RclTimerInit{3, 100 * kMs})(ros2::RclcppTimerCallbackAdded{3, 0xee});
-  for (const std::int64_t begin_ms : {1'000, 1'100, 1'205, 1'300, 1'620, 1'700}) run(feed, 0xee, begin_ms * kMs, kMs);
+  for (const std::int64_t begin_ms : {1'000, 1'100, 1'205, 1'300, 1'620, 1'700}) {
+    run(feed, 0xee, begin_ms * kMs, kMs);
+  }
   const Ros2Results results = feed.results();
   ASSERT_EQ(results.callbacks.size(), 1u);
   const CallbackResult& timer = results.callbacks[0];

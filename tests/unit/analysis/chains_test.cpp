@@ -39,7 +39,9 @@ class Chains : public ::testing::Test {
   }
   void filter(std::int64_t time, std::int64_t number, bool answers) {
     feed.in(2, 2).at(time)(ros2::RmwTake{0x20, 9, number, true}).at(time + 5)(ros2::CallbackStart{0xcb, false});
-    if (answers) feed.at(time + 55)(ros2::RmwPublish{0x10, 9, number});
+    if (answers) {
+      feed.at(time + 55)(ros2::RmwPublish{0x10, 9, number});
+    }
     feed.at(time + 65)(ros2::CallbackEnd{0xcb});
   }
   void drain(std::int64_t time, std::int64_t number) {
@@ -146,13 +148,17 @@ TEST_F(Chains, EndWhereALoopBegins) {
 
 std::string shape(const ChainResult& chain) {
   std::string nodes;
-  for (const ChainResult::Step& step : chain.steps) nodes += step.node + " ";
+  for (const ChainResult::Step& step : chain.steps) {
+    nodes += step.node + " ";
+  }
   return chain.name + ": " + nodes + std::to_string(chain.response.max_ns);
 }
 
 std::vector<std::string> shapes(const Ros2Results& results) {
   std::vector<std::string> all;
-  for (const ChainResult& chain : results.chains) all.push_back(shape(chain));
+  for (const ChainResult& chain : results.chains) {
+    all.push_back(shape(chain));
+  }
   return all;
 }
 

@@ -77,7 +77,9 @@ TEST_F(Deliveries, TellWhereMessagesGotLost) {
   publish(100, 1);  // before the subscription is connected
   publish(200, 2);
   receive(250, 2);
-  for (const std::int64_t number : {3, 4, 5, 6}) publish(300 + number, number);
+  for (const std::int64_t number : {3, 4, 5, 6}) {
+    publish(300 + number, number);
+  }
   receive(400, 5);  // 3 and 4 did not fit any more
   receive(420, 6);
   publish(500, 7);
@@ -105,7 +107,9 @@ class LostMessage : public Deliveries {
     feed.in(72, 72).has_qos(Kind::kSubscription, 2, subscription);
   }
   SubscriptionResult after_loss() {
-    for (const std::int64_t number : {1, 2, 3}) publish(100 * number, number);
+    for (const std::int64_t number : {1, 2, 3}) {
+      publish(100 * number, number);
+    }
     receive(150, 1);
     receive(350, 3);
     return result();
@@ -143,7 +147,9 @@ TEST_F(LostMessage, IsNotPlacedIfOneSideIsUnknown) {
 
 TEST_F(Deliveries, AreNotPushedOutOfAQueueThatKeepsAll) {
   feed.in(72, 72).has_qos(ros2::EndpointQosEvent::Kind::kSubscription, 2, {true, 0, false});
-  for (const std::int64_t number : {1, 2, 3, 4, 5}) publish(100 + number, number);
+  for (const std::int64_t number : {1, 2, 3, 4, 5}) {
+    publish(100 + number, number);
+  }
   receive(150, 1);
   receive(160, 5);
   const SubscriptionResult subscription = result();
@@ -152,7 +158,9 @@ TEST_F(Deliveries, AreNotPushedOutOfAQueueThatKeepsAll) {
 }
 
 TEST_F(Deliveries, GiveTheRateOfATopic) {
-  for (int i = 0; i < 11; ++i) publish(1'000'000'000 + i * 100'000'000, i + 1);
+  for (int i = 0; i < 11; ++i) {
+    publish(1'000'000'000 + i * 100'000'000, i + 1);
+  }
   const Ros2Results results = feed.results();
   const TopicResult& topic = testing::topic(results, "/topic");
   EXPECT_DOUBLE_EQ(topic.rate_hz, 10);

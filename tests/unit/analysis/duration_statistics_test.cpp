@@ -25,7 +25,9 @@ TEST(DurationStatistics, OfOneValueIsThatValue) {
 
 TEST(DurationStatistics, UsesNearestRankAndTheSampleDeviation) {
   DurationStatistics statistics;
-  for (std::int64_t value = 100; value >= 1; --value) statistics.add(value);
+  for (std::int64_t value = 100; value >= 1; --value) {
+    statistics.add(value);
+  }
   const DurationSummary summary = statistics.summary();
   EXPECT_DOUBLE_EQ(summary.mean_ns, 50.5);
   EXPECT_NEAR(summary.stddev_ns, 29.011491975882016, 1e-9);
@@ -40,7 +42,9 @@ TEST(DurationStatistics, UsesNearestRankAndTheSampleDeviation) {
 TEST(DurationStatistics, KnowsPercentilesOfManyValuesToTwoThousandthsInBoundedMemory) {
   constexpr std::int64_t kMany = 1'000'000;
   DurationStatistics statistics;
-  for (std::int64_t value = 1; value <= kMany; ++value) statistics.add(value);
+  for (std::int64_t value = 1; value <= kMany; ++value) {
+    statistics.add(value);
+  }
   const DurationSummary summary = statistics.summary();
   EXPECT_EQ(summary.count, static_cast<std::uint64_t>(kMany));
   EXPECT_NEAR(summary.mean_ns, kMany / 2.0, 1);
@@ -59,8 +63,12 @@ TEST(DurationStatistics, KnowsPercentilesOfManyValuesToTwoThousandthsInBoundedMe
 
 TEST(DurationStatistics, KnowsRareValuesOfManyOrdersOfMagnitude) {
   DurationStatistics statistics;
-  for (int i = 0; i < 99'980; ++i) statistics.add(3);
-  for (int i = 0; i < 19; ++i) statistics.add(7'000'000'000);
+  for (int i = 0; i < 99'980; ++i) {
+    statistics.add(3);
+  }
+  for (int i = 0; i < 19; ++i) {
+    statistics.add(7'000'000'000);
+  }
   statistics.add(9'000'000'000'000'000'000);
   const DurationSummary summary = statistics.summary();
   EXPECT_EQ(summary.p999_ns, 3);
@@ -91,7 +99,9 @@ TEST(DurationStatistics, OfTwoSamplesAreThoseOfAllValues) {
 
 TEST(DurationStatistics, KeepsNegativeValues) {
   DurationStatistics statistics;
-  for (const std::int64_t value : {-5, 5}) statistics.add(value);
+  for (const std::int64_t value : {-5, 5}) {
+    statistics.add(value);
+  }
   EXPECT_EQ(statistics.summary().min_ns, -5);
   EXPECT_EQ(statistics.summary().p50_ns, -5);
 }

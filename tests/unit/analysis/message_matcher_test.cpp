@@ -62,7 +62,9 @@ TEST(MessageMatcher, CountsButDoesNotFollowAPublicationWithoutTimestamp) {
 TEST(MessageMatcher, ForgetsAPublicationAfterManyNewerOnes) {
   MessageMatcher matcher;
   const std::int64_t many = MessageMatcher::kRemembered;
-  for (std::int64_t i = 1; i <= 2 * many; ++i) matcher.publish(published(kTopic, i), i);
+  for (std::int64_t i = 1; i <= 2 * many; ++i) {
+    matcher.publish(published(kTopic, i), i);
+  }
   EXPECT_FALSE(matcher.take(kSubscription, kTopic, many, 1050).publication_is_known());
   EXPECT_TRUE(matcher.take(kSubscription, kTopic, many + 1, 1050).publication_is_known());
   matcher.finish();

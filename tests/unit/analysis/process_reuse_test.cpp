@@ -96,7 +96,9 @@ TEST_F(ProcessReuse, AProgramOfAnotherNameIsAnotherProcessWhereverItsContextIs) 
 }
 
 TEST_F(ProcessReuse, AProcessMayHaveSeveralContexts) {
-  for (const ros2::Handle heap : {kHeap, kHeap + 0x10000, kMapped, kHeap}) write_context(kNode, heap);
+  for (const ros2::Handle heap : {kHeap, kHeap + 0x10000, kMapped, kHeap}) {
+    write_context(kNode, heap);
+  }
   EXPECT_EQ(results().overview.processes.size(), 1u);
 }
 

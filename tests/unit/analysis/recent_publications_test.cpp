@@ -54,7 +54,9 @@ TEST(RecentPublications, FindWhatIsThere) {
     if (same != list.end()) {
       same->second = step;
     } else {
-      if (forgot) list.pop_front();
+      if (forgot) {
+        list.pop_front();
+      }
       list.emplace_back(time, step);
     }
     const auto asked = static_cast<std::int64_t>(random() % 300) << (random() % 40);

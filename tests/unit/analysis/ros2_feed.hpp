@@ -63,7 +63,9 @@ class Feed {
 
 inline const TopicResult& topic(const Ros2Results& results, const std::string& name) {
   for (const TopicResult& result : results.topics) {
-    if (result.name == name) return result;
+    if (result.name == name) {
+      return result;
+    }
   }
   throw std::runtime_error("no topic " + name);
 }

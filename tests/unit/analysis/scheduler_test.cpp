@@ -41,7 +41,9 @@ class Scheduler : public ::testing::Test {
 
   struct Intervals : ExecutionSink {
     void on_thread_state(const ThreadInterval& interval) override {
-      if (interval.thread.vtid == kNode.vtid) states.push_back(interval.state);
+      if (interval.thread.vtid == kNode.vtid) {
+        states.push_back(interval.state);
+      }
     }
     std::vector<ThreadInterval::State> states;
   };

@@ -48,8 +48,9 @@ Ros2Results ping_pong_with_state_dump(std::size_t position) {
     if (i == position) {
       for (std::size_t known = 0; known < i; ++known) {
         const auto& [time, thread, event] = sequence[known];
-        if (is_init_event(event))
+        if (is_init_event(event)) {
           analysis.on_event({sequence[i].time_ns, static_cast<ProcessId>(thread.vpid), 99}, with_gid(event));
+        }
       }
     }
     const auto& [time, thread, event] = sequence[i];

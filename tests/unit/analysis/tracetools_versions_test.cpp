@@ -54,7 +54,9 @@ class VersionWriter {
   void raw(const testing::SequenceEvent& recorded, const char* name, const std::string& fields,
            const std::string& payload) {
     const auto [id, is_new] = ids_.try_emplace(name, 0);
-    if (is_new) id->second = writer_.declare(name, fields);
+    if (is_new) {
+      id->second = writer_.declare(name, fields);
+    }
     writer_.write_raw(recorded.thread.vpid == testing::kPing.vpid ? 0 : 1, recorded.time_ns, recorded.thread,
                       id->second, payload);
   }
@@ -81,9 +83,13 @@ class VersionWriter {
     } else if constexpr (std::is_same_v<Struct, ros2::RmwPublish>) {
       const std::string publisher = version_.publisher_field;
       std::string payload;
-      if (!publisher.empty()) testing::detail::append(payload, event.rmw_publisher_handle);
+      if (!publisher.empty()) {
+        testing::detail::append(payload, event.rmw_publisher_handle);
+      }
       testing::detail::append(payload, event.message);
-      if (!publisher.empty()) testing::detail::append(payload, event.timestamp);
+      if (!publisher.empty()) {
+        testing::detail::append(payload, event.timestamp);
+      }
       raw(recorded, "ros2:rmw_publish",
           publisher.empty() ? pointer("message")
                             : pointer(publisher) + pointer("message") +
@@ -103,7 +109,9 @@ class TracetoolsVersions : public ::testing::TestWithParam<Version> {
  protected:
   TraceResults results() {
     VersionWriter writer(directory_.path(), GetParam());
-    for (const testing::SequenceEvent& event : testing::ping_pong_sequence()) writer.write(event);
+    for (const testing::SequenceEvent& event : testing::ping_pong_sequence()) {
+      writer.write(event);
+    }
     writer.finish();
     TraceAnalysis analysis;
     TraceReader(directory_.path()).read(analysis);
@@ -140,7 +148,9 @@ TEST_P(TracetoolsVersions, FollowMessagesWhereTheyHaveTimestampsAndOnlyThere) {
     EXPECT_EQ(subscription.dropped(), 0u) << "nothing was lost";
   }
   EXPECT_EQ(results.ros2.chains.empty(), !has_timestamps());
-  if (has_timestamps()) return;
+  if (has_timestamps()) {
+    return;
+  }
   EXPECT_THAT(results.warnings, ::testing::Contains("ros2:rmw_publish has no field timestamp"));
 }
 

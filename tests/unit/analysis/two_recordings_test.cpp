@@ -30,7 +30,9 @@ TEST(TwoRecordings, WithEqualProcessIdsHaveFourProcesses) {
   EXPECT_EQ(results.overview.processes[1].vpid, 71);
   EXPECT_EQ(results.overview.processes[2].vpid, 72);
   ASSERT_EQ(results.ros2.callbacks.size(), 6u);
-  for (const CallbackResult& callback : results.ros2.callbacks) EXPECT_EQ(callback.durations.count, 1u);
+  for (const CallbackResult& callback : results.ros2.callbacks) {
+    EXPECT_EQ(callback.durations.count, 1u);
+  }
   EXPECT_EQ(results.ros2.executors.size(), 4u);
 }
 

@@ -35,7 +35,9 @@ struct ReplaceFile : testing::Test {
 
   std::vector<std::string> names() const {
     std::vector<std::string> found;
-    for (const fs::directory_entry& entry : fs::directory_iterator(directory)) found.push_back(entry.path().filename());
+    for (const fs::directory_entry& entry : fs::directory_iterator(directory)) {
+      found.push_back(entry.path().filename());
+    }
     return found;
   }
 
@@ -99,7 +101,9 @@ TEST_F(ReplaceFile, FollowsALinkOfThisUserOnTheWay) {
 }
 
 TEST_F(ReplaceFile, FollowsNoLinkOfAnotherUserOnTheWay) {
-  if (geteuid() != 0) GTEST_SKIP() << "only root can make a link of another user";
+  if (geteuid() != 0) {
+    GTEST_SKIP() << "only root can make a link of another user";
+  }
   fs::create_directory(directory / "elsewhere");
   fs::create_symlink("elsewhere", directory / "cache");
   ASSERT_EQ(lchown((directory / "cache").c_str(), 65534, 65534), 0);

@@ -16,7 +16,9 @@ class Chains : public ::testing::Test {
  protected:
   Chains() {
     std::string name = fs::temp_directory_path() / "chains_test_XXXXXX";
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot create " + name);
+    if (mkdtemp(name.data()) == nullptr) {
+      throw std::runtime_error("cannot create " + name);
+    }
     directory_ = name;
   }
   ~Chains() override { fs::remove_all(directory_); }

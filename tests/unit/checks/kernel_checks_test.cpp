@@ -15,15 +15,21 @@ using tracing::testing::error_of;
 // What is left is the plan's; an error, or the warning.
 std::string unknown_names(const std::vector<std::string>& patterns, const std::vector<std::string>& syscalls) {
   ChannelPlan plan{.domain = LTTNG_DOMAIN_KERNEL};
-  for (const std::string& pattern : patterns) plan.events.push_back({.pattern = pattern});
+  for (const std::string& pattern : patterns) {
+    plan.events.push_back({.pattern = pattern});
+  }
   plan.syscalls = syscalls;
   std::string warning;
   const std::string error = error_of([&] {
     std::vector<ChannelPlan> plans = {plan, {.domain = LTTNG_DOMAIN_UST}};
     warning = tracing::drop_unknown_kernel_names(plans, {"irq_handler_entry", "sched_switch"}, {"openat"});
     EXPECT_EQ(plans.size(), 2U);
-    for (const auto& rule : plans.front().events) warning += " left: " + rule.pattern;
-    for (const std::string& name : plans.front().syscalls) warning += " left: " + name;
+    for (const auto& rule : plans.front().events) {
+      warning += " left: " + rule.pattern;
+    }
+    for (const std::string& name : plans.front().syscalls) {
+      warning += " left: " + name;
+    }
   });
   return error == "no error" ? warning : error;
 }

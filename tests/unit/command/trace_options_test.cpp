@@ -19,7 +19,9 @@ using tracing::TraceVerb;
 
 TraceOptions options_of(const std::vector<std::string>& arguments) {
   const auto parsed = parse_trace_options(arguments);
-  if (const auto* message = std::get_if<ParserMessage>(&parsed)) ADD_FAILURE() << message->text;
+  if (const auto* message = std::get_if<ParserMessage>(&parsed)) {
+    ADD_FAILURE() << message->text;
+  }
   return std::holds_alternative<TraceOptions>(parsed) ? std::get<TraceOptions>(parsed) : TraceOptions{};
 }
 

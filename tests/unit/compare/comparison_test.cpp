@@ -26,7 +26,9 @@ class Random {
   double uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
   double normal() {  // nearly: the sum of twelve uniform numbers
     double sum = -6;
-    for (int i = 0; i < 12; ++i) sum += uniform();
+    for (int i = 0; i < 12; ++i) {
+      sum += uniform();
+    }
     return sum;
   }
 
@@ -36,7 +38,9 @@ class Random {
 
 Measurement measurement(const std::string& subject, const std::function<double(int)>& value, int samples = kSamples) {
   Measurement one{Kind::kCallback, subject, "duration", {}, static_cast<std::uint64_t>(samples), {}, false};
-  for (int i = 0; i < samples; ++i) one.samples.push_back(std::llround(std::max(value(i), 1.0)));
+  for (int i = 0; i < samples; ++i) {
+    one.samples.push_back(std::llround(std::max(value(i), 1.0)));
+  }
   return one;
 }
 
@@ -63,7 +67,9 @@ Comparison compared(RunSummary before, RunSummary after, const CompareOptions& o
 std::vector<std::string> subjects(const Comparison& comparison) {
   std::vector<std::string> names;
   for (const Change& change : comparison.changes) {
-    if (names.empty() || names.back() != change.subject) names.push_back(change.subject);
+    if (names.empty() || names.back() != change.subject) {
+      names.push_back(change.subject);
+    }
   }
   return names;
 }
@@ -77,7 +83,9 @@ TEST(Comparison, FindsTwoMillisecondsInOneOfFiftyCallbacksEachTime) {
     for (const Change& change : comparison.changes) {
       EXPECT_TRUE(change.is_slower());
       EXPECT_LE(change.probability, 0.01);
-      if (change.statistic != Statistic::kMedian) continue;
+      if (change.statistic != Statistic::kMedian) {
+        continue;
+      }
       EXPECT_NEAR(change.shift.estimate, 2 * kMillisecond, 0.2 * kMillisecond);
       EXPECT_LT(change.shift.low, 2 * kMillisecond);
       EXPECT_GT(change.shift.high, 2 * kMillisecond);
@@ -88,7 +96,9 @@ TEST(Comparison, FindsTwoMillisecondsInOneOfFiftyCallbacksEachTime) {
 TEST(Comparison, FindsNothingInRunsOfOneSystem) {
   int alarms = 0;
   for (std::uint64_t pair = 0; pair < 100; ++pair) {
-    if (!compared(run(1000 + 2 * pair), run(1001 + 2 * pair)).changes.empty()) ++alarms;
+    if (!compared(run(1000 + 2 * pair), run(1001 + 2 * pair)).changes.empty()) {
+      ++alarms;
+    }
   }
   EXPECT_LE(alarms, 2) << "of 100";
 }
@@ -99,7 +109,9 @@ RunSummary run_of_its_own(std::uint64_t seed, int changed = -1, double more = 0)
   Random random(seed + 1'000'000);
   for (Measurement& one : summary.measurements) {
     const double shift = (random.uniform() < 0.3 ? 40 : 10) * kMicrosecond * random.normal();
-    for (std::int64_t& sample : one.samples) sample = std::max<std::int64_t>(sample + std::llround(shift), 1);
+    for (std::int64_t& sample : one.samples) {
+      sample = std::max<std::int64_t>(sample + std::llround(shift), 1);
+    }
   }
   return summary;
 }
@@ -109,10 +121,14 @@ TEST(Comparison, WhatMostQuantitiesDifferInIsNoChange) {
   int found = 0;
   for (std::uint64_t pair = 0; pair < 20; ++pair) {
     const Comparison same = compared(run_of_its_own(8000 + 2 * pair), run_of_its_own(8001 + 2 * pair));
-    if (!same.changes.empty()) ++alarms;
+    if (!same.changes.empty()) {
+      ++alarms;
+    }
     const Comparison changed =
         compared(run_of_its_own(8000 + 2 * pair), run_of_its_own(8001 + 2 * pair, 30, 2 * kMillisecond));
-    if (subjects(changed) == std::vector<std::string>{"/node_30"}) ++found;
+    if (subjects(changed) == std::vector<std::string>{"/node_30"}) {
+      ++found;
+    }
   }
   EXPECT_LE(alarms, 1);
   EXPECT_GE(found, 19);
@@ -121,7 +137,9 @@ TEST(Comparison, WhatMostQuantitiesDifferInIsNoChange) {
 TEST(Comparison, ASlowerSystemIsToldAsAWhole) {
   RunSummary slower = run(9001, 20, [](int) { return 2 * kMillisecond; });
   for (Measurement& one : slower.measurements) {
-    for (std::int64_t& sample : one.samples) sample = sample * 14 / 10;
+    for (std::int64_t& sample : one.samples) {
+      sample = sample * 14 / 10;
+    }
   }
   const Comparison comparison = compared(run(9000), slower);
   EXPECT_THAT(subjects(comparison), ElementsAre("/node_20")) << "more than the others";
@@ -136,7 +154,9 @@ TEST(Comparison, ASlowerSystemIsToldAsAWhole) {
 TEST(Comparison, ADisturbanceOfARunIsNoChange) {
   RunSummary disturbed = run(2001);
   for (Measurement& one : disturbed.measurements) {
-    for (std::size_t i = one.samples.size() / 2; i < one.samples.size() * 8 / 10; ++i) one.samples[i] *= 2;
+    for (std::size_t i = one.samples.size() / 2; i < one.samples.size() * 8 / 10; ++i) {
+      one.samples[i] *= 2;
+    }
   }
   EXPECT_THAT(compared(run(2000), disturbed).changes, IsEmpty());
 }

@@ -15,7 +15,9 @@ TEST(Peers, TellNothingIfThereAreFew) {
 
 TEST(Peers, DoNotCountTheQuantityItself) {
   std::vector<Shifted> quantities(21, {1000, 0});
-  for (std::size_t i = 0; i < 20; ++i) quantities[i].shift = static_cast<double>(i % 5) * 10;  // 0, 10, 20, 30, 40
+  for (std::size_t i = 0; i < 20; ++i) {
+    quantities[i].shift = static_cast<double>(i % 5) * 10;  // 0, 10, 20, 30, 40
+  }
   quantities[20].shift = 1e6;
   const PeerShift peers = shifts_of_peers(quantities)[20];
   EXPECT_EQ(peers.usual, 20);
@@ -24,8 +26,12 @@ TEST(Peers, DoNotCountTheQuantityItself) {
 
 TEST(Peers, AreTheNearestInSize) {
   std::vector<Shifted> quantities;
-  for (int i = 0; i < 30; ++i) quantities.push_back({100.0 + i, i % 5 * 1.0});
-  for (int i = 0; i < 30; ++i) quantities.push_back({1e6 + i, i % 5 * 1e5});
+  for (int i = 0; i < 30; ++i) {
+    quantities.push_back({100.0 + i, i % 5 * 1.0});
+  }
+  for (int i = 0; i < 30; ++i) {
+    quantities.push_back({1e6 + i, i % 5 * 1e5});
+  }
   const std::vector<PeerShift> peers = shifts_of_peers(quantities);
   EXPECT_LT(peers[5].spread, 4);
   EXPECT_GT(peers[50].spread, 1e5);
@@ -34,7 +40,9 @@ TEST(Peers, AreTheNearestInSize) {
 // A single large one among small ones, all of which are a tenth longer.
 TEST(Peers, AreScaledWhereThatFitsBetter) {
   std::vector<Shifted> quantities;
-  for (int i = 0; i < 20; ++i) quantities.push_back({100.0 + 10 * i, 10.0 + i});
+  for (int i = 0; i < 20; ++i) {
+    quantities.push_back({100.0 + 10 * i, 10.0 + i});
+  }
   quantities.push_back({10'000, 1'000});
   const PeerShift peers = shifts_of_peers(quantities)[20];
   EXPECT_NEAR(peers.usual, 1'000, 1e-6);

@@ -19,11 +19,17 @@ double counted_probability(std::size_t before, std::size_t after, double least_u
     double u = 0;
     double lower = 0;
     for (const int one : is_after) {
-      if (one == 1) u += lower;
-      if (one == 0) ++lower;
+      if (one == 1) {
+        u += lower;
+      }
+      if (one == 0) {
+        ++lower;
+      }
     }
     ++all;
-    if (u >= least_u) ++as_high;
+    if (u >= least_u) {
+      ++as_high;
+    }
   } while (std::next_permutation(is_after.begin(), is_after.end()));
   return as_high / all;
 }
@@ -83,10 +89,14 @@ TEST(Shift, HasTheIntervalOfTheTest) {
   std::vector<double> before(10);
   std::iota(before.begin(), before.end(), 0);
   std::vector<double> after;
-  for (const double value : before) after.push_back(100 + value * 17);
+  for (const double value : before) {
+    after.push_back(100 + value * 17);
+  }
   std::vector<double> differences;
   for (const double a : after) {
-    for (const double b : before) differences.push_back(a - b);
+    for (const double b : before) {
+      differences.push_back(a - b);
+    }
   }
   std::sort(differences.begin(), differences.end());
   const Shift shift = shift_between(before, after, 0.95);
@@ -117,7 +127,9 @@ TEST(RankAutocorrelation, TellsDriftFromNoise) {
   std::iota(drift.begin(), drift.end(), 0);
   EXPECT_GT(rank_autocorrelation(drift), 0.8);
   std::vector<double> alternating(20);
-  for (std::size_t i = 0; i < 20; ++i) alternating[i] = static_cast<double>(i % 2);
+  for (std::size_t i = 0; i < 20; ++i) {
+    alternating[i] = static_cast<double>(i % 2);
+  }
   EXPECT_LT(rank_autocorrelation(alternating), -0.8);
   EXPECT_EQ(rank_autocorrelation(std::vector<double>(20, 3.0)), 0);
 }

@@ -29,7 +29,9 @@ const Measurement& find(const RunSummary& run, const std::string& subject, const
   const auto found = std::find_if(run.measurements.begin(), run.measurements.end(), [&](const Measurement& one) {
     return one.subject == subject && one.quantity == quantity;
   });
-  if (found == run.measurements.end()) throw std::runtime_error("no " + quantity + " of " + subject);
+  if (found == run.measurements.end()) {
+    throw std::runtime_error("no " + quantity + " of " + subject);
+  }
   return *found;
 }
 

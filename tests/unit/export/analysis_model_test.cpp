@@ -26,7 +26,9 @@ class AnalysisModel : public ::testing::Test {
   std::vector<std::string> lines_of(const std::string& table) {
     std::ifstream file(directory_.path() / "model" / (table + ".csv"));
     std::vector<std::string> lines;
-    for (std::string line; std::getline(file, line);) lines.push_back(line);
+    for (std::string line; std::getline(file, line);) {
+      lines.push_back(line);
+    }
     return lines;
   }
   void export_model(std::function<AnalysisModelWriter::Window(std::int64_t)> window = nullptr) {
@@ -41,7 +43,9 @@ TEST_F(AnalysisModel, HasTheTablesOfTracetoolsAnalysis) {
   testing::write_example_system(directory_.path() / "trace", 2);
   export_model();
   std::set<std::string> files;
-  for (const auto& entry : fs::directory_iterator(directory_.path() / "model")) files.insert(entry.path().stem());
+  for (const auto& entry : fs::directory_iterator(directory_.path() / "model")) {
+    files.insert(entry.path().stem());
+  }
   EXPECT_THAT(files,
               ElementsAre("callback_instances", "callback_objects", "callback_symbols", "clients", "contexts",
                           "lifecycle_state_machines", "lifecycle_transitions", "nodes", "rcl_publish_instances",

@@ -19,7 +19,9 @@ using testing::TemporaryDirectory;
 std::vector<std::string> lines_of(const fs::path& path) {
   std::ifstream file(path);
   std::vector<std::string> lines;
-  for (std::string line; std::getline(file, line);) lines.push_back(line);
+  for (std::string line; std::getline(file, line);) {
+    lines.push_back(line);
+  }
   return lines;
 }
 
@@ -28,7 +30,9 @@ TEST(CsvExport, WritesAFileForEachTable) {
   const fs::path tables = directory.path() / "a/b";
   export_csv(testing::traced_example(1), tables);
   std::set<std::string> files;
-  for (const auto& entry : fs::directory_iterator(tables)) files.insert(entry.path().filename());
+  for (const auto& entry : fs::directory_iterator(tables)) {
+    files.insert(entry.path().filename());
+  }
   EXPECT_THAT(files, ::testing::ElementsAre("callback_instances.csv", "callbacks.csv", "event_counts.csv",
                                             "lifecycle_states.csv", "losses.csv", "messages.csv", "nodes.csv",
                                             "processes.csv", "publishers.csv", "starts.csv", "subscriptions.csv",

@@ -24,7 +24,9 @@ json exported(const TracedSystem& system) {
 std::vector<json> events_of(const json& trace, const std::string& phase) {
   std::vector<json> events;
   for (const json& event : trace["traceEvents"]) {
-    if (event["ph"] == phase) events.push_back(event);
+    if (event["ph"] == phase) {
+      events.push_back(event);
+    }
   }
   return events;
 }
@@ -35,7 +37,9 @@ TEST(PerfettoExport, HasEverythingOfACycle) {
             json::parse(R"json({"begin_ns":1767225599970000000,"directory":"/traces/example","lost_events":0})json"));
 
   std::map<std::string, int> phases;
-  for (const json& event : trace["traceEvents"]) ++phases[event["ph"]];
+  for (const json& event : trace["traceEvents"]) {
+    ++phases[event["ph"]];
+  }
   EXPECT_EQ(phases, (std::map<std::string, int>{
                         {"M", 7}, {"i", 9}, {"X", 5}, {"s", 2}, {"f", 2}, {"C", 2}, {"b", 5}, {"e", 5}}));
 
@@ -71,14 +75,18 @@ TEST(PerfettoExport, HasARowForWhatAThreadDidOnTheMachine) {
       "args":{"name":"thread 102 on the machine"}})json"));
   std::vector<json> states;
   for (const json& slice : events_of(trace, "X")) {
-    if (slice["cat"] == "state") states.push_back(slice);
+    if (slice["cat"] == "state") {
+      states.push_back(slice);
+    }
   }
   EXPECT_EQ(*std::find_if(states.begin(), states.end(), [](const json& one) { return one["args"].size() == 2; }),
             json::parse(R"json({"ph":"X","cat":"state","name":"runnable","pid":102,"tid":2000000001,"ts":241600.0,
       "dur":3500.0,"args":{"cpu":1,"ran_instead":"stress [90]"}})json"));
   std::vector<json> counters;
   for (const json& counter : events_of(trace, "C")) {
-    if (counter["name"] == "threads that wait for a processor") counters.push_back(counter);
+    if (counter["name"] == "threads that wait for a processor") {
+      counters.push_back(counter);
+    }
   }
   EXPECT_EQ(counters.back()["args"], json::parse(R"json({"threads":0})json"));
   EXPECT_EQ(counters.back()["ts"], 245100.0);
@@ -108,7 +116,9 @@ TEST(PerfettoExport, EndsOfFlowsLieWithinSlices) {
 TEST(PerfettoExport, HasNoNegativeTimesAndNoUnit) {
   const json trace = exported(testing::traced_example(3));
   EXPECT_FALSE(trace.contains("displayTimeUnit"));
-  for (const json& event : trace["traceEvents"]) EXPECT_GE(event.value("ts", 0.0), 0) << event;
+  for (const json& event : trace["traceEvents"]) {
+    EXPECT_GE(event.value("ts", 0.0), 0) << event;
+  }
 }
 
 TEST(PerfettoExport, KeepsProcessesOfTwoMachinesApart) {

@@ -29,7 +29,9 @@ std::vector<std::string> ask(const std::filesystem::path& file, const std::strin
   };
   char* error = nullptr;
   sqlite3_exec(database, question.c_str(), add, &rows, &error);
-  if (error != nullptr) rows = {error};
+  if (error != nullptr) {
+    rows = {error};
+  }
   sqlite3_free(error);
   sqlite3_close(database);
   return rows;

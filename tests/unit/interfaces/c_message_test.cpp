@@ -31,7 +31,9 @@ std::string bytes_of_c(const rosidl_message_type_support_t* handle, const void* 
   std::vector<char> bytes(callbacks.get_serialized_size(message));
   eprosima::fastcdr::FastBuffer buffer(bytes.data(), bytes.size());
   eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS);
-  if (!callbacks.cdr_serialize(message, cdr)) return "does not fit";
+  if (!callbacks.cdr_serialize(message, cdr)) {
+    return "does not fit";
+  }
   return text_of(bytes.data(), cdr.getSerializedDataLength());
 }
 

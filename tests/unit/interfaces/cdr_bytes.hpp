@@ -52,7 +52,9 @@ std::optional<std::string> serialized(const Message& message, std::size_t capaci
   std::vector<char> bytes(capacity + 1);
   eprosima::fastcdr::FastBuffer buffer(bytes.data(), capacity);
   eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS);
-  if (!callbacks<Message>().cdr_serialize(&message, cdr)) return std::nullopt;
+  if (!callbacks<Message>().cdr_serialize(&message, cdr)) {
+    return std::nullopt;
+  }
   return text_of(bytes.data(), cdr.getSerializedDataLength());
 }
 

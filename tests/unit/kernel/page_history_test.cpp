@@ -37,13 +37,17 @@ std::vector<std::uint64_t> times(PageHistory& history, unsigned cpu) {
 
 std::vector<std::uint64_t> numbers(PageHistory& history, unsigned cpu) {
   std::vector<std::uint64_t> result;
-  for (const PageHistory::KeptPage& kept : history.processors().at(cpu).pages) result.push_back(kept.number);
+  for (const PageHistory::KeptPage& kept : history.processors().at(cpu).pages) {
+    result.push_back(kept.number);
+  }
   return result;
 }
 
 TEST(PageHistory, KeepsTheNewestPagesOfEachProcessor) {
   PageHistory history(3 * kSize);
-  for (std::uint64_t time = 1; time <= 5; ++time) history.add(0, page(time));
+  for (std::uint64_t time = 1; time <= 5; ++time) {
+    history.add(0, page(time));
+  }
   history.add(1, page(9));
   EXPECT_THAT(times(history, 0), ElementsAre(3, 4, 5));
   EXPECT_THAT(times(history, 1), ElementsAre(9));

@@ -81,7 +81,9 @@ Callbacks                        rate  p50  p99  max  missed
   /filter subscription /scan     0 Hz    -    -    -       -
   /display subscription /points  0 Hz    -    -    -       -
 )");
-  for (int i = 0; i < 9; ++i) view_.clear();
+  for (int i = 0; i < 9; ++i) {
+    view_.clear();
+  }
   EXPECT_EQ(view_.screen(2, {}), "0 events/s, 0 callbacks/s, 0 messages/s\nnone lost\n");
 }
 

@@ -53,7 +53,9 @@ void set_may_raise_priorities(bool may) {
 }
 
 TEST(ConsumerPriority, IsRaisedWhereThatIsPermitted) {
-  if (geteuid() != 0) GTEST_SKIP() << "skipped, because only root may raise priorities";
+  if (geteuid() != 0) {
+    GTEST_SKIP() << "skipped, because only root may raise priorities";
+  }
   const test_support::Sandbox sandbox;
   const Consumer consumer(sandbox.directory());
   EXPECT_EQ(prefer_daemons(getpid()), "");
@@ -64,9 +66,13 @@ TEST(ConsumerPriority, ThatMayNotBeRaisedIsSaidWithWhatHelps) {
   const test_support::Sandbox sandbox;
   const Consumer consumer(sandbox.directory());
   const int before = consumer.nice();
-  if (geteuid() == 0) set_may_raise_priorities(false);
+  if (geteuid() == 0) {
+    set_may_raise_priorities(false);
+  }
   const std::string told = prefer_daemons(getpid());
-  if (geteuid() == 0) set_may_raise_priorities(true);
+  if (geteuid() == 0) {
+    set_may_raise_priorities(true);
+  }
   EXPECT_EQ(told,
             "LTTng's consumer keeps its priority (Permission denied): on a machine that is busy all the time it may "
             "come too late, and events are lost; it takes root, CAP_SYS_NICE, or `USER - nice -10` in "

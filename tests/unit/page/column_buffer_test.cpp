@@ -16,9 +16,13 @@ std::string decoded_base64(const std::string& text) {
   unsigned value = 0;
   int bits = 0;
   for (const char c : text) {
-    if (c == '=') break;
+    if (c == '=') {
+      break;
+    }
     value = value << 6 | static_cast<unsigned>(kDigits.find(c));
-    if ((bits += 6) >= 8) bytes += static_cast<char>(value >> (bits -= 8));
+    if ((bits += 6) >= 8) {
+      bytes += static_cast<char>(value >> (bits -= 8));
+    }
   }
   return bytes;
 }
@@ -43,7 +47,9 @@ std::string bytes_of(const ColumnBuffer& buffer) {
 
 TEST(ColumnBuffer, WritesNumbersInAsFewBytesAsTheyNeed) {
   ColumnBuffer buffer;
-  for (const std::uint64_t number : {0ULL, 127ULL, 128ULL, 300ULL}) buffer.add(number);
+  for (const std::uint64_t number : {0ULL, 127ULL, 128ULL, 300ULL}) {
+    buffer.add(number);
+  }
   EXPECT_EQ(bytes_of(buffer), std::string("\0\x7f\x80\x01\xac\x02", 6));
   ColumnBuffer largest;
   largest.add(std::numeric_limits<std::uint64_t>::max());
@@ -52,7 +58,9 @@ TEST(ColumnBuffer, WritesNumbersInAsFewBytesAsTheyNeed) {
 
 TEST(ColumnBuffer, WritesSmallNegativeNumbersShort) {
   ColumnBuffer buffer;
-  for (const std::int64_t number : {0, -1, 1, -2, -64}) buffer.add_signed(number);
+  for (const std::int64_t number : {0, -1, 1, -2, -64}) {
+    buffer.add_signed(number);
+  }
   EXPECT_EQ(bytes_of(buffer), std::string("\0\x01\x02\x03\x7f", 5));
 }
 

@@ -31,7 +31,9 @@ std::vector<ChannelPlan> channels(std::vector<std::string> events, bool init_cha
 
 std::vector<std::string> names(const std::vector<DroppableClass>& drops) {
   std::vector<std::string> found;
-  for (const DroppableClass& drop : drops) found.push_back(drop.name);
+  for (const DroppableClass& drop : drops) {
+    found.push_back(drop.name);
+  }
   return found;
 }
 

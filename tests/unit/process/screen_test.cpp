@@ -207,7 +207,9 @@ class StatusLineOfScreen : public ScreenTest {
     pollfd readable{terminal.get(), POLLIN, 0};
     while (all.size() < size && ::poll(&readable, 1, kPatienceMs) == 1) {
       const ssize_t count = ::read(terminal.get(), text.data(), text.size());
-      if (count <= 0) break;
+      if (count <= 0) {
+        break;
+      }
       all.append(text.data(), static_cast<std::size_t>(count));
     }
     return all;

@@ -21,9 +21,13 @@ class Child {
   Child() : pid_(::fork()) {
     if (pid_ == 0) {
       std::thread([] {
-        for (;;) ::pause();
+        for (;;) {
+          ::pause();
+        }
       }).detach();
-      for (;;) ::pause();
+      for (;;) {
+        ::pause();
+      }
     }
   }
   ~Child() {

@@ -328,10 +328,16 @@ TEST_F(ActionTest, ThreadsMayShareServerAndClient) {
   executor_.remove_node(client_node_);
   std::vector<std::thread> workers;
   const auto work = [](const std::shared_ptr<ServerGoal>& goal) {
-    for (int i = 0; i < 3; ++i) goal->publish_feedback(std::make_shared<Fibonacci::Feedback>());
+    for (int i = 0; i < 3; ++i) {
+      goal->publish_feedback(std::make_shared<Fibonacci::Feedback>());
+    }
     // The client of every third goal cancels it.
-    if (goal->get_goal()->order % 3 != 0) return goal->succeed(result_of({goal->get_goal()->order}));
-    while (!goal->is_canceling()) std::this_thread::yield();
+    if (goal->get_goal()->order % 3 != 0) {
+      return goal->succeed(result_of({goal->get_goal()->order}));
+    }
+    while (!goal->is_canceling()) {
+      std::this_thread::yield();
+    }
     goal->canceled(result_of({}));
   };
   const auto server_group = server_node_->create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive);
@@ -363,7 +369,9 @@ TEST_F(ActionTest, ThreadsMayShareServerAndClient) {
     const auto accepted = client->async_send_goal(goal, options);
     ASSERT_EQ(accepted.wait_for(kPatience), std::future_status::ready);
     results.push_back(client->async_get_result(accepted.get()));
-    if (order % 3 == 0) client->async_cancel_goal(accepted.get());
+    if (order % 3 == 0) {
+      client->async_cancel_goal(accepted.get());
+    }
   }
   for (int32_t order = 0; order < kGoals; ++order) {
     ASSERT_EQ(results[order].wait_for(kPatience), std::future_status::ready) << order;
@@ -371,7 +379,9 @@ TEST_F(ActionTest, ThreadsMayShareServerAndClient) {
   }
   executor.cancel();
   spinner.join();
-  for (std::thread& worker : workers) worker.join();
+  for (std::thread& worker : workers) {
+    worker.join();
+  }
 }
 
 TEST_F(ActionTest, WrongNameIsAnException) {

@@ -49,7 +49,9 @@ class FilterTest : public ::testing::Test {
       explicit Sink(EventFilter& filter) : filter_(filter) {}
       std::vector<std::int64_t> times;
       void on_event(const Event& event) override {
-        if (filter_.accepts(event)) times.push_back(event.timestamp_ns);
+        if (filter_.accepts(event)) {
+          times.push_back(event.timestamp_ns);
+        }
       }
       void on_loss(const Loss&) override {}
 

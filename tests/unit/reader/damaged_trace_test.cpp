@@ -43,8 +43,12 @@ TEST(DamagedTrace, RandomBytesInAStreamEndAPacketOnly) {
     std::mt19937 random(seed);
     for (int round = 0; round < 10; ++round) {
       std::string damaged = whole;
-      for (int i = 0; i < 4; ++i) damaged[random() % damaged.size()] = static_cast<char>(random());
-      if (round % 3 == 0) damaged.resize(random() % damaged.size());
+      for (int i = 0; i < 4; ++i) {
+        damaged[random() % damaged.size()] = static_cast<char>(random());
+      }
+      if (round % 3 == 0) {
+        damaged.resize(random() % damaged.size());
+      }
       std::ofstream(directory.path() / "channel_0", std::ios::binary) << damaged;
       SCOPED_TRACE(seed);
       read_damaged(directory.path());
@@ -60,7 +64,9 @@ TEST(DamagedTrace, RandomBytesInTheMetadataAreRefusedOrRead) {
     std::mt19937 random(seed);
     for (int round = 0; round < 10; ++round) {
       std::string damaged = whole;
-      for (int i = 0; i < 2; ++i) damaged[random() % damaged.size()] = "0123456789{}[]<>=;:a"[random() % 20];
+      for (int i = 0; i < 2; ++i) {
+        damaged[random() % damaged.size()] = "0123456789{}[]<>=;:a"[random() % 20];
+      }
       std::ofstream(directory.path() / "metadata", std::ios::binary) << damaged;
       SCOPED_TRACE(seed);
       read_damaged(directory.path());
@@ -170,7 +176,9 @@ TEST(DamagedTrace, AFileThatGetsShorterWhileItIsReadIsAnError) {
   const testing::TemporaryDirectory directory;
   testing::TraceWriter writer(directory.path(), {.packet_size = 1 << 20});
   constexpr std::int64_t kEvents = 40'000;
-  for (std::int64_t i = 0; i < kEvents; ++i) writer.write(0, i, {1, 1, "a"}, ros2::RclTake{1});
+  for (std::int64_t i = 0; i < kEvents; ++i) {
+    writer.write(0, i, {1, 1, "a"}, ros2::RclTake{1});
+  }
   writer.finish();
   const fs::path stream = directory.path() / "ros2_0";
   const std::uintmax_t size = fs::file_size(stream);
@@ -180,7 +188,9 @@ TEST(DamagedTrace, AFileThatGetsShorterWhileItIsReadIsAnError) {
   std::int64_t events = 0;
   while (const TraceItem item = reader.next()) {
     ASSERT_EQ(item.event->timestamp_ns, events);
-    if (events++ == 0) fs::resize_file(stream, size / 2);
+    if (events++ == 0) {
+      fs::resize_file(stream, size / 2);
+    }
   }
   EXPECT_GT(events, kEvents / 4);
   EXPECT_LT(events, kEvents / 4 * 3);
@@ -201,7 +211,9 @@ TEST(DamagedTrace, AFileThatAnotherOneReplacesIsAnError) {
   const testing::TemporaryDirectory directory;
   for (const char* name : {"trace", "other"}) {
     testing::TraceWriter writer(directory.path() / name, {.packet_size = 1 << 20});
-    for (std::int64_t i = 0; i < 20'000; ++i) writer.write(0, i, {1, 1, "a"}, ros2::RclTake{1});
+    for (std::int64_t i = 0; i < 20'000; ++i) {
+      writer.write(0, i, {1, 1, "a"}, ros2::RclTake{1});
+    }
     writer.finish();
   }
   TraceReader reader(directory.path() / "trace", TraceReader::Decoder::kDirect);
@@ -224,8 +236,12 @@ TEST(DamagedTrace, EventsOfAnySizeAreWholeInALargePacket) {
     std::string payload(size, 'x');
     payload.push_back('\0');
     payload.append(reinterpret_cast<const char*>(&number), sizeof number);
-    for (std::int64_t i = 0; i < 3; ++i) writer.write_raw(0, 1, {1, 1, "a"}, id, payload);
-    for (std::int64_t i = 0; i < 2000; ++i) writer.write(0, 1, {1, 1, "a"}, ros2::RclTake{size});
+    for (std::int64_t i = 0; i < 3; ++i) {
+      writer.write_raw(0, 1, {1, 1, "a"}, id, payload);
+    }
+    for (std::int64_t i = 0; i < 2000; ++i) {
+      writer.write(0, 1, {1, 1, "a"}, ros2::RclTake{size});
+    }
   }
   writer.finish();
   const auto seen = testing::trace_text(directory.path(), TraceReader::Decoder::kDirect);
@@ -273,7 +289,9 @@ std::string refusal(const std::string& metadata) {
 
 std::string repeated(const std::string& text, int times) {
   std::string result;
-  for (int i = 0; i < times; ++i) result += text;
+  for (int i = 0; i < times; ++i) {
+    result += text;
+  }
   return result;
 }
 

@@ -57,7 +57,9 @@ std::vector<std::string> expected_fields(const ros2::AnyEvent& any) {
         if constexpr (!std::is_same_v<Struct, std::monostate>) {
           Struct::for_each_field(event, [&]<ros2::FieldType type>(std::string_view name, const auto&) {
             // In CTF a field of its own holds the length of a sequence, before the sequence.
-            if (type == ros2::FieldType::kPointers) names.push_back("_" + std::string(name) + "_length");
+            if (type == ros2::FieldType::kPointers) {
+              names.push_back("_" + std::string(name) + "_length");
+            }
             names.emplace_back(name);
           });
         }
@@ -80,7 +82,9 @@ TEST_F(RecordedTrace, DecodesEveryEventOfTracetools) {
     EXPECT_EQ(event.event_class->fields, expected_fields(*any)) << event.name();
     EXPECT_EQ(event.vpid, event.vtid);
     EXPECT_EQ(event.procname, "fire_all_events");
-    if (const auto* init = std::get_if<ros2::RclInit>(any)) version = init->version;
+    if (const auto* init = std::get_if<ros2::RclInit>(any)) {
+      version = init->version;
+    }
     decoded[std::string(event.name())] = *any;
   };
   TraceReader(trace_).read(sink);
@@ -88,7 +92,9 @@ TEST_F(RecordedTrace, DecodesEveryEventOfTracetools) {
   EXPECT_THAT(problems, IsEmpty());
   EXPECT_THAT(sink.losses, IsEmpty());
   std::set<std::string> names;
-  for (const auto& [name, event] : decoded) names.insert(name);
+  for (const auto& [name, event] : decoded) {
+    names.insert(name);
+  }
 #define EVENT_NAME(name, ...) "ros2:" #name,
   EXPECT_EQ(names, (std::set<std::string>{TRACETOOLS_EVENTS(EVENT_NAME)}));
 #undef EVENT_NAME

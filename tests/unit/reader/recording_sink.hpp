@@ -39,10 +39,14 @@ class RecordingSink : public TraceSink {
 
   void on_event(const Event& event) override {
     std::optional<std::string> procname;
-    if (event.procname) procname.emplace(*event.procname);
+    if (event.procname) {
+      procname.emplace(*event.procname);
+    }
     events.push_back({std::string(event.name()), event.timestamp_ns, event.cpu_id, event.vpid, event.vtid, procname,
                       event.event_class->trace});
-    if (also) also(event);
+    if (also) {
+      also(event);
+    }
   }
   void on_loss(const Loss& loss) override {
     losses.push_back({loss.kind, std::filesystem::path(loss.stream->name).filename(), loss.stream->vpid, loss.begin_ns,

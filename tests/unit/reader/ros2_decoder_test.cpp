@@ -55,7 +55,9 @@ Struct filled() {
       member = true;
     } else if constexpr (type == ros2::FieldType::kGid) {
       member.size = 16;
-      for (std::size_t i = 0; i < 16; ++i) member.bytes[i] = static_cast<std::uint8_t>(0xf0 + i);
+      for (std::size_t i = 0; i < 16; ++i) {
+        member.bytes[i] = static_cast<std::uint8_t>(0xf0 + i);
+      }
     } else if constexpr (type == ros2::FieldType::kPointers) {
       member = {next, next + 1, 0xffffffffffffffff};
     } else if constexpr (type == ros2::FieldType::kInt64) {
@@ -81,7 +83,9 @@ TEST(Ros2Decoder, DecodesEveryFieldOfEveryEvent) {
   EXPECT_EQ(written.size(), 42u);
   TraceWriter writer(directory.path());
   std::int64_t time = 0;
-  for (const ros2::AnyEvent& event : written) writer.write(0, ++time, kThread, event);
+  for (const ros2::AnyEvent& event : written) {
+    writer.write(0, ++time, kThread, event);
+  }
   writer.finish();
 
   DecodingSink sink;
@@ -119,7 +123,9 @@ TEST(ObjectEndDecoder, KnowsTheEndsOfObjectsByTheirNames) {
   const std::uint16_t callback = writer.declare("ros2_ext:rclcpp_callback_fini", kField);
   const std::uint16_t other = writer.declare("ros2_ext:rclcpp_executor_execute_client", kField);
   std::int64_t time = 0;
-  for (const std::uint16_t id : {node, callback, other, node}) writer.write_raw(0, ++time, kThread, id, handle);
+  for (const std::uint16_t id : {node, callback, other, node}) {
+    writer.write_raw(0, ++time, kThread, id, handle);
+  }
   writer.finish();
 
   class Sink : public TraceSink {
@@ -169,7 +175,9 @@ TEST(ExecutionEventDecoder, KnowsWhatExecutorsAndClientsDo) {
 
 std::string bytes(std::initializer_list<std::uint64_t> values) {
   std::string result;
-  for (const std::uint64_t value : values) testing::detail::append(result, value);
+  for (const std::uint64_t value : values) {
+    testing::detail::append(result, value);
+  }
   return result;
 }
 
@@ -259,7 +267,9 @@ std::string camel_case(std::string_view name) {
   std::string result;
   bool first = true;
   for (const char c : name) {
-    if (c != '_') result += first ? static_cast<char>(std::toupper(c)) : c;
+    if (c != '_') {
+      result += first ? static_cast<char>(std::toupper(c)) : c;
+    }
     first = c == '_';
   }
   return result;
@@ -299,8 +309,12 @@ TEST(ExtEvents, ThatAreDecodedAreInTheTable) {
   TRACETOOLS_EXT_EVENT_TABLE(TRACING_NOTE, "ros2_ext")
 #undef TRACING_NOTE
 #undef TRACING_FIRST_FIELD
-  for (const auto& [name, kind] : ros2::ObjectEnd::kKinds) EXPECT_TRUE(known.contains(std::string(name))) << name;
-  for (const auto& [name, kind] : ros2::ExecutionEvent::kKinds) EXPECT_TRUE(known.contains(std::string(name))) << name;
+  for (const auto& [name, kind] : ros2::ObjectEnd::kKinds) {
+    EXPECT_TRUE(known.contains(std::string(name))) << name;
+  }
+  for (const auto& [name, kind] : ros2::ExecutionEvent::kKinds) {
+    EXPECT_TRUE(known.contains(std::string(name))) << name;
+  }
 }
 
 }  // namespace

@@ -25,7 +25,9 @@ constexpr Thread kPong{72, 720, "pong"};
 
 std::vector<std::int64_t> times(const RecordingSink& sink) {
   std::vector<std::int64_t> result;
-  for (const auto& event : sink.events) result.push_back(event.timestamp_ns);
+  for (const auto& event : sink.events) {
+    result.push_back(event.timestamp_ns);
+  }
   return result;
 }
 
@@ -254,7 +256,9 @@ TEST(TraceReader, NamesTheStreamFileThatIsTruncated) {
 TEST(TraceReader, GivesTheEventsBeforeDamagedData) {
   const TemporaryDirectory directory;
   TraceWriter writer(directory.path());
-  for (int i = 0; i < 100; ++i) writer.write(0, 100 + i, kPing, ros2::RclTake{5});
+  for (int i = 0; i < 100; ++i) {
+    writer.write(0, 100 + i, kPing, ros2::RclTake{5});
+  }
   constexpr std::uint16_t kUndeclared = 999;
   writer.write_raw(0, 300, kPing, kUndeclared, "");
   writer.finish();
@@ -315,7 +319,9 @@ TEST(TraceReader, ReadsAnOpenTraceAsFarAsItsMetadataGo) {
     std::ofstream(directory.path() / "metadata") << metadata.substr(0, size);
     TraceReader reader(directory.path());
     std::size_t seen = 0;
-    while (reader.next()) ++seen;
+    while (reader.next()) {
+      ++seen;
+    }
     EXPECT_EQ(seen, events) << size;
     EXPECT_TRUE(reader.damage().empty()) << size;
     EXPECT_EQ(reader.lacks_descriptions(), events < 2) << size;

@@ -226,10 +226,14 @@ TEST(ComparisonOptions, AreSharesAndTimes) {
   EXPECT_EQ(options.least_ns, 1'500'000);
   EXPECT_TRUE(set_least(options, "0s"));
   EXPECT_EQ(options.least_ns, 0);
-  for (const char* text : {"", "5", "%", "-1%", "1h", "nan%", "us"}) EXPECT_FALSE(set_least(options, text)) << text;
+  for (const char* text : {"", "5", "%", "-1%", "1h", "nan%", "us"}) {
+    EXPECT_FALSE(set_least(options, text)) << text;
+  }
   EXPECT_EQ(confidence_of("95%"), 0.95);
   EXPECT_EQ(confidence_of("0.999"), 0.999);
-  for (const char* text : {"", "1", "100%", "0.5", "95", "x", "0.9s"}) EXPECT_FALSE(confidence_of(text)) << text;
+  for (const char* text : {"", "1", "100%", "0.5", "95", "x", "0.9s"}) {
+    EXPECT_FALSE(confidence_of(text)) << text;
+  }
 }
 
 }  // namespace

@@ -13,7 +13,9 @@ namespace {
 nlohmann::json part(const nlohmann::json& entry, const nlohmann::json& like) {
   nlohmann::json kept;
   for (const auto& [key, value] : like.items()) {
-    if (!entry.contains(key)) continue;
+    if (!entry.contains(key)) {
+      continue;
+    }
     kept[key] = value.is_object() ? part(entry[key], value) : entry[key];
   }
   return kept;

@@ -292,7 +292,9 @@ TEST(TextReport, FitsTheWidth) {
     for (const bool compact : {false, true}) {
       std::istringstream lines(text_report(report_with_results(), {.width = width, .compact = compact}));
       for (std::string line; std::getline(lines, line);) {
-        if (line == "Notes") break;
+        if (line == "Notes") {
+          break;
+        }
         EXPECT_LE(line.size(), width) << line;
       }
     }
@@ -312,12 +314,13 @@ TEST(TextReport, SortsAndChooses) {
     std::string found;
     bool in_table = false;
     for (std::string line; std::getline(lines, line);) {
-      if (line.starts_with("Callbacks"))
+      if (line.starts_with("Callbacks")) {
         in_table = true;
-      else if (line.empty())
+      } else if (line.empty()) {
         in_table = false;
-      else if (in_table)
+      } else if (in_table) {
         found += line.substr(2, line.find(',') - 2) + " ";
+      }
     }
     return found;
   };

@@ -26,7 +26,9 @@ using testing::ElementsAre;
 
 std::set<std::string> files_in(const fs::path& directory) {
   std::set<std::string> names;
-  for (const fs::directory_entry& entry : fs::directory_iterator(directory)) names.insert(entry.path().filename());
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory)) {
+    names.insert(entry.path().filename());
+  }
   return names;
 }
 
@@ -62,7 +64,9 @@ TEST_F(AbandonedMemory, LockedFilesWellKnownPortsAndFilesOfOthersStay) {
                                        "fastrtps_short_el",
                                        "mine_0123456789abcdef_el",
                                        "fastrtps_portly_el"};
-  for (const std::string& name : names) make(name);
+  for (const std::string& name : names) {
+    make(name);
+  }
   const int segment = open((directory / "fastrtps_fedcba9876543210_el").c_str(), O_RDONLY | O_CLOEXEC);
   const int port = open((directory / "fastrtps_port70001_el").c_str(), O_RDONLY | O_CLOEXEC);
   ASSERT_EQ(flock(segment, LOCK_EX), 0);
@@ -74,7 +78,9 @@ TEST_F(AbandonedMemory, LockedFilesWellKnownPortsAndFilesOfOthersStay) {
 }
 
 TEST_F(AbandonedMemory, WhatAKilledNodeLeavesGoesAndTheNextNodeIsNotTouched) {
-  if (geteuid() != 0) GTEST_SKIP() << "skipped, because without root /dev/shm is not the test's own";
+  if (geteuid() != 0) {
+    GTEST_SKIP() << "skipped, because without root /dev/shm is not the test's own";
+  }
   const test_support::Command talker{.argv = {TALKER}};
   test_support::RunningCommand killed(talker);
   ASSERT_TRUE(killed.wait_for_output("Publishing"));
@@ -91,7 +97,9 @@ TEST_F(AbandonedMemory, WhatAKilledNodeLeavesGoesAndTheNextNodeIsNotTouched) {
   for (const std::string& name : before) {
     // The port that all participants share, in place of the multicast port of UDP, is a well-known one.
     const bool is_well_known = std::regex_search(name, std::regex("fastrtps_port[0-9]{1,5}([^0-9]|$)"));
-    if (name.find("fastrtps_") == std::string::npos || is_well_known) continue;
+    if (name.find("fastrtps_") == std::string::npos || is_well_known) {
+      continue;
+    }
     EXPECT_EQ(after.contains(name), !left.contains(name)) << name;
   }
   next.send_signal(SIGINT);

@@ -97,7 +97,9 @@ TEST_F(LaunchServiceTest, ASecondSignalTerminatesAndAThirdKillsAndHurries) {
                                      "stubborn-1; SIGKILL follows in 5 s, or with a third signal",
                                      "[launch] user interrupted with SIGTERM again, killing stubborn-1"));
   std::vector<int> sent;
-  for (const auto& signal : runner_.signals()) sent.push_back(signal.signal);
+  for (const auto& signal : runner_.signals()) {
+    sent.push_back(signal.signal);
+  }
   EXPECT_THAT(sent, ElementsAre(SIGINT, SIGTERM, SIGKILL, SIGKILL)) << "the last one is for its descendants";
   EXPECT_LT(loop_.now(), 4s);
 }

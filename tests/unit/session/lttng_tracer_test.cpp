@@ -38,7 +38,9 @@ using tracing::TraceError;
 
 std::vector<std::string> step_names(const SetupReport& report) {
   std::vector<std::string> names;
-  for (const SessionStep& step : report.steps) names.push_back(step.name);
+  for (const SessionStep& step : report.steps) {
+    names.push_back(step.name);
+  }
   return names;
 }
 
@@ -84,7 +86,9 @@ TEST_F(LttngTracer, ThreadsThatAskTheSessionDaemonAtOnceGetTheirOwnAnswers) {
   std::atomic<int> domains = 0;
   const auto ask_often = [](std::atomic<int>& total, auto&& question) {
     return [&total, question] {
-      for (int i = 0; i < kQuestions; ++i) total += question();
+      for (int i = 0; i < kQuestions; ++i) {
+        total += question();
+      }
     };
   };
   const auto ask_for_sessions = [] {
@@ -134,7 +138,9 @@ TEST_F(LttngTracer, RotatedTraceStaysWhereItIsOnceFinishHasReturned) {
   const auto directories_of = [](const std::string& trace) {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(trace)) {
-      if (entry.is_directory()) names.push_back(entry.path().filename());
+      if (entry.is_directory()) {
+        names.push_back(entry.path().filename());
+      }
     }
     return names;
   };
@@ -245,7 +251,9 @@ TEST_F(LttngTracer, LossesEqualWhatTheTraceSays) {
   EXPECT_THAT(verdict, testing::HasSubstr("\"complete\": false"));
   EXPECT_THAT(verdict, testing::HasSubstr("\"discarded_events\": " + std::to_string(trace.discarded)));
   std::uint64_t in_ranges = 0;
-  for (const tracing::LossRange& range : losses.channels.at(0).ranges) in_ranges += range.events;
+  for (const tracing::LossRange& range : losses.channels.at(0).ranges) {
+    in_ranges += range.events;
+  }
   EXPECT_EQ(in_ranges, trace.discarded);
 }
 

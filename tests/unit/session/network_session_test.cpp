@@ -55,15 +55,21 @@ struct NetworkSession : testing::Test {
     int signalled = 0;
     for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
       const pid_t pid = static_cast<pid_t>(std::strtol(entry.path().filename().c_str(), nullptr, 10));
-      if (pid <= 0 || launch::read_process_stat(pid).name != "lttng-relayd") continue;
+      if (pid <= 0 || launch::read_process_stat(pid).name != "lttng-relayd") {
+        continue;
+      }
       std::error_code gone;
       const auto network = std::filesystem::read_symlink(entry.path() / "ns/net", gone);
-      if (gone || network != std::filesystem::read_symlink("/proc/self/ns/net")) continue;
+      if (gone || network != std::filesystem::read_symlink("/proc/self/ns/net")) {
+        continue;
+      }
       kill(pid, number);
       ++signalled;
       const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(60);
       while (number == SIGSTOP && launch::read_process_stat(pid).state != 'T') {
-        if (std::chrono::steady_clock::now() > until) FAIL() << "it does not stop";
+        if (std::chrono::steady_clock::now() > until) {
+          FAIL() << "it does not stop";
+        }
         std::this_thread::yield();
       }
     }
@@ -98,7 +104,9 @@ TEST_F(NetworkSession, ALiveSessionHasItsTimerAndIsRelayed) {
 }
 
 TEST_F(NetworkSession, TheRelayDaemonIsWatched) {
-  if (geteuid() != 0) GTEST_SKIP() << "skipped, because without root the daemons of the machine can't be told apart";
+  if (geteuid() != 0) {
+    GTEST_SKIP() << "skipped, because without root the daemons of the machine can't be told apart";
+  }
   start_relay_daemon();
   tracer->start(config());
   std::mutex mutex;
@@ -108,7 +116,9 @@ TEST_F(NetworkSession, TheRelayDaemonIsWatched) {
     std::unique_lock lock(mutex);
     changed.wait_for(lock, std::chrono::seconds(60), [&] { return !told.empty(); });
     std::string sentence = told.empty() ? "nothing" : told.front();
-    if (!told.empty()) told.erase(told.begin());
+    if (!told.empty()) {
+      told.erase(told.begin());
+    }
     return sentence;
   };
   std::unique_ptr<tracing::RunWatch> watch = tracer->watch(config(), [&](const std::string& sentence) {
@@ -139,7 +149,9 @@ TEST_F(NetworkSession, TheRelayDaemonIsWatched) {
 
 // Calls of LTTng's would never return.
 TEST_F(NetworkSession, AStoppedRelayDaemonIsAnErrorAndTheSessionIsLeft) {
-  if (geteuid() != 0) GTEST_SKIP() << "skipped, because without root the daemons of the machine can't be told apart";
+  if (geteuid() != 0) {
+    GTEST_SKIP() << "skipped, because without root the daemons of the machine can't be told apart";
+  }
   start_relay_daemon();
   tracer->start(config());
   TracedApp(25, 10).end();

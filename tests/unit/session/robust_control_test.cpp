@@ -118,7 +118,9 @@ struct RobustControl : testing::Test {
 };
 
 TEST_F(RobustControl, AKilledConsumerIsAnErrorAndBlocksNoApplication) {
-  if (geteuid() != 0) GTEST_SKIP() << "skipped, because without root the consumers of the machine can't be told apart";
+  if (geteuid() != 0) {
+    GTEST_SKIP() << "skipped, because without root the consumers of the machine can't be told apart";
+  }
   tracer->start(config());
   TracedApp app(10, 10);
   kill_processes("lttng-consumerd");
@@ -141,7 +143,9 @@ TEST_F(RobustControl, AKilledConsumerIsAnErrorAndBlocksNoApplication) {
 
 // A daemon that somebody else has started, or that others use, is not ended.
 TEST_F(RobustControl, AfterAKilledConsumerADaemonOfOthersIsToldOf) {
-  if (geteuid() != 0) GTEST_SKIP() << "skipped, because without root the consumers of the machine can't be told apart";
+  if (geteuid() != 0) {
+    GTEST_SKIP() << "skipped, because without root the consumers of the machine can't be told apart";
+  }
   ASSERT_EQ(run_command({"lttng-sessiond", "--daemonize"}).exit_code, 0);
   tracer->start(config());
   const pid_t daemon = tracing::session_daemon_pid();
@@ -158,7 +162,9 @@ TEST_F(RobustControl, AfterAKilledConsumerADaemonOfOthersIsToldOf) {
 }
 
 TEST_F(RobustControl, WhatARecordingNeedsIsWatched) {
-  if (geteuid() != 0) GTEST_SKIP() << "skipped, because without root the consumers of the machine can't be told apart";
+  if (geteuid() != 0) {
+    GTEST_SKIP() << "skipped, because without root the consumers of the machine can't be told apart";
+  }
   tracer->start(config());
   std::mutex mutex;
   std::condition_variable changed;
@@ -167,7 +173,9 @@ TEST_F(RobustControl, WhatARecordingNeedsIsWatched) {
     std::unique_lock lock(mutex);
     changed.wait_for(lock, std::chrono::seconds(30), [&] { return !told.empty(); });
     std::string sentence = told.empty() ? "nothing" : told.front();
-    if (!told.empty()) told.erase(told.begin());
+    if (!told.empty()) {
+      told.erase(told.begin());
+    }
     return sentence;
   };
   std::unique_ptr<tracing::RunWatch> watch = tracer->watch(config(), [&](const std::string& sentence) {
@@ -217,7 +225,9 @@ TEST_F(RobustControl, ADaemonThatIsStoppedInMidRunIsAnErrorAndDoesNotBlock) {
 }
 
 TEST_F(RobustControl, AFullDiskIsSaidAndTheSessionEnds) {
-  if (geteuid() != 0) GTEST_SKIP() << "skipped, because without root no small file system can be mounted";
+  if (geteuid() != 0) {
+    GTEST_SKIP() << "skipped, because without root no small file system can be mounted";
+  }
   fs::create_directories(sandbox.trace_directory());
   ASSERT_EQ(mount("tmpfs", sandbox.trace_directory().c_str(), "tmpfs", 0, "size=256k"), 0);
   const LossAccount losses = record_more_than_fits(sandbox.trace_directory());
@@ -234,14 +244,18 @@ TEST_F(RobustControl, ADiskQuotaThatIsUsedUpIsSaidAndTheSessionEnds) {
                                  "truncate -s 128M " + image + "; mkfs.btrfs -q " + image + "; mkdir -p " + disk +
                                      "; mount -o loop " + image + " " + disk + "; btrfs quota enable " + disk +
                                      "; btrfs subvolume create " + traces + "; btrfs qgroup limit 256k " + traces});
-  if (made.exit_code != 0) GTEST_SKIP() << "skipped, because no file system with a quota can be made: " << made.err;
+  if (made.exit_code != 0) {
+    GTEST_SKIP() << "skipped, because no file system with a quota can be made: " << made.err;
+  }
   const LossAccount losses = record_more_than_fits(traces);
   EXPECT_THAT(losses.damage, lacks_events("the disk quota for " + traces + "/run is used up"));
   umount2(disk.c_str(), MNT_DETACH);
 }
 
 TEST_F(RobustControl, SharedMemoryThatCannotBeWrittenIsAnErrorBeforeAnythingIsCreated) {
-  if (geteuid() != 0) GTEST_SKIP() << "skipped, because without root /dev/shm can't be made read-only";
+  if (geteuid() != 0) {
+    GTEST_SKIP() << "skipped, because without root /dev/shm can't be made read-only";
+  }
   ASSERT_EQ(mount(nullptr, "/dev/shm", nullptr, MS_REMOUNT | MS_RDONLY, nullptr), 0);
   EXPECT_EQ(error_of([this] { tracer->start(config()); }),
             "userspace events need shared memory, but /dev/shm cannot be written: Read-only file system\n"
@@ -251,7 +265,9 @@ TEST_F(RobustControl, SharedMemoryThatCannotBeWrittenIsAnErrorBeforeAnythingIsCr
 }
 
 TEST_F(RobustControl, LittleSharedMemoryMakesTheBuffersSmallerWithAWarning) {
-  if (geteuid() != 0) GTEST_SKIP() << "skipped, because without root /dev/shm can't be made small";
+  if (geteuid() != 0) {
+    GTEST_SKIP() << "skipped, because without root /dev/shm can't be made small";
+  }
   ASSERT_EQ(mount(nullptr, "/dev/shm", nullptr, MS_REMOUNT, "size=3m"), 0);
   const auto warnings = tracer->start(config()).warnings;
   ASSERT_EQ(warnings.size(), 1u);
@@ -302,7 +318,9 @@ TEST_F(RobustControl, FiveHundredProcessesAreAllRecorded) {
 }
 
 TEST_F(RobustControl, TheConsumerIsPreferredWherePermitted) {
-  if (geteuid() != 0) GTEST_SKIP() << "skipped, because without root no process can be preferred";
+  if (geteuid() != 0) {
+    GTEST_SKIP() << "skipped, because without root no process can be preferred";
+  }
   tracer->start(config());
   const std::vector<pid_t> consumers = processes("lttng-consumerd");
   EXPECT_FALSE(consumers.empty());
@@ -323,7 +341,9 @@ TEST_F(RobustControl, ContextFieldsAreTriedByRecordingOneEvent) {
 }
 
 TEST_F(RobustControl, AWrongUserIsToldWhoseSessionItIs) {
-  if (geteuid() != 0) GTEST_SKIP() << "skipped, because only root has a session daemon that others can't use";
+  if (geteuid() != 0) {
+    GTEST_SKIP() << "skipped, because only root has a session daemon that others can't use";
+  }
   tracer->start(config());
   const auto result = test_support::run_command(
       {"setpriv", "--reuid=65534", "--regid=65534", "--clear-groups", TRACE_COMMAND, "stop", "run"});
@@ -352,7 +372,9 @@ TEST_F(RobustControl, AnOlderSessionOfTheSameNameIsNotStopped) {
 
 // As in a container: a program that runs before the session daemon waits for a wake-up through /dev/shm.
 TEST_F(RobustControl, ProcessesWithSharedMemoryOfTheirOwnAreRecordedOrToldOf) {
-  if (geteuid() != 0) GTEST_SKIP() << "skipped, because without root there is no second /dev/shm";
+  if (geteuid() != 0) {
+    GTEST_SKIP() << "skipped, because without root there is no second /dev/shm";
+  }
   const std::string apart = std::string("mount -t tmpfs none /dev/shm && exec ") + TRACED_APP + " 5 10";
   test_support::RunningCommand before({.argv = {"unshare", "-m", "sh", "-c", apart}});
   ASSERT_TRUE(before.wait_for_output("fired"));

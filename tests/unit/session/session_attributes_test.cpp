@@ -210,18 +210,24 @@ TEST_F(SessionAttributes, NoMoreTraceFilesAreKeptThanAskedFor) {
   asked.tracefile_count = 2;
   tracer->start(asked);
   TracedApp app(100, 1000);
-  for (int i = 0; i < 10; ++i) app.fire_again();
+  for (int i = 0; i < 10; ++i) {
+    app.fire_again();
+  }
   app.end();
   tracer->finish(asked, [] { return false; });
   std::map<std::string, int> files;  // of each processor's stream
   for (const auto& entry : std::filesystem::recursive_directory_iterator(asked.trace_directory())) {
     const std::string name = entry.path().filename();
-    if (!name.starts_with("ros2_") || entry.path().extension() == ".idx") continue;
+    if (!name.starts_with("ros2_") || entry.path().extension() == ".idx") {
+      continue;
+    }
     EXPECT_LE(entry.file_size(), 16384u) << name;
     ++files[name.substr(0, name.rfind('_'))];
   }
   ASSERT_FALSE(files.empty());
-  for (const auto& [stream, count] : files) EXPECT_LE(count, 2) << stream;
+  for (const auto& [stream, count] : files) {
+    EXPECT_LE(count, 2) << stream;
+  }
 }
 
 TEST_F(SessionAttributes, BuffersPerProcessAreRecordedPerProcess) {

@@ -74,7 +74,9 @@ TEST_F(LttngTracer, ReadOnlyBasePathIsAnErrorBeforeAnythingIsCreated) {
   const char* reason = geteuid() == 0 ? "Read-only file system" : "Permission denied";
   EXPECT_EQ(start_error(config), "cannot write traces to " + config.base_path + ": " + folder.string() + ": " + reason +
                                      "\nchoose another base-path, or set ROS_TRACE_DIR");
-  if (geteuid() == 0) umount(folder.c_str());
+  if (geteuid() == 0) {
+    umount(folder.c_str());
+  }
 }
 
 TEST_F(LttngTracer, MissingDaemonIsAnErrorThatNamesThePackages) {

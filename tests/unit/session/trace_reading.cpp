@@ -12,14 +12,18 @@ using test_support::run_command;
 ReadTrace read_trace(const std::string& directory) {
   ReadTrace trace;
   const auto result = run_command({"babeltrace2", directory});
-  if (result.exit_code != 0) trace.complaints = "exit code " + std::to_string(result.exit_code) + "\n";
+  if (result.exit_code != 0) {
+    trace.complaints = "exit code " + std::to_string(result.exit_code) + "\n";
+  }
 
   // "[time] (+delta) host ros2:rcl_init: { … }"
   std::istringstream out(result.out);
   for (std::string line; std::getline(out, line);) {
     const std::size_t end = line.find(": {");
     const std::size_t begin = line.rfind(' ', end) + 1;
-    if (end != std::string::npos) ++trace.events[line.substr(begin, end - begin)];
+    if (end != std::string::npos) {
+      ++trace.events[line.substr(begin, end - begin)];
+    }
     trace.lines.push_back(line);
   }
   const std::string discarded = "Tracer discarded ";
@@ -40,7 +44,9 @@ ReadTrace read_trace(const std::string& directory) {
 
 std::string listed_sessions() {
   const auto result = run_command({"lttng", "list"});
-  if (result.exit_code != 0) return "lttng list failed: " + result.err;
+  if (result.exit_code != 0) {
+    return "lttng list failed: " + result.err;
+  }
   return result.out.find("Currently no available recording session") != std::string::npos ? "" : result.out;
 }
 
@@ -53,7 +59,9 @@ TracedApp::TracedApp(int count, int bytes)
 
 void TracedApp::fire_again() {
   std::string expected;
-  for (++fired_; static_cast<int>(expected.size()) < fired_ * 6;) expected += "fired\n";
+  for (++fired_; static_cast<int>(expected.size()) < fired_ * 6;) {
+    expected += "fired\n";
+  }
   process_.write("\n");
   EXPECT_TRUE(process_.wait_for_output(expected));
 }

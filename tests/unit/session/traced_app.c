@@ -20,7 +20,9 @@ static void fire(long count, const char* symbol) {
 }
 
 int main(int argc, char** argv) {
-  if (argc < 3) return 2;
+  if (argc < 3) {
+    return 2;
+  }
   const long count = atol(argv[1]);
   const size_t bytes = (size_t)atol(argv[2]);
   char* symbol = malloc(bytes + 1);
@@ -29,9 +31,13 @@ int main(int argc, char** argv) {
 
   lttng_ust_tracepoint(ros2, rcl_init, (const void*)symbol, "1.0.0");
   fire(count, symbol);
-  if (argc > 3) abort();
+  if (argc > 3) {
+    abort();
+  }
   char line[16];
-  while (fgets(line, sizeof line, stdin) != NULL) fire(count, symbol);
+  while (fgets(line, sizeof line, stdin) != NULL) {
+    fire(count, symbol);
+  }
   free(symbol);
   return 0;
 }

@@ -71,9 +71,13 @@ Configuration configuration_of(unsigned seed, TraceConfig base) {
     config.tracefile_count = one_of({0, 2, 3, 3});
   }
   config.snapshot_mode = chosen.shape == Shape::kSnapshot;
-  if (config.snapshot_mode) config.overwrite_ust = true;  // LTTng takes no other
+  if (config.snapshot_mode) {
+    config.overwrite_ust = true;  // LTTng takes no other
+  }
   config.append_trace = chosen.shape == Shape::kAppended;
-  if (chosen.shape == Shape::kTwoChannels) config.channels = {{.name = "first_0", .events_ust = {"ros2:rcl_init"}}};
+  if (chosen.shape == Shape::kTwoChannels) {
+    config.channels = {{.name = "first_0", .events_ust = {"ros2:rcl_init"}}};
+  }
   chosen.processes = static_cast<int>(one_of({1, 2, 3}));
   chosen.bursts = static_cast<int>(one_of({1, 2, 3}));
   chosen.events = static_cast<int>(one_of({20, 400, 4000}));
@@ -95,7 +99,9 @@ struct VerdictShapes : trace_test::LttngTracer, testing::WithParamInterface<unsi
   void TearDown() override { unsetenv("LTTNG_UST_REGISTER_TIMEOUT"); }
 
   void fire_in(std::vector<std::unique_ptr<TracedApp>>& apps) {
-    for (const auto& app : apps) app->fire_again();
+    for (const auto& app : apps) {
+      app->fire_again();
+    }
     fired += apps.size() * static_cast<std::uint64_t>(chosen.events);
   }
 
@@ -143,11 +149,15 @@ struct VerdictShapes : trace_test::LttngTracer, testing::WithParamInterface<unsi
     }
     const bool ends_before = GetParam() % 2 == 0;
     if (ends_before) {
-      for (const auto& app : apps) app->end();
+      for (const auto& app : apps) {
+        app->end();
+      }
     }
     tracer->finish(chosen.config, never);
     if (!ends_before) {
-      for (const auto& app : apps) app->end();
+      for (const auto& app : apps) {
+        app->end();
+      }
     }
   }
 
@@ -177,7 +187,9 @@ TEST_P(VerdictShapes, SaysWhatBabeltraceCounts) {
 
   const ReadTrace trace = read_trace(recording);
   std::uint64_t read = 0;
-  for (const auto& [name, count] : trace.events) read += static_cast<std::uint64_t>(count);
+  for (const auto& [name, count] : trace.events) {
+    read += static_cast<std::uint64_t>(count);
+  }
   std::printf("%2u | %s | fired %ju, read %ju | discarded %ju = %ju | packets %ju = %ju | %s\n", GetParam(),
               chosen.text().c_str(), std::uintmax_t{fired}, std::uintmax_t{read}, std::uintmax_t{trace.discarded},
               std::uintmax_t{said.discarded}, std::uintmax_t{trace.lost_packets}, std::uintmax_t{said.lost_packets},
@@ -186,7 +198,9 @@ TEST_P(VerdictShapes, SaysWhatBabeltraceCounts) {
   EXPECT_EQ(said.discarded, trace.discarded) << verdicts;
   EXPECT_EQ(said.lost_packets, trace.lost_packets) << verdicts;
   // A snapshot is complete between its first event and its last.
-  if (chosen.shape == Shape::kSnapshot) return;
+  if (chosen.shape == Shape::kSnapshot) {
+    return;
+  }
   EXPECT_EQ(said.complete, read == fired) << verdicts;
   if (!*chosen.config.overwrite_ust && chosen.config.tracefile_count == 0) {
     EXPECT_EQ(read + said.discarded, fired) << verdicts;

@@ -66,7 +66,9 @@ TEST(TestingTrace, TellsTheWaysOfMessagesAndTheCallbacks) {
   const std::int64_t begin = tracing::testing::kPingPongBegin;
   std::vector<Delivery> pings;
   for (const Delivery& delivery : trace.deliveries()) {
-    if (delivery.topic == "/ping") pings.push_back(delivery);
+    if (delivery.topic == "/ping") {
+      pings.push_back(delivery);
+    }
   }
   ASSERT_EQ(pings.size(), 1U);
   EXPECT_EQ(pings[0].publisher, "/ping");

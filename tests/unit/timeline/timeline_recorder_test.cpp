@@ -57,7 +57,9 @@ TEST_F(ExampleTimeline, FollowsAMessageFromCallbackToCallback) {
 TEST_F(ExampleTimeline, KeepsMessagesThatNobodyTook) {
   std::vector<std::int64_t> untaken;
   for (const Message& message : timeline_.messages) {
-    if (message.taken_ns == 0) untaken.push_back((message.published_ns - kExampleFirstCycle) / testing::kExamplePeriod);
+    if (message.taken_ns == 0) {
+      untaken.push_back((message.published_ns - kExampleFirstCycle) / testing::kExamplePeriod);
+    }
   }
   EXPECT_EQ(untaken, (std::vector<std::int64_t>{49, 99}));
 }

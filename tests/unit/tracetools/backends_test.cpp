@@ -28,8 +28,12 @@ const Names kExtEvents = {TRACETOOLS_EXT_EVENTS(EVENT_NAME)};
 Names functions() {
   Names names = {"ros_trace_compile_status", "ros_trace_runtime_status"};
   for (const char* infix : {"", "do_", "enabled_"}) {
-    for (const std::string& event : kEvents) names.insert("ros_trace_" + (infix + event));
-    for (const std::string& event : kExtEvents) names.insert("ros_trace_ext_" + (infix + event));
+    for (const std::string& event : kEvents) {
+      names.insert("ros_trace_" + (infix + event));
+    }
+    for (const std::string& event : kExtEvents) {
+      names.insert("ros_trace_ext_" + (infix + event));
+    }
   }
   return names;
 }
@@ -82,7 +86,9 @@ TEST(Backends, NoneNeverWantsAnEvent) {
   void* library = dlopen(NONE_LIBRARY, RTLD_NOW | RTLD_LOCAL);
   ASSERT_NE(library, nullptr) << dlerror();
   for (const std::string& name : functions()) {
-    if (name.find("_enabled_") == std::string::npos && name.find("_status") == std::string::npos) continue;
+    if (name.find("_enabled_") == std::string::npos && name.find("_status") == std::string::npos) {
+      continue;
+    }
     EXPECT_FALSE(reinterpret_cast<bool (*)()>(dlsym(library, name.c_str()))()) << name;
   }
   dlclose(library);
@@ -105,8 +111,12 @@ TEST(Backends, UsdtHasAProbeForEachEvent) {
     probes.insert((*match)[1].str() + ":" + (*match)[2].str());
   }
   Names expected;
-  for (const std::string& event : kEvents) expected.insert("ros2:" + event);
-  for (const std::string& event : kExtEvents) expected.insert("ros2_ext:" + event);
+  for (const std::string& event : kEvents) {
+    expected.insert("ros2:" + event);
+  }
+  for (const std::string& event : kExtEvents) {
+    expected.insert("ros2_ext:" + event);
+  }
   EXPECT_EQ(probes, expected);
 }
 

@@ -15,7 +15,9 @@ namespace {
 constexpr int kThreads = 100;
 
 void take_messages() {
-  for (int i = 0; i < 1000; ++i) TRACETOOLS_TRACEPOINT(rcl_take, nullptr);
+  for (int i = 0; i < 1000; ++i) {
+    TRACETOOLS_TRACEPOINT(rcl_take, nullptr);
+  }
 }
 
 }  // namespace
@@ -31,11 +33,17 @@ int main() {
       all_fire.arrive_and_wait();
     });
   }
-  for (std::thread& thread : threads) thread.join();
-  for (int i = 0; i < kThreads; ++i) std::thread(take_messages).join();
+  for (std::thread& thread : threads) {
+    thread.join();
+  }
+  for (int i = 0; i < kThreads; ++i) {
+    std::thread(take_messages).join();
+  }
   const pid_t child = fork();
   if (child == 0) {
-    for (int i = 0; i < 7; ++i) TRACETOOLS_TRACEPOINT(rclcpp_take, nullptr);
+    for (int i = 0; i < 7; ++i) {
+      TRACETOOLS_TRACEPOINT(rclcpp_take, nullptr);
+    }
     _exit(0);
   }
   waitpid(child, nullptr, 0);

@@ -34,7 +34,9 @@ constexpr const char* kFileOfRoot = "/dev/shm/lttng-ust-wait-8";
 class DaemonArrival : public testing::Test {
  protected:
   void SetUp() override {
-    if (geteuid() != 0) GTEST_SKIP() << "skipped, because without root /dev/shm and /run are not the test's own";
+    if (geteuid() != 0) {
+      GTEST_SKIP() << "skipped, because without root /dev/shm and /run are not the test's own";
+    }
   }
 
   static std::string output_of(const std::vector<std::string>& argv) {
@@ -58,7 +60,9 @@ class DaemonArrival : public testing::Test {
     const std::string wanted = "PID: " + std::to_string(process.pid()) + " ";
     const auto end = std::chrono::steady_clock::now() + test_support::kCommandTimeout;
     while (std::chrono::steady_clock::now() < end) {
-      if (output_of(list).find(wanted) != std::string::npos) return true;
+      if (output_of(list).find(wanted) != std::string::npos) {
+        return true;
+      }
     }
     return false;
   }
@@ -132,7 +136,9 @@ TEST_F(DaemonArrival, IsSeenByEachOfManyProcesses) {
     ASSERT_THAT(maps_of_started(*process), Not(HasSubstr("/liblttng-ust.so")));
   }
   output_of({"lttng-sessiond", "--daemonize"});
-  for (const auto& process : processes) EXPECT_TRUE(is_registered(*process));
+  for (const auto& process : processes) {
+    EXPECT_TRUE(is_registered(*process));
+  }
 }
 
 // Two daemons may trace the process of a user: root's, and that of the user.
@@ -159,7 +165,9 @@ TEST_F(DaemonArrival, OfEitherDaemonIsAwaitedByAnotherUser) {
     std::string pid;
     std::ifstream(home / "pid") >> pid;
     ASSERT_EQ(kill(std::stoi(pid), SIGTERM), 0);
-    while (kill(std::stoi(pid), 0) == 0 || fs::exists(home / "pid")) waitpid(std::stoi(pid), nullptr, 0);
+    while (kill(std::stoi(pid), 0) == 0 || fs::exists(home / "pid")) {
+      waitpid(std::stoi(pid), nullptr, 0);
+    }
   }
 }
 
@@ -199,7 +207,9 @@ TEST_F(DaemonArrival, IsNotAwaitedWhenTheFileSaysThatADaemonRuns) {
 }
 
 TEST_F(DaemonArrival, IsLeftToLttngInAProgramThatUsesIt) {
-  if (test_support::kThreadSanitized) GTEST_SKIP() << test_support::kHasOneMoreThread;
+  if (test_support::kThreadSanitized) {
+    GTEST_SKIP() << test_support::kHasOneMoreThread;
+  }
   RunningCommand process({.argv = {OBJECTS_ON_COMMAND}, .environment = {{"LD_PRELOAD", "liblttng-ust.so.1"}}});
   tell(process, "make 1");
   EXPECT_EQ(std::distance(fs::directory_iterator("/proc/" + std::to_string(process.pid()) + "/task"), {}), 3)

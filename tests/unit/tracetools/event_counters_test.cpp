@@ -103,7 +103,9 @@ TEST_F(EventCountersOfProcesses, OfProcessesThatHaveEndedArePutAwayAndCountedOnc
 
   tracing::EventCounters::put_ended_processes_away(directory_);
   std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(directory_)) files.push_back(entry.path().filename());
+  for (const auto& entry : std::filesystem::directory_iterator(directory_)) {
+    files.push_back(entry.path().filename());
+  }
   EXPECT_THAT(files,
               testing::UnorderedElementsAre("ended.json", testing::StartsWith(std::to_string(living.pid()) + "-")));
   for (const std::vector<EventCounts>& after : {open.read(), tracing::EventCounters(directory_).read()}) {

@@ -102,7 +102,9 @@ std::vector<std::string> split(const std::string& text, const std::string& separ
   std::vector<std::string> parts;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find(separator, begin), text.size());
-    if (end > begin) parts.push_back(text.substr(begin, end - begin));
+    if (end > begin) {
+      parts.push_back(text.substr(begin, end - begin));
+    }
     begin = end + separator.size();
   }
   return parts;
@@ -142,7 +144,9 @@ std::string type_of(const std::string& declaration) {
 // The text between two texts, "" if they don't occur.
 std::string between(const std::string& text, const std::string& before, const std::string& after) {
   const std::size_t begin = text.find(before);
-  if (begin == std::string::npos) return "";
+  if (begin == std::string::npos) {
+    return "";
+  }
   const std::size_t end = text.find(after, begin + before.size());
   return end == std::string::npos ? "" : text.substr(begin + before.size(), end - begin - before.size());
 }
@@ -185,11 +189,15 @@ EventTable printed_events(const std::string& provider, const std::string& text) 
   EventTable table;
   for (const std::string& line : split(text, "\n")) {
     const std::string event = between(line, " " + provider + ":", ":");
-    if (event.empty()) continue;
+    if (event.empty()) {
+      continue;
+    }
     Fields& fields = table[event];
     for (const std::string& part : split(between(line, "}, {", "}"), ",")) {
       const std::size_t begin = part.find_first_not_of(' ');
-      if (begin == std::string::npos) continue;
+      if (begin == std::string::npos) {
+        continue;
+      }
       std::string field = part.substr(begin, part.find_last_not_of(' ') + 1 - begin);
       if (field.starts_with('[')) {
         fields.back() += " " + field.substr(field.find("= ") + 2);  // one more element of an array
@@ -224,7 +232,9 @@ class RecordedEvents : public testing::Test {
 TEST_F(RecordedEvents, HaveTheNamesFieldsOrderAndTypesOfRos2) {
   std::filesystem::path folder;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(trace_)) {
-    if (entry.path().filename() == "metadata") folder = entry.path().parent_path();
+    if (entry.path().filename() == "metadata") {
+      folder = entry.path().parent_path();
+    }
   }
   const auto metadata = run_command({"babeltrace2", "--output-format=ctf-metadata", folder.string()});
   ASSERT_EQ(metadata.exit_code, 0) << metadata.err;
@@ -248,7 +258,7 @@ const std::set<std::string> kDeclaredExtNames = {TRACETOOLS_EXT_EVENTS(EVENT_NAM
 
 std::set<std::string> expected_names(const char* rows) {
   std::set<std::string> names;
-  for (const auto& [name, fields] : expected(rows, [](const auto&each, const auto&, const auto&) { return each; })) {
+  for (const auto& [name, fields] : expected(rows, [](const auto& each, const auto&, const auto&) { return each; })) {
     names.insert(name);
   }
   return names;

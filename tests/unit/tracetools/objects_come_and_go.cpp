@@ -38,7 +38,9 @@ int main() {
   while (std::getchar() != EOF) {
   }
   stop = true;
-  for (std::thread& thread : threads) thread.join();
+  for (std::thread& thread : threads) {
+    thread.join();
+  }
   TRACETOOLS_TRACEPOINT(rcl_timer_init, at(0x2), 2);
   std::puts("rest");
   std::fflush(stdout);

@@ -19,11 +19,15 @@ int main() {
     } else if (std::strcmp(what, "end") == 0) {
       TRACETOOLS_EXT_TRACEPOINT(rcl_timer_fini, handle);
     } else if (std::strcmp(what, "take") == 0) {
-      for (uintptr_t i = 0; i < number; ++i) TRACETOOLS_TRACEPOINT(rcl_take, nullptr);
+      for (uintptr_t i = 0; i < number; ++i) {
+        TRACETOOLS_TRACEPOINT(rcl_take, nullptr);
+      }
     } else {
       for (uintptr_t i = 0; i < number; ++i) {
         const pid_t child = fork();
-        if (child == 0) _exit(0);
+        if (child == 0) {
+          _exit(0);
+        }
         waitpid(child, nullptr, 0);
       }
     }

@@ -74,7 +74,9 @@ TEST_F(Recording, HappensInEachSessionThatWantsTheEvent) {
   enable("stopped", "ros2:rcl_take");
   create("one");
   enable("one", "ros2:rcl_take");
-  for (const char* const session : {"all", "filtered", "stopped", "one"}) succeed({"lttng", "start", session});
+  for (const char* const session : {"all", "filtered", "stopped", "one"}) {
+    succeed({"lttng", "start", session});
+  }
   succeed({FIRE_ALL_EVENTS});
   succeed({"lttng", "stop", "stopped"});
   succeed({FIRE_ALL_EVENTS});

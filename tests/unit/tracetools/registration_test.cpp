@@ -81,7 +81,9 @@ TEST_F(Registration, OfManyProcessesAtOnceIsWaitedFor) {
   start_session();
   std::list<RunningCommand> processes;
   constexpr std::size_t kProcesses = 40;
-  for (std::size_t i = 0; i < kProcesses; ++i) processes.emplace_back(program());
+  for (std::size_t i = 0; i < kProcesses; ++i) {
+    processes.emplace_back(program());
+  }
   for (RunningCommand& process : processes) {
     tell(process, "take 1");
     process.close_input();

@@ -44,7 +44,9 @@ class RecordedSession {
     run({"lttng", "list", "--userspace"});
     running_ = true;
     for (const unsigned object : living) {
-      if (!expected_.contains(object)) expected_.insert(object);
+      if (!expected_.contains(object)) {
+        expected_.insert(object);
+      }
     }
   }
   void regenerate(const Objects& living) {
@@ -58,7 +60,9 @@ class RecordedSession {
   void destroy() { run({"lttng", "destroy", name_}); }
   bool running() const { return running_; }
   void object_made(unsigned object) {
-    if (running_) expected_.insert(object);
+    if (running_) {
+      expected_.insert(object);
+    }
   }
 
   const std::string& name() const { return name_; }
@@ -70,7 +74,9 @@ class RecordedSession {
     Objects objects;
     std::istringstream stream(text.out);
     for (std::string line; std::getline(stream, line);) {
-      if (line.find(" ros2:rcl_timer_init:") == std::string::npos) continue;
+      if (line.find(" ros2:rcl_timer_init:") == std::string::npos) {
+        continue;
+      }
       objects.insert(static_cast<unsigned>(std::stoul(line.substr(line.find("timer_handle = ") + 15), nullptr, 16)));
     }
     return objects;
@@ -98,7 +104,9 @@ struct SeveralSessions : testing::TestWithParam<unsigned> {
     living.insert(last);
   }
   void end_one() {
-    if (living.empty()) return;
+    if (living.empty()) {
+      return;
+    }
     tell("end", *living.begin());
     living.erase(living.begin());
   }
@@ -128,8 +136,12 @@ TEST_F(SeveralSessions, GetNothingFromTheDumpsOfEachOther) {
   make();
   first.object_made(last);
   second.start(living);
-  for (RecordedSession* each : {&first, &second, &other}) each->stop();
-  for (RecordedSession* each : {&first, &second, &other}) each->destroy();
+  for (RecordedSession* each : {&first, &second, &other}) {
+    each->stop();
+  }
+  for (RecordedSession* each : {&first, &second, &other}) {
+    each->destroy();
+  }
   EXPECT_EQ(first.recorded(), (Objects{1, 2, 3}));
   EXPECT_EQ(second.recorded(), (Objects{1, 2, 3}));
   EXPECT_THAT(run_command({"babeltrace2", (sandbox.directory() / "other").string()}).out, IsEmpty());
@@ -141,10 +153,16 @@ TEST_F(SeveralSessions, WithARuleForNoStateDumpHaveNewObjectsOnly) {
   runtime.create("ros2:*,ros2_session:no_state_dump");
   RecordedSession everything = session("everything");
   everything.create("ros2*");
-  for (RecordedSession* each : {&runtime, &everything}) each->start(living);
+  for (RecordedSession* each : {&runtime, &everything}) {
+    each->start(living);
+  }
   make();
-  for (RecordedSession* each : {&runtime, &everything}) each->stop();
-  for (RecordedSession* each : {&runtime, &everything}) each->destroy();
+  for (RecordedSession* each : {&runtime, &everything}) {
+    each->stop();
+  }
+  for (RecordedSession* each : {&runtime, &everything}) {
+    each->destroy();
+  }
   EXPECT_EQ(runtime.recorded(), Objects{2});
   EXPECT_EQ(everything.recorded(), (Objects{1, 2}));
 }
@@ -164,14 +182,18 @@ TEST_P(SeveralSessions, HoldEachObjectOnce) {
       case 1:
         make();
         for (auto& each : sessions) {
-          if (each) each->object_made(last);
+          if (each) {
+            each->object_made(last);
+          }
         }
         break;
       case 2:
         end_one();
         break;
       case 3:
-        if (chosen && chosen->running()) chosen->stop();
+        if (chosen && chosen->running()) {
+          chosen->stop();
+        }
         break;
       case 4:
         if (!chosen) {
@@ -179,7 +201,9 @@ TEST_P(SeveralSessions, HoldEachObjectOnce) {
           // The same rules in another order of channels and events give other addresses in the process.
           chosen->create(one_of(2) == 0 ? "ros2:*" : "ros2:rcl_timer_init");
         }
-        if (!chosen->running()) chosen->start(living);
+        if (!chosen->running()) {
+          chosen->start(living);
+        }
         break;
       default:
         if (chosen && chosen->running() && one_of(3) == 0) {
@@ -189,14 +213,20 @@ TEST_P(SeveralSessions, HoldEachObjectOnce) {
           ended.push_back(*std::exchange(chosen, std::nullopt));
         }
     }
-    if (HasFatalFailure()) return;
+    if (HasFatalFailure()) {
+      return;
+    }
   }
   for (auto& each : sessions) {
-    if (!each) continue;
+    if (!each) {
+      continue;
+    }
     each->destroy();
     ended.push_back(*each);
   }
-  for (const RecordedSession& each : ended) EXPECT_EQ(each.recorded(), each.expected()) << each.name();
+  for (const RecordedSession& each : ended) {
+    EXPECT_EQ(each.recorded(), each.expected()) << each.name();
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, SeveralSessions, testing::Range(0U, 6U));

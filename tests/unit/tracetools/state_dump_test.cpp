@@ -129,7 +129,9 @@ TEST_F(StateDump, ComesForASessionDaemonThatIsYoungerThanTheProcess) {
   for (;;) {
     const auto list = run_command({"lttng", "list", "--userspace"});
     ASSERT_EQ(list.exit_code, 0) << list.err;
-    if (list.out.find("ros2:rcl_init ") != std::string::npos) break;
+    if (list.out.find("ros2:rcl_init ") != std::string::npos) {
+      break;
+    }
   }
   create_session("late");
   run({"lttng", "start", "late"});
@@ -166,7 +168,9 @@ TEST_F(StateDump, AgreesWithObjectsThatComeAndGo) {
   RunningCommand process({.argv = {OBJECTS_COME_AND_GO}});
   ASSERT_TRUE(process.wait_for_output("ready"));
   run({"lttng", "start", "busy"});
-  for (int i = 0; i < 5; ++i) run({"lttng", "regenerate", "statedump", "--session=busy"});
+  for (int i = 0; i < 5; ++i) {
+    run({"lttng", "regenerate", "statedump", "--session=busy"});
+  }
   process.close_input();
   ASSERT_TRUE(process.wait_for_output("rest"));
   run({"lttng", "regenerate", "statedump", "--session=busy"});
@@ -185,9 +189,13 @@ TEST_F(StateDump, AgreesWithObjectsThatComeAndGo) {
   std::set<std::string> ended;
   for (const std::string& event : events) {
     const std::size_t begin = event.find("timer_handle = ");
-    if (begin == std::string::npos) continue;
+    if (begin == std::string::npos) {
+      continue;
+    }
     const std::string handle = event.substr(begin, event.find_first_of(", ", begin + 15) - begin);
-    if (event.starts_with("ros2_ext:rcl_timer_fini")) ended.insert(handle);
+    if (event.starts_with("ros2_ext:rcl_timer_fini")) {
+      ended.insert(handle);
+    }
     if (event.starts_with("ros2:rcl_timer_init")) {
       EXPECT_EQ(ended.count(handle), 0U) << event;
     }

@@ -51,7 +51,9 @@ SetupReport FakeTracer::start(const TraceConfig& config) {
   const std::lock_guard lock(mutex_);
   calls_.push_back("start " + config.lttng_session_name());
   last_config_ = config;
-  if (start_error) throw *start_error;
+  if (start_error) {
+    throw *start_error;
+  }
   open_sessions_.push_back(config.lttng_session_name());
   SetupReport report = setup_report;
   report.trace_directory = config.trace_directory();
@@ -75,7 +77,9 @@ LossAccount FakeTracer::finish(const TraceConfig& config, const std::function<bo
     changed_.wait_for(lock, kAskInterval);
   }
   finishing_ = false;
-  if (finish_error) throw *finish_error;
+  if (finish_error) {
+    throw *finish_error;
+  }
   std::erase(open_sessions_, name);
   return losses;
 }
@@ -127,7 +131,9 @@ void FakeTracer::load(const std::string& lttng_session_name, const std::string& 
 void FakeTracer::record(const std::string& call) {
   const std::lock_guard lock(mutex_);
   calls_.push_back(call);
-  if (verb_error) throw *verb_error;
+  if (verb_error) {
+    throw *verb_error;
+  }
 }
 
 }  // namespace tracing

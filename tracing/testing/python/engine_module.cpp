@@ -133,7 +133,9 @@ void add_runs(py::module_& module) {
                        const std::vector<std::string>& events, bool all_processes,
                        const std::map<std::string, std::string>& environment, double patience) {
              RunOptions options;
-             if (file) options.file = *file;
+             if (file) {
+               options.file = *file;
+             }
              options.arguments.assign(arguments.begin(), arguments.end());
              options.programs = programs;
              options.events = events;

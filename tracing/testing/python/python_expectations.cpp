@@ -17,21 +17,31 @@ namespace py = pybind11;
 namespace {
 
 void assert_that(const Verdict& verdict) {
-  if (verdict) return;
+  if (verdict) {
+    return;
+  }
   PyErr_SetString(PyExc_AssertionError, verdict.text.c_str());
   throw py::error_already_set();
 }
 
 // A number, or one of the words at_least() and so on.
 Count count_of(const py::object& given) {
-  if (py::isinstance<Count>(given)) return given.cast<Count>();
-  if (py::isinstance<py::int_>(given)) return exactly(given.cast<std::size_t>());
+  if (py::isinstance<Count>(given)) {
+    return given.cast<Count>();
+  }
+  if (py::isinstance<py::int_>(given)) {
+    return exactly(given.cast<std::size_t>());
+  }
   return given.attr("count")().cast<Count>();
 }
 
 Bounds bounds_of(const py::object& given) {
-  if (given.is_none()) return {};
-  if (py::isinstance<Bounds>(given)) return given.cast<Bounds>();
+  if (given.is_none()) {
+    return {};
+  }
+  if (py::isinstance<Bounds>(given)) {
+    return given.cast<Bounds>();
+  }
   return given.attr("bounds")().cast<Bounds>();
 }
 
@@ -50,9 +60,13 @@ FieldKind kind_of(const std::string& name) {
                                                       {"real", FieldKind::kReal},
                                                       {"array", FieldKind::kArray}};
   const auto found = kinds.find(name);
-  if (found != kinds.end()) return found->second;
+  if (found != kinds.end()) {
+    return found->second;
+  }
   std::string names;
-  for (const auto& [known, kind] : kinds) names += (names.empty() ? "'" : ", '") + known + "'";
+  for (const auto& [known, kind] : kinds) {
+    names += (names.empty() ? "'" : ", '") + known + "'";
+  }
   throw py::value_error("'" + name + "' is no kind of field; there are " + names);
 }
 
@@ -88,7 +102,9 @@ void add_expectations(py::module_& module) {
       .def(
           "__getitem__",
           [](const Trace& trace, std::size_t index) -> const Event& {
-            if (index >= trace.size()) throw py::index_error();
+            if (index >= trace.size()) {
+              throw py::index_error();
+            }
             return trace.events()[index];
           },
           kInside)

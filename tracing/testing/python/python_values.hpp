@@ -22,7 +22,9 @@ struct Run {
 
   // Throws std::runtime_error when it was closed.
   LaunchRun& open() const {
-    if (!launch) throw std::runtime_error("the run is closed");
+    if (!launch) {
+      throw std::runtime_error("the run is closed");
+    }
     return *launch;
   }
 };

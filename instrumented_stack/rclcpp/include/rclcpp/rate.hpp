@@ -82,18 +82,10 @@ class [[deprecated("use rclcpp::Rate class instead of GenericRate")]] GenericRat
     }
     return sleep_for(std::chrono::duration_cast<std::chrono::nanoseconds>(next - now));
   }
-  bool is_steady() const override {
-    return ClockT::is_steady;
-  }
-  rcl_clock_type_t get_type() const override {
-    return ClockT::is_steady ? RCL_STEADY_TIME : RCL_SYSTEM_TIME;
-  }
-  void reset() override {
-    last_interval_ = ClockT::now();
-  }
-  std::chrono::nanoseconds period() const {
-    return period_;
-  }
+  bool is_steady() const override { return ClockT::is_steady; }
+  rcl_clock_type_t get_type() const override { return ClockT::is_steady ? RCL_STEADY_TIME : RCL_SYSTEM_TIME; }
+  void reset() override { last_interval_ = ClockT::now(); }
+  std::chrono::nanoseconds period() const { return period_; }
 
  private:
   std::chrono::nanoseconds period_;

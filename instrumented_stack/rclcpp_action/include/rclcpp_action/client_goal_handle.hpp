@@ -76,12 +76,16 @@ class ClientGoalHandle {
   // one.
   bool become_result_aware(ResultCallback callback) {
     const std::lock_guard lock(mutex_);
-    if (callback) result_callback_ = std::move(callback);
+    if (callback) {
+      result_callback_ = std::move(callback);
+    }
     return !std::exchange(is_result_aware_, true);
   }
 
   void call_feedback_callback(const std::shared_ptr<ClientGoalHandle>& self, std::shared_ptr<const Feedback> feedback) {
-    if (feedback_callback_) feedback_callback_(self, std::move(feedback));
+    if (feedback_callback_) {
+      feedback_callback_(self, std::move(feedback));
+    }
   }
 
   void set_status(int8_t status) {
@@ -97,13 +101,17 @@ class ClientGoalHandle {
       result_promise_.set_value(result);
       callback = result_callback_;
     }
-    if (callback) callback(result);
+    if (callback) {
+      callback(result);
+    }
   }
 
   // The result will never come.
   void invalidate(const exceptions::UnawareGoalHandleError& error) {
     const std::lock_guard lock(mutex_);
-    if (is_invalid_) return;
+    if (is_invalid_) {
+      return;
+    }
     is_invalid_ = true;
     status_ = GoalStatus::STATUS_UNKNOWN;
     try {

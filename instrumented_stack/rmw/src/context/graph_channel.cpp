@@ -73,7 +73,9 @@ GraphChannel::GraphChannel(rmw_context_t& context, Participant& participant, Gra
 
 GraphChannel::~GraphChannel() {
   ended_with_process_.reset();
-  if (thread_.joinable()) stop();
+  if (thread_.joinable()) {
+    stop();
+  }
   (void)rmw_destroy_guard_condition(stop_);
   (void)rmw_destroy_wait_set(wait_set_);
   destroy_subscription(subscription_);

@@ -53,7 +53,9 @@ fdds::ContentFilteredTopic& create_filtered_topic(fdds::Topic& topic, const mess
 }
 
 void delete_filtered_topic(fdds::ContentFilteredTopic& topic) {
-  if (!process_ends()) topic.get_participant()->delete_contentfilteredtopic(&topic);
+  if (!process_ends()) {
+    topic.get_participant()->delete_contentfilteredtopic(&topic);
+  }
 }
 
 void change_filter(fdds::ContentFilteredTopic& topic, const ContentFilter& filter) {

@@ -70,8 +70,9 @@ Publisher& publisher_of(const rmw_publisher_t& handle) {
   TRACETOOLS_TRACEPOINT(rmw_publish, static_cast<const void*>(publisher), traced_message,
                         now.tv_sec * std::int64_t{1'000'000'000} + now.tv_nsec);
   const Publisher& owner = publisher_of(*publisher);
-  if (rmw_fastrtps::process_ends()) [[unlikely]]
+  if (rmw_fastrtps::process_ends()) [[unlikely]] {
     return RMW_RET_OK;  // others have been told that this participant is gone
+  }
   bool is_written = false;
   if (owner.faults == nullptr) [[likely]] {
     is_written = owner.writer->write(data, params);

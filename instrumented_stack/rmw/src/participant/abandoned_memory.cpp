@@ -27,14 +27,20 @@ bool consists_of(std::string_view text, std::string_view characters) {
 
 // The name of the segment or port whose lock is the file `name`; "" if it is none that nobody uses again.
 std::string locked_by(std::string_view name) {
-  if (!name.ends_with(kLock)) return {};
+  if (!name.ends_with(kLock)) {
+    return {};
+  }
   name.remove_suffix(kLock.size());
   if (name.starts_with(kPort)) {
     const std::string port(name.substr(kPort.size()));
-    if (!consists_of(port, "0123456789") || std::strtoull(port.c_str(), nullptr, 10) <= kLastWellKnownPort) return {};
+    if (!consists_of(port, "0123456789") || std::strtoull(port.c_str(), nullptr, 10) <= kLastWellKnownPort) {
+      return {};
+    }
     return std::string(name);
   }
-  if (!name.starts_with(kPrefix)) return {};
+  if (!name.starts_with(kPrefix)) {
+    return {};
+  }
   const std::string_view number = name.substr(kPrefix.size());
   const bool is_segment =
       number.size() == kSegmentNumber && consists_of(number, "0123456789abcdefghijklmnopqrstuvwxyz");
@@ -43,7 +49,9 @@ std::string locked_by(std::string_view name) {
 
 void remove_if_unlocked(int directory, const std::string& lock, const std::string& locked) {
   const int file = openat(directory, lock.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
-  if (file < 0) return;
+  if (file < 0) {
+    return;
+  }
   if (flock(file, LOCK_EX | LOCK_NB) == 0) {
     unlinkat(directory, locked.c_str(), 0);
     unlinkat(directory, ("sem." + locked + "_mutex").c_str(), 0);  // ports have one
@@ -56,14 +64,20 @@ void remove_if_unlocked(int directory, const std::string& lock, const std::strin
 
 void remove_abandoned_memory(const std::string& path, std::chrono::seconds youngest) {
   DIR* const directory = opendir(path.c_str());
-  if (directory == nullptr) return;
+  if (directory == nullptr) {
+    return;
+  }
   const int folder = dirfd(directory);
   const time_t made_before = time(nullptr) - youngest.count();
   while (const dirent* const entry = readdir(directory)) {
     const std::string locked = locked_by(entry->d_name);
     struct stat status {};
-    if (locked.empty() || fstatat(folder, entry->d_name, &status, AT_SYMLINK_NOFOLLOW) != 0) continue;
-    if (!S_ISREG(status.st_mode) || status.st_uid != geteuid() || status.st_mtime > made_before) continue;
+    if (locked.empty() || fstatat(folder, entry->d_name, &status, AT_SYMLINK_NOFOLLOW) != 0) {
+      continue;
+    }
+    if (!S_ISREG(status.st_mode) || status.st_uid != geteuid() || status.st_mtime > made_before) {
+      continue;
+    }
     remove_if_unlocked(folder, entry->d_name, locked);
   }
   closedir(directory);

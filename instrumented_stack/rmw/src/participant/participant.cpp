@@ -258,7 +258,9 @@ Participant::Participant(const rmw_init_options_t& options, GraphCache& graph)
 
 Participant::~Participant() {
   ended_with_process_.reset();
-  if (participant_ != nullptr) end();
+  if (participant_ != nullptr) {
+    end();
+  }
 }
 
 void Participant::end() {
@@ -337,19 +339,25 @@ fdds::Topic& Participant::acquire_topic(const std::string& dds_name,
 }
 
 void Participant::delete_writer(fdds::DataWriter& writer) {
-  if (process_ends()) return;
+  if (process_ends()) {
+    return;
+  }
   writer.set_listener(nullptr);
   publisher_->delete_datawriter(&writer);
 }
 
 void Participant::delete_reader(fdds::DataReader& reader) {
-  if (process_ends()) return;
+  if (process_ends()) {
+    return;
+  }
   reader.set_listener(nullptr);
   subscriber_->delete_datareader(&reader);
 }
 
 void Participant::release_topic(fdds::Topic& topic) {
-  if (process_ends()) return;
+  if (process_ends()) {
+    return;
+  }
   const auto found = topics_.find(topic.get_name());
   if (--found->second.users != 0) {
     return;

@@ -25,7 +25,9 @@ Living& living() {
 
 void end_all() {
   const std::lock_guard lock(living().mutex);
-  if (detail::process_ends.exchange(true)) return;
+  if (detail::process_ends.exchange(true)) {
+    return;
+  }
   const auto& objects = living().objects;
   std::for_each(objects.rbegin(), objects.rend(), [](const EndedWithProcess* object) { object->end(); });
 }
@@ -44,7 +46,9 @@ EndedWithProcess::EndedWithProcess(std::function<void()> end) : end_(std::move(e
 }
 
 void EndedWithProcess::end() const {
-  if (getpid() == process_) end_();
+  if (getpid() == process_) {
+    end_();
+  }
 }
 
 EndedWithProcess::~EndedWithProcess() {

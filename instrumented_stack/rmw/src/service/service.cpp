@@ -85,7 +85,9 @@ void set_faults(Service& service, const rmw_node_t* node) {
 }
 
 bool write(Service& service, OutgoingMessage outgoing, rtps::WriteParams params) {
-  if (rmw_fastrtps::process_ends()) return true;  // the client has been told that this participant is gone
+  if (rmw_fastrtps::process_ends()) {
+    return true;  // the client has been told that this participant is gone
+  }
   return service.response_faults == nullptr ? service.writer->write(&outgoing, params)
                                             : service.response_faults->write(outgoing, params);
 }

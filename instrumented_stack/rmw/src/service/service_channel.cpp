@@ -61,7 +61,9 @@ void ServiceChannel::open(End end, const rmw_node_t* node, const rosidl_service_
 }
 
 void ServiceChannel::wait_until_received() const {
-  if (process_ends()) return;
+  if (process_ends()) {
+    return;
+  }
   (void)writer->wait_for_acknowledgments(to_dds(rmw_time_from_nsec(kPatienceAtEnd.count())));
 }
 

@@ -42,7 +42,9 @@ class DataReaderWaitable : public eprosima::fastdds::dds::DataReaderListener, pu
     if (const auto known = is_known_to_be_ready(arrivals)) {
       return *known;
     }
-    if (process_ends()) return false;
+    if (process_ends()) {
+      return false;
+    }
     eprosima::fastdds::dds::SampleInfo info;
     if (reader->get_first_untaken_info(&info) == ReturnCode_t::RETCODE_OK) {
       return true;
@@ -102,7 +104,9 @@ class DataReaderWaitable : public eprosima::fastdds::dds::DataReaderListener, pu
 
   template <typename TakeT>
   bool take(TakeT take_from_reader) {
-    if (process_ends()) return false;
+    if (process_ends()) {
+      return false;
+    }
     on_new_data_.about_to_take();
     const std::uint64_t arrivals = arrivals_.load(std::memory_order_acquire);
     const ReturnCode_t result = take_from_reader();

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef ROSIDL_TYPESUPPORT_C_SRC_ELEMENT_HPP_
-#define ROSIDL_TYPESUPPORT_C_SRC_ELEMENT_HPP_
+#pragma once
 
 #include <cstddef>
 #include <cstdint>
 
 #include "rosidl_typesupport_c/message_layout.h"
 
-/// One element of a field of a C message, and the field itself: the element, an array, or a sequence.
+// One element of a field of a C message, and the field itself: the element, an array, or a sequence.
 namespace rosidl_typesupport_c {
 
 using Layout = rosidl_typesupport_c__MessageLayout;
 
-/// What an element is. The values of primitives do not matter, except where they are compared or converted.
+// What an element is. The values of primitives do not matter, except where they are compared or converted.
 struct Element {
   enum Kind : std::uint8_t { kBool, kInteger, kFloat, kDouble, kString, kWideString, kMessage };
 
@@ -37,7 +36,7 @@ struct Field {
 
 Field field_of(const Layout& layout, std::size_t index);
 
-/// All structures <type>__Sequence have these members. They are copied, because their types differ.
+// All structures <type>__Sequence have these members. They are copied, because their types differ.
 struct Sequence {
   void* data;
   std::size_t size;
@@ -47,13 +46,13 @@ struct Sequence {
 Sequence load(const void* sequence);
 void store(void* sequence, const Sequence& value);
 
-/// The following functions handle `count` elements, one after the other. Memory is initialised by 0 before `init`.
+// The following functions handle `count` elements, one after the other. Memory is initialised by 0 before `init`.
 bool init(const Element& element, void* elements, std::size_t count);
 void fini(const Element& element, void* elements, std::size_t count);
 bool are_equal(const Element& element, const void* lhs, const void* rhs, std::size_t count);
 bool copy(const Element& element, const void* input, void* output, std::size_t count);
 
-/// All elements up to the capacity of a sequence are initialised. `resize` makes more if there are less than `size`.
+// All elements up to the capacity of a sequence are initialised. `resize` makes more if there are less than `size`.
 bool resize(const Element& element, void* sequence, std::size_t size);
 bool init_sequence(const Element& element, void* sequence, std::size_t size);
 void fini_sequence(const Element& element, void* sequence);
@@ -76,5 +75,3 @@ inline const void* member(const void* message, std::size_t offset) {
 }
 
 }  // namespace rosidl_typesupport_c
-
-#endif  // ROSIDL_TYPESUPPORT_C_SRC_ELEMENT_HPP_

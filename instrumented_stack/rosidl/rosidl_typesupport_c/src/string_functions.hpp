@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef ROSIDL_TYPESUPPORT_C_SRC_STRING_FUNCTIONS_HPP_
-#define ROSIDL_TYPESUPPORT_C_SRC_STRING_FUNCTIONS_HPP_
+#pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 
-/// The functions of rosidl_runtime_c__String and rosidl_runtime_c__U16String, which differ in the type of a unit.
+// The functions of rosidl_runtime_c__String and rosidl_runtime_c__U16String, which differ in the type of a unit.
 namespace rosidl_typesupport_c::strings {
 
 template <typename String>
@@ -70,5 +69,3 @@ bool copy(const String* input, String* output) {
 }
 
 }  // namespace rosidl_typesupport_c::strings
-
-#endif  // ROSIDL_TYPESUPPORT_C_SRC_STRING_FUNCTIONS_HPP_

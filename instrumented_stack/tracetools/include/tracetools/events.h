@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef TRACETOOLS__EVENTS_H_
-#define TRACETOOLS__EVENTS_H_
+#pragma once
 
-/// The events of provider `ros2` as C sees them: the functions of tracetools.h are declared and defined from this list.
-///
-/// A row is EVENT(name, (parameters of the C function), (arguments that are recorded)). Rows come from event_table.h;
-/// add an event there.
+// The events of provider `ros2` as C sees them: the functions of tracetools.h are declared and defined from this list.
+//
+// A row is EVENT(name, (parameters of the C function), (arguments that are recorded)). Rows come from event_table.h;
+// add an event there.
 
 #include "tracetools/event_table.h"
 
@@ -14,11 +13,11 @@
 #define TRACETOOLS_EVENT_IN_C(EVENT, name, Struct, group, ...) \
   EVENT(name, TRACETOOLS_PARAMETERS(__VA_ARGS__), TRACETOOLS_ARGUMENTS(__VA_ARGS__))
 
-/// Expands the fields of a row of the table, in parentheses.
+// Expands the fields of a row of the table, in parentheses.
 #define TRACETOOLS_PARAMETERS(...) (TRACETOOLS_LIST(TRACETOOLS_EACH_FIELD(TRACETOOLS_PARAMETER, __VA_ARGS__)))
 #define TRACETOOLS_ARGUMENTS(...) (TRACETOOLS_LIST(TRACETOOLS_EACH_FIELD(TRACETOOLS_ARGUMENT, __VA_ARGS__)))
 
-/// Each field adds a comma before itself. A list drops the first comma.
+// Each field adds a comma before itself. A list drops the first comma.
 #define TRACETOOLS_LIST(...) TRACETOOLS_AFTER_FIRST_COMMA(__VA_ARGS__)
 #define TRACETOOLS_AFTER_FIRST_COMMA(nothing, ...) __VA_ARGS__
 
@@ -49,5 +48,3 @@
 #define TRACETOOLS_ARGUMENT_version(name)
 #define TRACETOOLS_ARGUMENT_ignored(name)
 #define TRACETOOLS_ARGUMENT_nothing(name) ,
-
-#endif  // TRACETOOLS__EVENTS_H_

@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef TRACETOOLS__TRACETOOLS_H_
-#define TRACETOOLS__TRACETOOLS_H_
+#pragma once
 
-/// Tracepoints of the ROS 2 layers, without a tracer's headers: instrument through the three macros below.
-///
-///   TRACETOOLS_TRACEPOINT(rcl_take, message);
-///
-/// If computing an argument is expensive, ask first, then record without asking again. Asking twice could record an
-/// argument that was not prepared:
-///
-///   if (TRACETOOLS_TRACEPOINT_ENABLED(rmw_publisher_init)) {
-///     …
-///     TRACETOOLS_DO_TRACEPOINT(rmw_publisher_init, handle, gid);
-///   }
-///
-/// The events of provider `ros2_ext` have the same macros with _EXT_ in the name:
-/// TRACETOOLS_EXT_TRACEPOINT(rcl_node_fini, node).
-///
-/// A tracepoint costs a call, a load and a branch if no session records it. All functions may be called from any
-/// thread.
+// Tracepoints of the ROS 2 layers, without a tracer's headers: instrument through the three macros below.
+//
+//   TRACETOOLS_TRACEPOINT(rcl_take, message);
+//
+// If computing an argument is expensive, ask first, then record without asking again. Asking twice could record an
+// argument that was not prepared:
+//
+//   if (TRACETOOLS_TRACEPOINT_ENABLED(rmw_publisher_init)) {
+//     …
+//     TRACETOOLS_DO_TRACEPOINT(rmw_publisher_init, handle, gid);
+//   }
+//
+// The events of provider `ros2_ext` have the same macros with _EXT_ in the name:
+// TRACETOOLS_EXT_TRACEPOINT(rcl_node_fini, node).
+//
+// A tracepoint costs a call, a load and a branch if no session records it. All functions may be called from any
+// thread.
 
 #include "tracetools/config.h"
 
@@ -51,11 +50,11 @@
 extern "C" {
 #endif
 
-/// Whether the library was built with tracepoints that can record (see TRACETOOLS_TRACEPOINTS_EXCLUDED).
+// Whether the library was built with tracepoints that can record (see TRACETOOLS_TRACEPOINTS_EXCLUDED).
 bool ros_trace_compile_status(void);
 
-/// Whether the provider is loaded in this process, so that sessions can record events. False with
-/// TRACETOOLS_RUNTIME_DISABLE=1 in the environment, and if libtracetools_provider.so could not be opened.
+// Whether the provider is loaded in this process, so that sessions can record events. False with
+// TRACETOOLS_RUNTIME_DISABLE=1 in the environment, and if libtracetools_provider.so could not be opened.
 bool ros_trace_runtime_status(void);
 
 // Calls bypass the procedure linkage table. While no session records, each cache line that a call touches is a large
@@ -69,10 +68,10 @@ bool ros_trace_runtime_status(void);
 #define TRACETOOLS_CALLED_DIRECTLY
 #endif
 
-/// Three functions for each event: record it if it is wanted; tell whether it is wanted; record it without asking.
-///
-/// An event is wanted if a session records it. An init event is always wanted if tracing is enabled at run time: it is
-/// kept for sessions that start later (see object_state.hpp).
+// Three functions for each event: record it if it is wanted; tell whether it is wanted; record it without asking.
+//
+// An event is wanted if a session records it. An init event is always wanted if tracing is enabled at run time: it is
+// kept for sessions that start later (see object_state.hpp).
 #define TRACETOOLS_DECLARE_FUNCTIONS(prefix, name, parameters)   \
   TRACETOOLS_CALLED_DIRECTLY void prefix##_##name parameters;    \
   TRACETOOLS_CALLED_DIRECTLY bool prefix##_enabled_##name(void); \
@@ -91,5 +90,3 @@ TRACETOOLS_EXT_EVENT_TABLE(TRACETOOLS_DECLARE_EVENT, ros_trace_ext)
 #endif
 
 #endif  // TRACETOOLS_DISABLED
-
-#endif  // TRACETOOLS__TRACETOOLS_H_

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef TRACETOOLS__UTILS_HPP_
-#define TRACETOOLS__UTILS_HPP_
+#pragma once
 
 #include <functional>
 #include <typeinfo>
 
 #include "tracetools/config.h"
 
-/// Readable names of callables, for the event rclcpp_callback_register.
-///
-/// Every function returns memory from malloc, which the caller must free. It returns null if there is no name: if the
-/// function is not in the dynamic symbol table (static, or a stripped executable), if its name is not mangled (extern
-/// "C"), or if tracepoints are disabled.
+// Readable names of callables, for the event rclcpp_callback_register.
+//
+// Every function returns memory from malloc, which the caller must free. It returns null if there is no name: if the
+// function is not in the dynamic symbol table (static, or a stripped executable), if its name is not mangled (extern
+// "C"), or if tracepoints are disabled.
 namespace tracetools {
 
 #ifdef TRACETOOLS_DISABLED
@@ -37,15 +36,15 @@ char* get_symbol(const Callable&) {
 
 namespace detail {
 
-/// The demangled form of `mangled`; null if it is not a mangled name.
+// The demangled form of `mangled`; null if it is not a mangled name.
 char* demangle_symbol(const char* mangled);
 
-/// The demangled name of the function at `address`.
+// The demangled name of the function at `address`.
 char* get_symbol_funcptr(const void* address);
 
 }  // namespace detail
 
-/// The name of the function if `callable` holds a plain function, otherwise the type of the callable it holds.
+// The name of the function if `callable` holds a plain function, otherwise the type of the callable it holds.
 template <typename Result, typename... Arguments>
 char* get_symbol(const std::function<Result(Arguments...)>& callable) {
   using Function = Result (*)(Arguments...);
@@ -55,7 +54,7 @@ char* get_symbol(const std::function<Result(Arguments...)>& callable) {
   return detail::demangle_symbol(callable.target_type().name());
 }
 
-/// The type of a lambda or another function object. The type of a lambda names the function that contains it.
+// The type of a lambda or another function object. The type of a lambda names the function that contains it.
 template <typename Callable>
 char* get_symbol(const Callable& callable) {
   return detail::demangle_symbol(typeid(callable).name());
@@ -64,5 +63,3 @@ char* get_symbol(const Callable& callable) {
 #endif  // TRACETOOLS_DISABLED
 
 }  // namespace tracetools
-
-#endif  // TRACETOOLS__UTILS_HPP_

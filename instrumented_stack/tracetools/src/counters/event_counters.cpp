@@ -53,7 +53,9 @@ std::uint64_t nanoseconds(clockid_t clock) {
 // Takes the first block that no living thread uses. If all are in use, the thread gets none.
 std::size_t take_block() {
   for (std::size_t i = kSharedBlock + 1; i < kCounterBlocks; ++i) {
-    if (!taken[i].exchange(true)) return i;
+    if (!taken[i].exchange(true)) {
+      return i;
+    }
   }
   return kSharedBlock;
 }
@@ -67,12 +69,16 @@ class ThreadBlock {
   ThreadBlock() : block_(take_block()) { use(); }
   ~ThreadBlock() {
     detail::own_block = nullptr;  // later events of this thread go to the shared block
-    if (block_ != kSharedBlock) taken[block_] = false;
+    if (block_ != kSharedBlock) {
+      taken[block_] = false;
+    }
     thread_has_ended = true;
   }
   // Counts in the file of this process, in the child of a fork in the child's.
   void use() {
-    if (block_ == kSharedBlock) return;
+    if (block_ == kSharedBlock) {
+      return;
+    }
     CounterFile& counters = *file.load();
     std::uint64_t used = counters.blocks_used.load();
     while (used < block_ + 1 && !counters.blocks_used.compare_exchange_weak(used, block_ + 1)) {
@@ -93,7 +99,9 @@ CounterFile* make_file(const char* directory) {
     return nullptr;
   }
   const int descriptor = open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-  if (descriptor < 0) return nullptr;
+  if (descriptor < 0) {
+    return nullptr;
+  }
   // Held as long as the process runs, so that the launcher knows when it has ended, in a container, too.
   flock(descriptor, LOCK_SH);
   // Allocates the file's space now. If a page were missing later, access would raise SIGBUS.
@@ -112,7 +120,9 @@ CounterFile* make_file(const char* directory) {
   made->pid = static_cast<std::uint64_t>(getpid());
   made->begin = begin;
   std::strncpy(made->process, program_invocation_short_name, kCountedNameSize - 1);
-  for (std::size_t i = 0; i < kCountedEvents; ++i) std::strncpy(made->names[i], kNames[i], kCountedNameSize - 1);
+  for (std::size_t i = 0; i < kCountedEvents; ++i) {
+    std::strncpy(made->names[i], kNames[i], kCountedNameSize - 1);
+  }
   std::uint64_t magic;
   std::memcpy(&magic, "ROS2CNT2", sizeof magic);
   std::atomic_ref(made->magic).store(magic, std::memory_order_release);
@@ -122,14 +132,18 @@ CounterFile* make_file(const char* directory) {
 void attach() {
   const char* const directory = std::getenv("TRACETOOLS_EVENT_COUNTERS");
   CounterFile* const made = directory != nullptr ? make_file(directory) : nullptr;
-  if (made != nullptr && reached) made->reached = made->begin;
+  if (made != nullptr && reached) {
+    made->reached = made->begin;
+  }
   file = made;
   detail::counting = made != nullptr;
 }
 
 // The child of a fork is a separate process and gets its own file.
 void attach_child() {
-  if (file == nullptr && !file_is_due) return;
+  if (file == nullptr && !file_is_due) {
+    return;
+  }
   file = nullptr;
   file_is_due = true;
   detail::own_block = nullptr;
@@ -138,14 +152,18 @@ void attach_child() {
 void make_due_file() {
   static std::mutex making;
   const std::lock_guard lock(making);
-  if (!file_is_due) return;
+  if (!file_is_due) {
+    return;
+  }
   attach();
   file_is_due = false;
 }
 
 [[gnu::destructor]] void tell_end() {
   CounterFile* const counters = file;
-  if (counters == nullptr) return;
+  if (counters == nullptr) {
+    return;
+  }
   counters->cpu = nanoseconds(CLOCK_PROCESS_CPUTIME_ID);
   counters->end = nanoseconds(CLOCK_MONOTONIC);
 }
@@ -153,15 +171,21 @@ void make_due_file() {
 }  // namespace
 
 void detail::count_without_block(CountedEvent event) noexcept {
-  if (file_is_due) make_due_file();
+  if (file_is_due) {
+    make_due_file();
+  }
   CounterFile* const counters = file;
-  if (counters == nullptr) return;
+  if (counters == nullptr) {
+    return;
+  }
   if (!reached) {
     count_unrecorded();
     return;
   }
   static thread_local ThreadBlock block;
-  if (own_block == nullptr && !thread_has_ended) block.use();
+  if (own_block == nullptr && !thread_has_ended) {
+    block.use();
+  }
   if (own_block != nullptr) {
     count(event);
   } else {
@@ -172,20 +196,28 @@ void detail::count_without_block(CountedEvent event) noexcept {
 
 void begin_counting() noexcept {
   attach();
-  if (file != nullptr) pthread_atfork(nullptr, nullptr, &attach_child);
+  if (file != nullptr) {
+    pthread_atfork(nullptr, nullptr, &attach_child);
+  }
 }
 
 // While no session has reached the process, its tracepoints are enabled without a probe: then they count.
 void count_missed_events() noexcept {
   const std::lock_guard lock(reaching);
-  if (file != nullptr && !reached) enable_without_probes(true);
+  if (file != nullptr && !reached) {
+    enable_without_probes(true);
+  }
 }
 
 bool session_reaches_process() noexcept {
   const std::lock_guard lock(reaching);
-  if (reached.exchange(true)) return false;
+  if (reached.exchange(true)) {
+    return false;
+  }
   CounterFile* const counters = file;
-  if (counters == nullptr) return false;
+  if (counters == nullptr) {
+    return false;
+  }
   enable_without_probes(false);
   counters->reached = nanoseconds(CLOCK_MONOTONIC);
   return true;
@@ -198,7 +230,9 @@ void make_good(std::uint64_t events) noexcept {
 
 void count_unrecorded() noexcept {
   CounterFile* const counters = file;
-  if (counters != nullptr && !reached) counters->missed.fetch_add(1, std::memory_order_relaxed);
+  if (counters != nullptr && !reached) {
+    counters->missed.fetch_add(1, std::memory_order_relaxed);
+  }
 }
 
 }  // namespace tracetools

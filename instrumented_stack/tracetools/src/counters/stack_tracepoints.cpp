@@ -21,8 +21,9 @@ std::span<const StackTracepoint> stack_tracepoints() {
 
 void enable_without_probes(bool enabled) {
   for (const StackTracepoint& each : kTracepoints) {
-    if (CMM_LOAD_SHARED(each.tracepoint->probes) == nullptr)
+    if (CMM_LOAD_SHARED(each.tracepoint->probes) == nullptr) {
       __atomic_store_n(&each.tracepoint->state, enabled ? 1 : 0, __ATOMIC_RELAXED);
+    }
   }
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef TRACETOOLS__STACK_TRACEPOINTS_HPP_
-#define TRACETOOLS__STACK_TRACEPOINTS_HPP_
+#pragma once
 
 #include <span>
 
@@ -13,13 +12,11 @@ struct StackTracepoint {
   Tracepoint* tracepoint;
 };
 
-/// The tracepoints of `ros2` and `ros2_ext`.
+// The tracepoints of `ros2` and `ros2_ext`.
 std::span<const StackTracepoint> stack_tracepoints();
 
-/// Enables all of them that have no probe, or disables them again. Call it for the latter on the thread that LTTng
-/// calls for a state dump, because LTTng attaches no probe meanwhile.
+// Enables all of them that have no probe, or disables them again. Call it for the latter on the thread that LTTng
+// calls for a state dump, because LTTng attaches no probe meanwhile.
 void enable_without_probes(bool enabled);
 
 }  // namespace tracetools
-
-#endif  // TRACETOOLS__STACK_TRACEPOINTS_HPP_

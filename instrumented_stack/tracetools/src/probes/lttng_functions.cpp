@@ -9,7 +9,9 @@ namespace {
 
 LttngFunctions look_up() {
   void* const library = dlopen(LTTNG_UST_TRACEPOINT_LIB_SONAME, RTLD_NOW | RTLD_GLOBAL);
-  if (library == nullptr) return {};
+  if (library == nullptr) {
+    return {};
+  }
   return {
       .attach = reinterpret_cast<LttngFunctions::Attach>(dlsym(library, "lttng_ust_tp_probe_register_queue_release")),
       .detach =

@@ -16,9 +16,13 @@ bool is_mark(const Probe& probe) {
 }  // namespace
 
 Session* session_of(const Probe& probe) {
-  if (is_mark(probe)) return nullptr;
+  if (is_mark(probe)) {
+    return nullptr;
+  }
   const auto* const event = static_cast<const lttng_ust_event_common*>(probe.data);
-  if (event->type != LTTNG_UST_EVENT_TYPE_RECORDER) return nullptr;
+  if (event->type != LTTNG_UST_EVENT_TYPE_RECORDER) {
+    return nullptr;
+  }
   return static_cast<const lttng_ust_event_recorder*>(event->child)->chan->parent->session;
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef PROVIDER_FIELDS_H_
-#define PROVIDER_FIELDS_H_
+#pragma once
 
 /* What LTTng records for a row of tracetools/event_table.h: pass the macro TRACETOOLS_PROBE to the table, with the
  * name of the provider.
@@ -53,5 +52,3 @@
 #define TRACETOOLS_PROBE_FIELD_nothing(name)
 
 /* clang-format on */
-
-#endif /* PROVIDER_FIELDS_H_ */

@@ -17,7 +17,9 @@ void fetch_data(const Address& address, std::size_t offset = 0) {
 // Usually nothing has changed. Then the plan is only read, and stays in the caches of all processors.
 void keep(Address& address, const void* pointer) {
   const auto value = reinterpret_cast<std::uintptr_t>(pointer);
-  if (address.load(std::memory_order_relaxed) != value) address.store(value, std::memory_order_relaxed);
+  if (address.load(std::memory_order_relaxed) != value) {
+    address.store(value, std::memory_order_relaxed);
+  }
 }
 
 // A thread renews a plan with every 17th message that it publishes or takes. Seldom is a message exchanged in a pattern
@@ -45,7 +47,9 @@ thread_local constinit unsigned turns [[gnu::tls_model("initial-exec")]] = 0;
 }
 
 [[gnu::hot]] void FetchPlan::renew() noexcept {
-  if (turns-- != 0) return;
+  if (turns-- != 0) {
+    return;
+  }
   turns = kTurns;
   find_addresses();
 }
@@ -56,14 +60,18 @@ void FetchPlan::find_addresses() noexcept {
   for (std::size_t i = 0; i < count_; ++i) {
     const Probe* const probe = probes.of(*followers_[i]);
     const lttng_ust_event_recorder* const recorder = probe == nullptr ? nullptr : recorder_of(*probe);
-    if (recorder == nullptr) continue;
+    if (recorder == nullptr) {
+      continue;
+    }
     keep(of_events_[i].probe, probe);
     keep(of_events_[i].event, recorder->parent);
     keep(of_events_[i].recorder, recorder);
     keep(of_events_[i].recorder_private, recorder->priv);
     channel = recorder->chan;
   }
-  if (channel == nullptr) return;
+  if (channel == nullptr) {
+    return;
+  }
   keep(of_channel_.channel, channel);
   keep(of_channel_.parent, channel->parent);
   keep(of_channel_.channel_private, channel->priv);

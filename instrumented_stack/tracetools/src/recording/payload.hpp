@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef TRACETOOLS__PAYLOAD_HPP_
-#define TRACETOOLS__PAYLOAD_HPP_
+#pragma once
 
-/// The fields of an event as LTTng writes them: one after another, without gaps. Only for events whose fields are all
-/// numbers or addresses.
+// The fields of an event as LTTng writes them: one after another, without gaps. Only for events whose fields are all
+// numbers or addresses.
 
 #include <lttng/ust-tracer.h>
 
@@ -38,7 +37,7 @@ inline constexpr bool kFieldsHaveNoGaps = false;
 inline constexpr bool kFieldsHaveNoGaps = true;
 #endif
 
-/// Whether the payload of an event is a `Payload` of its arguments.
+// Whether the payload of an event is a `Payload` of its arguments.
 template <typename Event>
 inline constexpr bool is_plain = false;
 #define TRACETOOLS_PLAIN_EVENT(given, name, Struct, group, ...) \
@@ -49,7 +48,7 @@ TRACETOOLS_EVENT_TABLE(TRACETOOLS_PLAIN_EVENT, )
 TRACETOOLS_EXT_EVENT_TABLE(TRACETOOLS_PLAIN_EVENT, )
 #undef TRACETOOLS_PLAIN_EVENT
 
-/// The parameters are those of the probes: LTTng records a bool as an int.
+// The parameters are those of the probes: LTTng records a bool as an int.
 template <typename... Parameters>
 class Payload {
  public:
@@ -61,7 +60,7 @@ class Payload {
   static constexpr std::size_t size() { return (std::size_t{0} + ... + sizeof(Parameters)); }
   const void* data() const { return bytes_; }
 
-  /// Calls a probe with the values of a payload.
+  // Calls a probe with the values of a payload.
   static void call(const Probe& probe, const void* payload) {
     std::size_t at = 0;
     [[maybe_unused]] const auto next = [&]<typename Value>(std::type_identity<Value>) {
@@ -81,7 +80,7 @@ class Payload {
   std::byte bytes_[size() + (size() == 0)] = {};
 };
 
-/// From the function by which LTTng calls all probes of a tracepoint.
+// From the function by which LTTng calls all probes of a tracepoint.
 template <typename Callback>
 struct PayloadOf;
 template <typename... Parameters>
@@ -90,5 +89,3 @@ struct PayloadOf<void(Parameters...)> {
 };
 
 }  // namespace tracetools
-
-#endif  // TRACETOOLS__PAYLOAD_HPP_

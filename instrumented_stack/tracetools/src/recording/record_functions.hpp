@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef TRACETOOLS__RECORD_FUNCTIONS_HPP_
-#define TRACETOOLS__RECORD_FUNCTIONS_HPP_
+#pragma once
 
-/// A function record_<provider>_<event>(arguments that are recorded) for each event. It counts the event and records
-/// it. For an event of plain fields it only hands the arguments to the function that records for all (recording.hpp),
-/// and is so short that it has one line of memory.
+// A function record_<provider>_<event>(arguments that are recorded) for each event. It counts the event and records
+// it. For an event of plain fields it only hands the arguments to the function that records for all (recording.hpp),
+// and is so short that it has one line of memory.
 
 #include "counters/event_counters.hpp"
 #include "provider/provider.h"
@@ -16,12 +15,12 @@
 
 namespace tracetools {
 
-/// True for an event that is the first one on a message's way. A variable of its own: with UndefinedBehaviorSanitizer
-/// GCC 12 does not take the comparison of an address with null for a constant.
+// True for an event that is the first one on a message's way. A variable of its own: with UndefinedBehaviorSanitizer
+// GCC 12 does not take the comparison of an address with null for a constant.
 template <typename Event>
 inline constexpr bool has_plan = false;
 
-/// The plan of such an event; null for others.
+// The plan of such an event; null for others.
 template <typename Event>
 inline constexpr FetchPlan* plan_of = nullptr;
 
@@ -85,5 +84,3 @@ TRACETOOLS_EXT_EVENT_TABLE(RECORD_FUNCTION, ros2_ext)
 
 #undef RECORD_FUNCTION
 #undef RECORD
-
-#endif  // TRACETOOLS__RECORD_FUNCTIONS_HPP_

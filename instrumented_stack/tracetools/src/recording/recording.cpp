@@ -23,7 +23,9 @@ bool is_generated(const Probe& probe) {
 
 // Null if the function of the probe does something else than to record into a channel.
 [[gnu::always_inline]] inline lttng_ust_event_recorder* recorder(const Probe& probe) {
-  if (!is_generated(probe)) return nullptr;
+  if (!is_generated(probe)) {
+    return nullptr;
+  }
   auto* const event = static_cast<lttng_ust_event_common*>(probe.data);
   return event->type == LTTNG_UST_EVENT_TYPE_RECORDER ? static_cast<lttng_ust_event_recorder*>(event->child) : nullptr;
 }
@@ -31,9 +33,13 @@ bool is_generated(const Probe& probe) {
 // Into the channel of the probe. False if its function has to be called.
 [[gnu::always_inline]] inline bool write(const Probe& probe, const void* payload, std::size_t size, void* caller) {
   lttng_ust_event_recorder* const to = recorder(probe);
-  if (to == nullptr) return false;
+  if (to == nullptr) {
+    return false;
+  }
   const lttng_ust_event_common* const event = static_cast<lttng_ust_event_common*>(probe.data);
-  if (CMM_LOAD_SHARED(event->eval_filter) != 0) return false;
+  if (CMM_LOAD_SHARED(event->eval_filter) != 0) {
+    return false;
+  }
   lttng_ust_channel_buffer* const channel = to->chan;
   if (CMM_LOAD_SHARED(event->enabled) == 0 || CMM_LOAD_SHARED(channel->parent->enabled) == 0 ||
       !records(*channel->parent->session)) {
@@ -42,8 +48,12 @@ bool is_generated(const Probe& probe) {
   lttng_ust_probe_ctx probe_context{.struct_size = sizeof(lttng_ust_probe_ctx), .ip = caller};
   lttng_ust_ring_buffer_ctx context;
   lttng_ust_ring_buffer_ctx_init(&context, to, size, 1, &probe_context);
-  if (channel->ops->event_reserve(&context) < 0) return true;
-  if (size != 0) channel->ops->event_write(&context, payload, size, 1);
+  if (channel->ops->event_reserve(&context) < 0) {
+    return true;
+  }
+  if (size != 0) {
+    channel->ops->event_write(&context, payload, size, 1);
+  }
   channel->ops->event_commit(&context);
   return true;
 }
@@ -56,7 +66,9 @@ bool is_generated(const Probe& probe) {
   count(event);
   const ProbesInUse probes;
   for_each_probe(probes, tracepoint, [&](const Probe& probe) {
-    if (!write(probe, payload, size, caller)) call(probe, payload);
+    if (!write(probe, payload, size, caller)) {
+      call(probe, payload);
+    }
   });
 }
 

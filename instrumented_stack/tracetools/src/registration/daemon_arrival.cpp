@@ -30,7 +30,9 @@ bool socket_exists(const char* folder, const char* subfolder) {
 
 // A daemon that was killed leaves its socket. Then it may be there, as far as we know.
 bool daemon_may_be_there() {
-  if (socket_exists(kFolderOfRoot, "")) return true;
+  if (socket_exists(kFolderOfRoot, "")) {
+    return true;
+  }
   const char* const lttng_home = std::getenv("LTTNG_HOME");
   const char* const home = lttng_home != nullptr ? lttng_home : std::getenv("HOME");
   return home != nullptr && socket_exists(home, "/.lttng");
@@ -44,7 +46,9 @@ constexpr mode_t mode_of(bool of_root) {
 // With its mode and size from the beginning on, because others may open it at once.
 void make_file(const char* path, bool of_root) {
   const int descriptor = open("/dev/shm", O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
-  if (descriptor < 0) return;
+  if (descriptor < 0) {
+    return;
+  }
   char link[64];
   std::snprintf(link, sizeof link, "/proc/self/fd/%d", descriptor);
   if (fchmod(descriptor, mode_of(of_root)) == 0 && ftruncate(descriptor, sysconf(_SC_PAGESIZE)) == 0) {
@@ -64,7 +68,9 @@ const std::int32_t* map_number(const char* path, bool of_root) {
     make_file(path, of_root);
     descriptor = open_file(path);
   }
-  if (descriptor < 0) return nullptr;
+  if (descriptor < 0) {
+    return nullptr;
+  }
   struct stat status {};
   std::int32_t number = 1;
   const std::int32_t* mapped = nullptr;
@@ -73,7 +79,9 @@ const std::int32_t* map_number(const char* path, bool of_root) {
       pread(descriptor, &number, sizeof number, 0) == sizeof number && number == 0) {
     void* const memory =
         mmap(nullptr, static_cast<std::size_t>(sysconf(_SC_PAGESIZE)), PROT_READ, MAP_SHARED, descriptor, 0);
-    if (memory != MAP_FAILED) mapped = static_cast<const std::int32_t*>(memory);
+    if (memory != MAP_FAILED) {
+      mapped = static_cast<const std::int32_t*>(memory);
+    }
   }
   close(descriptor);
   return mapped;
@@ -83,20 +91,28 @@ const std::int32_t* map_number(const char* path, bool of_root) {
 
 std::optional<AwaitedDaemons> awaited_daemons() noexcept {
   // LTTng does not trace programs with the rights of another user by that user's daemon.
-  if (!kWakesAsKnown || daemon_may_be_there() || getuid() != geteuid()) return std::nullopt;
+  if (!kWakesAsKnown || daemon_may_be_there() || getuid() != geteuid()) {
+    return std::nullopt;
+  }
   const WakeFiles files;
   const bool is_root = getuid() == 0;
   const AwaitedDaemons daemons = {map_number(files.of_root, true),
                                   is_root ? nullptr : map_number(files.of_user, false)};
-  if (daemons[0] == nullptr || (daemons[1] == nullptr && !is_root)) return std::nullopt;
+  if (daemons[0] == nullptr || (daemons[1] == nullptr && !is_root)) {
+    return std::nullopt;
+  }
   return daemons;
 }
 
 // The kernel reads the number: here it would raise SIGBUS if /dev/shm is full.
 bool wait_for_daemon(const std::int32_t* number) noexcept {
   while (syscall(SYS_futex, number, FUTEX_WAIT, 0, nullptr, nullptr, 0) != 0) {
-    if (errno == EAGAIN) return true;  // it is not 0
-    if (errno != EINTR) return false;
+    if (errno == EAGAIN) {
+      return true;  // it is not 0
+    }
+    if (errno != EINTR) {
+      return false;
+    }
   }
   return true;
 }

@@ -21,18 +21,26 @@ constexpr timeval kLttngsTimeout{.tv_sec = 3, .tv_usec = 0};
 bool is_connected_to_daemon(int descriptor) {
   sockaddr_un address{};
   socklen_t length = sizeof address;
-  if (getpeername(descriptor, reinterpret_cast<sockaddr*>(&address), &length) != 0) return false;
-  if (address.sun_family != AF_UNIX || length <= offsetof(sockaddr_un, sun_path)) return false;
+  if (getpeername(descriptor, reinterpret_cast<sockaddr*>(&address), &length) != 0) {
+    return false;
+  }
+  if (address.sun_family != AF_UNIX || length <= offsetof(sockaddr_un, sun_path)) {
+    return false;
+  }
   const std::string_view path(address.sun_path,
                               std::min<std::size_t>(length, sizeof address) - offsetof(sockaddr_un, sun_path));
   return path.find(kSocket) != std::string_view::npos;
 }
 
 std::optional<DaemonConnection> connection_of(int descriptor) {
-  if (!is_connected_to_daemon(descriptor)) return std::nullopt;
+  if (!is_connected_to_daemon(descriptor)) {
+    return std::nullopt;
+  }
   ucred peer{};
   socklen_t length = sizeof peer;
-  if (getsockopt(descriptor, SOL_SOCKET, SO_PEERCRED, &peer, &length) != 0) return std::nullopt;
+  if (getsockopt(descriptor, SOL_SOCKET, SO_PEERCRED, &peer, &length) != 0) {
+    return std::nullopt;
+  }
   return DaemonConnection(descriptor, peer.pid);
 }
 
@@ -47,10 +55,16 @@ bool has_timeout(int descriptor, int option) {
 std::vector<DaemonConnection> daemon_connections() {
   std::vector<DaemonConnection> connections;
   DIR* const directory = opendir("/proc/self/fd");
-  if (directory == nullptr) return connections;
+  if (directory == nullptr) {
+    return connections;
+  }
   while (const dirent* const entry = readdir(directory)) {
-    if (entry->d_name[0] == '.') continue;
-    if (const auto found = connection_of(std::atoi(entry->d_name))) connections.push_back(*found);
+    if (entry->d_name[0] == '.') {
+      continue;
+    }
+    if (const auto found = connection_of(std::atoi(entry->d_name))) {
+      connections.push_back(*found);
+    }
   }
   closedir(directory);
   return connections;

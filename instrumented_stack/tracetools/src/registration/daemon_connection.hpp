@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef TRACETOOLS__DAEMON_CONNECTION_HPP_
-#define TRACETOOLS__DAEMON_CONNECTION_HPP_
+#pragma once
 
 #include <sys/types.h>
 
@@ -8,14 +7,14 @@
 
 namespace tracetools {
 
-/// A socket of liblttng-ust that is connected to a session daemon.
+// A socket of liblttng-ust that is connected to a session daemon.
 class DaemonConnection {
  public:
   DaemonConnection(int descriptor, pid_t daemon) : descriptor_(descriptor), daemon_(daemon) {}
 
   pid_t daemon() const { return daemon_; }
   void shut_down() const;
-  /// An answer of the daemon is waited for as long as LTTng does by itself.
+  // An answer of the daemon is waited for as long as LTTng does by itself.
   void use_default_timeout() const;
 
  private:
@@ -23,9 +22,7 @@ class DaemonConnection {
   pid_t daemon_;
 };
 
-/// Those of this process, found by the name of the socket at the other end.
+// Those of this process, found by the name of the socket at the other end.
 std::vector<DaemonConnection> daemon_connections();
 
 }  // namespace tracetools
-
-#endif  // TRACETOOLS__DAEMON_CONNECTION_HPP_

@@ -20,7 +20,9 @@ class ProcFile {
     std::array<char, 96> path{};
     std::snprintf(path.data(), path.size(), "/proc/%d/task/%d/%s", process, thread, name);
     const int descriptor = open(path.data(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0) return;
+    if (descriptor < 0) {
+      return;
+    }
     const ssize_t length = read(descriptor, text_.data(), text_.size() - 1);
     length_ = length > 0 ? static_cast<std::size_t>(length) : 0;
     close(descriptor);
@@ -60,9 +62,13 @@ void ProcessActivity::look_at(pid_t process) {
   }
   while (const dirent* const entry = readdir(threads)) {
     const pid_t thread = std::atoi(entry->d_name);
-    if (thread <= 0 || thread == gettid()) continue;
+    if (thread <= 0 || thread == gettid()) {
+      continue;
+    }
     look_at_thread(process, thread);
-    if (process != getpid()) look_at_children(process, thread);
+    if (process != getpid()) {
+      look_at_children(process, thread);
+    }
   }
   closedir(threads);
 }
@@ -71,7 +77,9 @@ void ProcessActivity::look_at_thread(pid_t process, pid_t thread) {
   const ProcFile status(process, thread, "status");
   constexpr std::string_view kState = "\nState:\t";
   const std::size_t state = status.text().find(kState);
-  if (state == std::string_view::npos) return;  // it has ended
+  if (state == std::string_view::npos) {
+    return;  // it has ended
+  }
   const char letter = status.text()[state + kState.size()];
   busy_ = busy_ || letter == 'R' || letter == 'D';
   stopped_ = stopped_ || (thread == process && (letter == 'T' || letter == 't'));
@@ -84,7 +92,9 @@ void ProcessActivity::look_at_children(pid_t process, pid_t thread) {
   const char* at = children.text().data();
   for (char* end = nullptr;; at = end) {
     const pid_t child = static_cast<pid_t>(std::strtol(at, &end, 10));
-    if (end == at) return;
+    if (end == at) {
+      return;
+    }
     const ProcessActivity activity(child);
     busy_ = busy_ || activity.busy_;
     switches_ += activity.switches_;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef TRACETOOLS__PROCESS_ACTIVITY_HPP_
-#define TRACETOOLS__PROCESS_ACTIVITY_HPP_
+#pragma once
 
 #include <sys/types.h>
 
@@ -8,12 +7,12 @@
 
 namespace tracetools {
 
-/// Whether a process does something, as the kernel sees it (proc(5)): its threads run, wait for a processor or a disk,
-/// or have run since the last look. The calling thread does not count, and the children of the process do.
+// Whether a process does something, as the kernel sees it (proc(5)): its threads run, wait for a processor or a disk,
+// or have run since the last look. The calling thread does not count, and the children of the process do.
 class ProcessActivity {
  public:
   ProcessActivity() = default;
-  /// Looks at the process now. A process that cannot be seen does something.
+  // Looks at the process now. A process that cannot be seen does something.
   explicit ProcessActivity(pid_t process);
 
   void add(const ProcessActivity& other);
@@ -31,5 +30,3 @@ class ProcessActivity {
 };
 
 }  // namespace tracetools
-
-#endif  // TRACETOOLS__PROCESS_ACTIVITY_HPP_

@@ -27,7 +27,9 @@ constexpr int kLooksStopped = 3;
 
 RegistrationWatch::RegistrationWatch() {
   const char* const timeout = std::getenv(kVariable);
-  if (timeout == nullptr || std::getenv(kLttngVariable) != nullptr) return;
+  if (timeout == nullptr || std::getenv(kLttngVariable) != nullptr) {
+    return;
+  }
   sem_init(&over_, 0, 0);
   sigset_t all;
   sigset_t before;
@@ -35,16 +37,22 @@ RegistrationWatch::RegistrationWatch() {
   pthread_sigmask(SIG_SETMASK, &all, &before);
   watching_ = pthread_create(&thread_, nullptr, &watch, this) == 0;
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  if (watching_) setenv(kLttngVariable, timeout, 1);
+  if (watching_) {
+    setenv(kLttngVariable, timeout, 1);
+  }
 }
 
 RegistrationWatch::~RegistrationWatch() {
-  if (!watching_) return;
+  if (!watching_) {
+    return;
+  }
   sem_post(&over_);
   pthread_join(thread_, nullptr);
   sem_destroy(&over_);
   unsetenv(kLttngVariable);  // it is not for the programs that this one starts
-  for (const DaemonConnection& connection : daemon_connections()) connection.use_default_timeout();
+  for (const DaemonConnection& connection : daemon_connections()) {
+    connection.use_default_timeout();
+  }
 }
 
 bool RegistrationWatch::is_over(int milliseconds) {
@@ -68,7 +76,9 @@ void* RegistrationWatch::watch(void* self) {
   ProcessActivity before;
   while (!watch.is_over(kBetweenLooks)) {
     const std::vector<DaemonConnection> connections = daemon_connections();
-    if (connections.empty()) continue;
+    if (connections.empty()) {
+      continue;
+    }
     ProcessActivity now(getpid());
     bool stopped = false;
     for (const DaemonConnection& connection : connections) {
@@ -79,9 +89,13 @@ void* RegistrationWatch::watch(void* self) {
     looks_stopped = stopped ? looks_stopped + 1 : 0;
     looks_without_activity = now.is_busy_since(before) ? 0 : looks_without_activity + 1;
     before = now;
-    if (looks_stopped < kLooksStopped && looks_without_activity < kLooksWithoutActivity) continue;
+    if (looks_stopped < kLooksStopped && looks_without_activity < kLooksWithoutActivity) {
+      continue;
+    }
     // LTTng takes this for a daemon that ended, waits no longer, and tries again later.
-    for (const DaemonConnection& connection : connections) connection.shut_down();
+    for (const DaemonConnection& connection : connections) {
+      connection.shut_down();
+    }
   }
   return nullptr;
 }

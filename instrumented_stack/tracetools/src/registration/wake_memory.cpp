@@ -28,7 +28,9 @@ bool wake_memory_can_be_had() noexcept {
   const unsigned missing = (has_memory(files.of_root) ? 0U : 1U) + (has_memory(files.of_user) ? 0U : 1U);
   struct statvfs room {};
   // A file system without a limit has no number of blocks.
-  if (missing == 0 || statvfs("/dev/shm", &room) != 0 || room.f_blocks == 0) return true;
+  if (missing == 0 || statvfs("/dev/shm", &room) != 0 || room.f_blocks == 0) {
+    return true;
+  }
   return room.f_bavail * room.f_frsize >= missing * static_cast<unsigned long>(sysconf(_SC_PAGESIZE));
 }
 

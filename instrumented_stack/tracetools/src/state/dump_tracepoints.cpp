@@ -16,18 +16,24 @@ template <typename Recorder>
 void record(const Recorder& recorder, const ProbesInUse& probes, const Session* session, std::uint64_t events) {
   bool recorded = false;
   for_each_probe(probes, *recorder.tracepoint, [&](const Probe& probe) {
-    if (session_of(probe) != session) return;
+    if (session_of(probe) != session) {
+      return;
+    }
     recorder(probe, events);
     recorded = true;
   });
-  if (recorded) count(recorder.counted);
+  if (recorded) {
+    count(recorder.counted);
+  }
 }
 
 }  // namespace
 
 const Tracepoint* recorded_init_tracepoint(const ProbesInUse& probes, const Session* session) {
   for (const StackTracepoint& each : stack_tracepoints()) {
-    if (std::string_view(each.group) == "init" && has_probe(probes, *each.tracepoint, session)) return each.tracepoint;
+    if (std::string_view(each.group) == "init" && has_probe(probes, *each.tracepoint, session)) {
+      return each.tracepoint;
+    }
   }
   return nullptr;
 }

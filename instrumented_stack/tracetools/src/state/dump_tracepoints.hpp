@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef TRACETOOLS__DUMP_TRACEPOINTS_HPP_
-#define TRACETOOLS__DUMP_TRACEPOINTS_HPP_
+#pragma once
 
-/// What a session records of state dumps.
+// What a session records of state dumps.
 
 #include <cstdint>
 
@@ -10,17 +9,15 @@
 
 namespace tracetools {
 
-/// The tracepoint of an init event that the session records. Null if it records none.
+// The tracepoint of an init event that the session records. Null if it records none.
 const Tracepoint* recorded_init_tracepoint(const ProbesInUse& probes, const Session* session);
 
-/// The session has a rule for `ros2_session:no_state_dump`. A rule for all events does not count, which also takes
-/// `ros2_session:any`.
+// The session has a rule for `ros2_session:no_state_dump`. A rule for all events does not count, which also takes
+// `ros2_session:any`.
 bool wants_no_dump(const ProbesInUse& probes, const Session* session);
 
-/// Records ros2_ext:state_dump_begin or state_dump_end into the session alone.
+// Records ros2_ext:state_dump_begin or state_dump_end into the session alone.
 void record_dump_begin(const ProbesInUse& probes, const Session* session, std::uint64_t events);
 void record_dump_end(const ProbesInUse& probes, const Session* session, std::uint64_t events);
 
 }  // namespace tracetools
-
-#endif  // TRACETOOLS__DUMP_TRACEPOINTS_HPP_

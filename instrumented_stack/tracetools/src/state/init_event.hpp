@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef TRACETOOLS__INIT_EVENT_HPP_
-#define TRACETOOLS__INIT_EVENT_HPP_
+#pragma once
 
 #include <cstdint>
 #include <functional>
@@ -11,7 +10,7 @@
 
 namespace tracetools {
 
-/// Objects of different kinds may share an address: a struct and its first member.
+// Objects of different kinds may share an address: a struct and its first member.
 enum class ObjectKind {
   kContext,
   kNode,
@@ -37,11 +36,11 @@ struct ObjectKey {
   bool operator==(const ObjectKey&) const = default;
 };
 
-/// An event about objects, with its arguments, as it is kept for later sessions.
+// An event about objects, with its arguments, as it is kept for later sessions.
 struct InitEvent {
   std::vector<ObjectKey> objects;  // at least one
-  /// Another event of this name about the same first object takes its place. It lives as long as the process. An event
-  /// without a name (null) replaces no other.
+  // Another event of this name about the same first object takes its place. It lives as long as the process. An event
+  // without a name (null) replaces no other.
   const char* name;
   const Tracepoint* tracepoint;
   CountedEvent counted;
@@ -51,7 +50,7 @@ struct InitEvent {
   std::vector<std::uint32_t> got_live = {};  // the marks of the sessions that recorded it when it was fired
 };
 
-/// A tracepoint and how one of its probes is called.
+// A tracepoint and how one of its probes is called.
 template <typename... Parameters>
 struct Recorder {
   const Tracepoint* tracepoint;
@@ -62,7 +61,7 @@ struct Recorder {
   }
 };
 
-/// From the function by which LTTng calls all probes of the tracepoint, whose parameters are those of the probes.
+// From the function by which LTTng calls all probes of the tracepoint, whose parameters are those of the probes.
 template <typename Callback>
 struct RecorderOf;
 template <typename... Parameters>
@@ -70,11 +69,9 @@ struct RecorderOf<void(Parameters...)> {
   using type = Recorder<Parameters...>;
 };
 
-/// The recorder of an event, from LTTng's declaration of its tracepoint.
+// The recorder of an event, from LTTng's declaration of its tracepoint.
 #define TRACETOOLS_RECORDER(provider, name)                                               \
   (tracetools::RecorderOf<decltype(lttng_ust_tracepoint_cb_##provider##___##name)>::type{ \
       &lttng_ust_tracepoint_##provider##___##name, tracetools::CountedEvent::name})
 
 }  // namespace tracetools
-
-#endif  // TRACETOOLS__INIT_EVENT_HPP_

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef TRACETOOLS__INIT_EVENTS_HPP_
-#define TRACETOOLS__INIT_EVENTS_HPP_
+#pragma once
 
 #include <array>
 #include <cstdint>
@@ -18,10 +17,10 @@
 #include "tracetools/events.h"
 #include "tracetools/events_ext.h"
 
-/// Which events begin and end which objects, and how their arguments are kept for a state dump.
+// Which events begin and end which objects, and how their arguments are kept for a state dump.
 namespace tracetools {
 
-/// One empty type per event, to describe it at compile time.
+// One empty type per event, to describe it at compile time.
 namespace event {
 #define DECLARE_TAG(name, parameters, arguments) \
   struct name {};
@@ -30,12 +29,12 @@ TRACETOOLS_EXT_EVENTS(DECLARE_TAG)
 #undef DECLARE_TAG
 }  // namespace event
 
-/// An init event: the kind of the object that it belongs to, and which argument is the address of that object.
+// An init event: the kind of the object that it belongs to, and which argument is the address of that object.
 template <typename Event>
 struct Begins {
   static constexpr bool value = false;
 };
-/// The end of an object: its kind. The only argument is the address.
+// The end of an object: its kind. The only argument is the address.
 template <typename Event>
 struct Ends {
   static constexpr bool value = false;
@@ -99,7 +98,7 @@ ENDS(rclcpp_ring_buffer_fini, kRingBuffer)
 #undef BEGINS
 #undef ENDS
 
-/// Links between messages: init events of all the endpoints that they name.
+// Links between messages: init events of all the endpoints that they name.
 template <typename Event>
 inline constexpr bool is_message_link = false;
 template <>
@@ -123,11 +122,11 @@ TRACETOOLS_EVENT_TABLE(CHECK_EVENT, )
 TRACETOOLS_EXT_EVENT_TABLE(CHECK_EVENT, )
 #undef CHECK_EVENT
 
-/// Whether an event changes the kept events, and is none of them.
+// Whether an event changes the kept events, and is none of them.
 template <typename Event>
 inline constexpr bool is_noted = Ends<Event>::value || is_transition<Event>;
 
-/// A copy of an argument that outlives the call.
+// A copy of an argument that outlives the call.
 template <typename Argument>
 struct Kept {
   explicit Kept(Argument argument) : value(argument) {}
@@ -137,7 +136,9 @@ struct Kept {
 template <>
 struct Kept<const char*> {
   explicit Kept(const char* text) {
-    if (text != nullptr) value = text;
+    if (text != nullptr) {
+      value = text;
+    }
   }
   const char* get() const { return value ? value->c_str() : nullptr; }
   std::optional<std::string> value;
@@ -149,15 +150,21 @@ struct Kept<const std::uint8_t*> {  // a gid
   std::array<std::uint8_t, 16> value;
 };
 
-/// Keeps a link between messages. A node may link several pairs, so no link replaces another.
+// Keeps a link between messages. A node may link several pairs, so no link replaces another.
 template <typename Recorder>
 void keep_message_link(Recorder recorder, const void** subs, std::size_t num_subs, const void** pubs,
                        std::size_t num_pubs) {
   std::vector<ObjectKey> objects;
-  for (std::size_t i = 0; i < num_subs; ++i) objects.push_back({ObjectKind::kSubscription, subs[i]});
-  for (std::size_t i = 0; i < num_pubs; ++i) objects.push_back({ObjectKind::kPublisher, pubs[i]});
+  for (std::size_t i = 0; i < num_subs; ++i) {
+    objects.push_back({ObjectKind::kSubscription, subs[i]});
+  }
+  for (std::size_t i = 0; i < num_pubs; ++i) {
+    objects.push_back({ObjectKind::kPublisher, pubs[i]});
+  }
   // A link of nothing belongs to no object, and no object could end it.
-  if (objects.empty()) objects.push_back({ObjectKind::kContext, nullptr});
+  if (objects.empty()) {
+    objects.push_back({ObjectKind::kContext, nullptr});
+  }
   ObjectState::instance().keep(
       {.objects = std::move(objects),
        .name = nullptr,
@@ -169,7 +176,7 @@ void keep_message_link(Recorder recorder, const void** subs, std::size_t num_sub
        }});
 }
 
-/// An event with copies of its arguments.
+// An event with copies of its arguments.
 template <typename Recorder, typename... Arguments>
 InitEvent kept_event(ObjectKey object, const char* name, Recorder recorder, Arguments... arguments) {
   return {.objects = {object},
@@ -181,7 +188,7 @@ InitEvent kept_event(ObjectKey object, const char* name, Recorder recorder, Argu
           }};
 }
 
-/// Records an init event, and keeps it for sessions that start later.
+// Records an init event, and keeps it for sessions that start later.
 template <typename Event, typename Recorder, typename... Arguments>
 void keep(const char* name, Recorder recorder, Arguments... arguments) {
   if constexpr (is_message_link<Event>) {
@@ -192,8 +199,8 @@ void keep(const char* name, Recorder recorder, Arguments... arguments) {
   }
 }
 
-/// Forgets an object that ends, and keeps the current state of a state machine, because no init event records it. Does
-/// nothing for other events. `state` records ros2_ext:rcl_lifecycle_state.
+// Forgets an object that ends, and keeps the current state of a state machine, because no init event records it. Does
+// nothing for other events. `state` records ros2_ext:rcl_lifecycle_state.
 template <typename Event, typename Recorder, typename... Arguments>
 void note(Recorder state, Arguments... arguments) {
   if constexpr (Ends<Event>::value) {
@@ -206,5 +213,3 @@ void note(Recorder state, Arguments... arguments) {
 }
 
 }  // namespace tracetools
-
-#endif  // TRACETOOLS__INIT_EVENTS_HPP_

@@ -12,7 +12,9 @@ namespace {
 // Calls the probes of the session at the event's tracepoint.
 void record_into(const Session* session, const ProbesInUse& probes, const InitEvent& event) {
   for_each_probe(probes, *event.tracepoint, [&](const Probe& probe) {
-    if (session_of(probe) == session) event.record(probe);
+    if (session_of(probe) == session) {
+      event.record(probe);
+    }
   });
   count(event.counted);
 }
@@ -49,11 +51,15 @@ InitEvent& ObjectState::insert(InitEvent event) {
     const auto same = std::find_if(found->second.begin(), found->second.end(), [&](InitEvents::iterator other) {
       return other->name == event.name && other->objects.front() == event.objects.front();
     });
-    if (same != found->second.end()) erase(*same);
+    if (same != found->second.end()) {
+      erase(*same);
+    }
   }
   event.number = ++last_number_;
   const auto inserted = events_.insert(events_.end(), std::move(event));
-  for (const ObjectKey& object : inserted->objects) of_object_[object].push_back(inserted);
+  for (const ObjectKey& object : inserted->objects) {
+    of_object_[object].push_back(inserted);
+  }
   return *inserted;
 }
 
@@ -63,10 +69,14 @@ void ObjectState::record_live(InitEvent& event) {
   for_each_probe(probes, *event.tracepoint, [&](const Probe& probe) {
     Session* const session = session_of(probe);
     if (session == nullptr) {
-      if (probe.data != nullptr) event.record(probe);  // a trigger
+      if (probe.data != nullptr) {
+        event.record(probe);  // a trigger
+      }
       return;
     }
-    if (!records(*session)) return;
+    if (!records(*session)) {
+      return;
+    }
     event.record(probe);
     recorded = true;
     const std::uint32_t mark = sessions_[session].mark;
@@ -97,19 +107,27 @@ std::size_t ObjectState::dump_to(Session* session) {
   {
     const ProbesInUse probes;
     const Tracepoint* const reference = recorded_init_tracepoint(probes, session);
-    if (reference == nullptr || wants_no_dump(probes, session)) return 0;
+    if (reference == nullptr || wants_no_dump(probes, session)) {
+      return 0;
+    }
     known = &sessions_[session];
     const bool asks_again = known->reference != nullptr && ProbeMark::is_after(probes, *known->reference, session);
     known->reference = reference;
     for (const InitEvent& event : events_) {
-      if ((asks_again || !has(*known, event)) && has_probe(probes, *event.tracepoint, session)) due.push_back(&event);
+      if ((asks_again || !has(*known, event)) && has_probe(probes, *event.tracepoint, session)) {
+        due.push_back(&event);
+      }
     }
     if (!due.empty()) {
       record_dump_begin(probes, session, due.size());
-      for (const InitEvent* event : due) record_into(session, probes, *event);
+      for (const InitEvent* event : due) {
+        record_into(session, probes, *event);
+      }
       record_dump_end(probes, session, due.size());
     }
-    for (const InitEvent* event : due) known->dumped[event->tracepoint] = last_number_;
+    for (const InitEvent* event : due) {
+      known->dumped[event->tracepoint] = last_number_;
+    }
   }
   ProbeMark::move_to_end(*known->reference);
   return due.size();
@@ -118,9 +136,13 @@ std::size_t ObjectState::dump_to(Session* session) {
 void ObjectState::erase(InitEvents::iterator event) {
   for (const ObjectKey& object : event->objects) {
     const auto found = of_object_.find(object);
-    if (found == of_object_.end()) continue;  // the event names an object twice
+    if (found == of_object_.end()) {
+      continue;  // the event names an object twice
+    }
     std::erase(found->second, event);
-    if (found->second.empty()) of_object_.erase(found);
+    if (found->second.empty()) {
+      of_object_.erase(found);
+    }
   }
   events_.erase(event);
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef TRACETOOLS__OBJECT_STATE_HPP_
-#define TRACETOOLS__OBJECT_STATE_HPP_
+#pragma once
 
 #include <cstddef>
 #include <list>
@@ -11,31 +10,31 @@
 #include "state/init_event.hpp"
 #include "state/session_memory.hpp"
 
-/// The objects that live in this process, as their init events described them. Runtime events identify objects only by
-/// address, so a session that starts now needs these events.
-///
-/// A session has each init event once: when it is fired, or in a dump into this session alone. All functions may be
-/// called from any thread.
+// The objects that live in this process, as their init events described them. Runtime events identify objects only by
+// address, so a session that starts now needs these events.
+//
+// A session has each init event once: when it is fired, or in a dump into this session alone. All functions may be
+// called from any thread.
 namespace tracetools {
 
 class ObjectState {
  public:
-  /// The state of the process. It is never destroyed, because threads may fire events until the very end.
+  // The state of the process. It is never destroyed, because threads may fire events until the very end.
   static ObjectState& instance();
 
-  /// Keeps an init event, and records it into all sessions that want it. It replaces the event of the same name about
-  /// the same first object.
+  // Keeps an init event, and records it into all sessions that want it. It replaces the event of the same name about
+  // the same first object.
   void keep(InitEvent event);
-  /// Keeps an event that only state dumps record.
+  // Keeps an event that only state dumps record.
   void keep_for_dumps(InitEvent event);
 
-  /// The object ends. Call this before recording the end.
+  // The object ends. Call this before recording the end.
   void forget(ObjectKey object);
 
-  /// Records the events that the session does not have, between ros2_ext:state_dump_begin and state_dump_end. A session
-  /// that starts has none. A session that resumes lacks those that were fired while it paused. A session that asks
-  /// again without a pause gets all again. Does nothing if the session records none of them, or wants no dumps. Objects
-  /// neither begin nor end meanwhile: threads that try must wait. Returns the number of these events.
+  // Records the events that the session does not have, between ros2_ext:state_dump_begin and state_dump_end. A session
+  // that starts has none. A session that resumes lacks those that were fired while it paused. A session that asks
+  // again without a pause gets all again. Does nothing if the session records none of them, or wants no dumps. Objects
+  // neither begin nor end meanwhile: threads that try must wait. Returns the number of these events.
   std::size_t dump_to(Session* session);
 
  private:
@@ -57,5 +56,3 @@ class ObjectState {
 };
 
 }  // namespace tracetools
-
-#endif  // TRACETOOLS__OBJECT_STATE_HPP_

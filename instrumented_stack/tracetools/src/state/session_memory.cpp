@@ -15,12 +15,16 @@ constexpr bool kHasGap = offsetof(Session, priv) >= kMark + sizeof(std::uint32_t
 
 std::uint32_t mark_of(const Session* session) {
   std::uint32_t mark = 0;
-  if (kHasGap) std::memcpy(&mark, reinterpret_cast<const char*>(session) + kMark, sizeof mark);
+  if (kHasGap) {
+    std::memcpy(&mark, reinterpret_cast<const char*>(session) + kMark, sizeof mark);
+  }
   return mark;
 }
 
 void set_mark(Session* session, std::uint32_t mark) {
-  if (kHasGap) std::memcpy(reinterpret_cast<char*>(session) + kMark, &mark, sizeof mark);
+  if (kHasGap) {
+    std::memcpy(reinterpret_cast<char*>(session) + kMark, &mark, sizeof mark);
+  }
 }
 
 }  // namespace

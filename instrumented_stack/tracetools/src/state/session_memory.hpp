@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef TRACETOOLS__SESSION_MEMORY_HPP_
-#define TRACETOOLS__SESSION_MEMORY_HPP_
+#pragma once
 
 #include <cstdint>
 #include <unordered_map>
@@ -9,20 +8,20 @@
 
 namespace tracetools {
 
-/// What a session has got from state dumps of this process.
+// What a session has got from state dumps of this process.
 struct KnownSession {
   std::uint32_t mark = 0;
-  /// By tracepoint: the number of the newest event that existed at the last dump. The session has all up to it.
+  // By tracepoint: the number of the newest event that existed at the last dump. The session has all up to it.
   std::unordered_map<const Tracepoint*, std::uint64_t> dumped;
-  /// A tracepoint that has a ProbeMark after the session's probe; null before the first dump.
+  // A tracepoint that has a ProbeMark after the session's probe; null before the first dump.
   const Tracepoint* reference = nullptr;
 };
 
-/// The sessions that this process has seen. LTTng gives a session no number. The address alone does not identify it,
-/// because a later session may get the address of one that was destroyed. So each session is marked.
+// The sessions that this process has seen. LTTng gives a session no number. The address alone does not identify it,
+// because a later session may get the address of one that was destroyed. So each session is marked.
 class SessionMemory {
  public:
-  /// Makes an entry if there is none. The session must not be freed meanwhile.
+  // Makes an entry if there is none. The session must not be freed meanwhile.
   KnownSession& operator[](Session* session);
 
  private:
@@ -31,5 +30,3 @@ class SessionMemory {
 };
 
 }  // namespace tracetools
-
-#endif  // TRACETOOLS__SESSION_MEMORY_HPP_

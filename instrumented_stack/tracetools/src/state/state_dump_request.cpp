@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// lttng-ust records the state of a process (which files are loaded where) into each session that starts. It begins
-/// with the tracepoint lttng_ust_statedump:start, which has the session as its argument. It has no public hook for the
-/// state of applications. But any function can be attached to a tracepoint, and this one fires in every process, so we
-/// need no thread and no polling.
+// lttng-ust records the state of a process (which files are loaded where) into each session that starts. It begins
+// with the tracepoint lttng_ust_statedump:start, which has the session as its argument. It has no public hook for the
+// state of applications. But any function can be attached to a tracepoint, and this one fires in every process, so we
+// need no thread and no polling.
 #include "state/state_dump_request.hpp"
 
 #include <atomic>
@@ -50,11 +50,15 @@ void begin_state_dumps() {
     sessions.swap(early().sessions);
   }
   // A session that has ended meanwhile has no probes, so nothing is done for it.
-  for (Session* const session : sessions) dump_state.load()(session);
+  for (Session* const session : sessions) {
+    dump_state.load()(session);
+  }
 }
 
 bool on_state_dump(void (*dump)(Session* session)) {
-  if (!lttng_functions().exist()) return false;
+  if (!lttng_functions().exist()) {
+    return false;
+  }
   dump_state = dump;
   // The signature must equal the text in the tracepoint exactly.
   return lttng_functions().attach("lttng_ust_statedump", "start",

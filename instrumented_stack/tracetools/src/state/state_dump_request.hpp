@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef TRACETOOLS__STATE_DUMP_REQUEST_HPP_
-#define TRACETOOLS__STATE_DUMP_REQUEST_HPP_
+#pragma once
 
 #include "probes/probes.hpp"
 
 namespace tracetools {
 
-/// Makes a thread of lttng-ust call `dump` whenever a session asks this process for its state: when the session starts
-/// or resumes, or when a user runs `lttng regenerate statedump`. Call it once, before liblttng-ust.so is loaded. False
-/// if this lttng-ust cannot do it.
-///
-/// While `dump` runs, the tracer's control of this process waits. `dump` may record events.
+// Makes a thread of lttng-ust call `dump` whenever a session asks this process for its state: when the session starts
+// or resumes, or when a user runs `lttng regenerate statedump`. Call it once, before liblttng-ust.so is loaded. False
+// if this lttng-ust cannot do it.
+//
+// While `dump` runs, the tracer's control of this process waits. `dump` may record events.
 bool on_state_dump(void (*dump)(Session* session));
 
-/// Until this is called, sessions that ask are put off; it calls `dump` for them. Call it when LTTng knows the events
-/// of the provider, if there may be objects by then: a session that starts while lttng-ust is loaded asks before that,
-/// and would get nothing.
+// Until this is called, sessions that ask are put off; it calls `dump` for them. Call it when LTTng knows the events
+// of the provider, if there may be objects by then: a session that starts while lttng-ust is loaded asks before that,
+// and would get nothing.
 void begin_state_dumps();
 
 }  // namespace tracetools
-
-#endif  // TRACETOOLS__STATE_DUMP_REQUEST_HPP_

@@ -8,7 +8,9 @@ namespace {
 
 void print(const launch_trace::Value& value) {
   using Kind = launch_trace::Value::Kind;
-  if (value.label()) std::cout << *value.label() << ':';
+  if (value.label()) {
+    std::cout << *value.label() << ':';
+  }
   switch (value.kind()) {
     case Kind::kUnsigned:
       std::cout << (value.is_hexadecimal() ? std::hex : std::dec) << std::showbase << *value.unsigned_integer()
@@ -28,7 +30,9 @@ void print(const launch_trace::Value& value) {
     case Kind::kVariant:
       std::cout << '(';
       for (std::size_t i = 0; i < value.size(); ++i) {
-        if (value.kind() == Kind::kStructure) std::cout << value.member_name(i) << '=';
+        if (value.kind() == Kind::kStructure) {
+          std::cout << value.member_name(i) << '=';
+        }
         print(value[i]);
         std::cout << (i + 1 < value.size() ? " " : "");
       }
@@ -46,17 +50,26 @@ void print(const launch_trace::Event& event) {
     std::cout << ' ' << event_class.fields[i] << '=';
     print(event.field(i));
   }
-  if (const auto parent = event.context("vppid")) std::cout << " vppid=" << parent->integer().value_or(-1);
+  if (const auto parent = event.context("vppid")) {
+    std::cout << " vppid=" << parent->integer().value_or(-1);
+  }
   std::cout << '\n';
 }
 
 void print_typed(const launch_trace::Event& event) {
   using namespace launch_trace;
-  if (const auto init = as<ros2::RclNodeInit>(event)) std::cout << "  node " << init->node_name << '\n';
-  if (const auto end = as<ros2_ext::RclNodeFini>(event)) std::cout << "  end of " << end->node_handle << '\n';
-  if (const auto exit = as<launch::Exit>(event))
+  if (const auto init = as<ros2::RclNodeInit>(event)) {
+    std::cout << "  node " << init->node_name << '\n';
+  }
+  if (const auto end = as<ros2_ext::RclNodeFini>(event)) {
+    std::cout << "  end of " << end->node_handle << '\n';
+  }
+  if (const auto exit = as<launch::Exit>(event)) {
     std::cout << "  " << exit->process << " -> " << exit->exit_code << '\n';
-  if (const auto cut = as<launch::Cut>(event)) std::cout << "  cut at a share of " << cut->share << '\n';
+  }
+  if (const auto cut = as<launch::Cut>(event)) {
+    std::cout << "  cut at a share of " << cut->share << '\n';
+  }
 }
 
 }  // namespace
@@ -74,8 +87,12 @@ int main(int argc, char** argv) {
                   << std::filesystem::path(loss.stream->file).filename().string() << '\n';
       }
     }
-    if (reader.lacks_descriptions()) std::cout << "not all events are described yet\n";
-    for (const auto& directory : reader.open_directories()) std::cout << "open: " << directory.filename() << '\n';
+    if (reader.lacks_descriptions()) {
+      std::cout << "not all events are described yet\n";
+    }
+    for (const auto& directory : reader.open_directories()) {
+      std::cout << "open: " << directory.filename() << '\n';
+    }
   } catch (const launch_trace::Error& error) {
     std::cout << "error: " << error.what() << "\nhelp: " << error.remedy() << '\n';
     return 1;

@@ -56,7 +56,9 @@ void wait_for_listener() {
 
 int status_of_forked_child() {
   const pid_t child = fork();
-  if (child == 0) std::exit(kExitCode);
+  if (child == 0) {
+    std::exit(kExitCode);
+  }
   int status = 0;
   waitpid(child, &status, 0);
   return WIFEXITED(status) ? WEXITSTATUS(status) : EXIT_FAILURE;
@@ -72,11 +74,15 @@ int main(int argc, char** argv) {
   executor->add_node(node);
   executor->spin_some();
   wait_for_listener();
-  if (how == "shutdown") rclcpp::shutdown();
+  if (how == "shutdown") {
+    rclcpp::shutdown();
+  }
   if (how == "leaked" || how == "thread") {
     never_destroyed_node = new std::shared_ptr<Speaker>(node);
     never_destroyed_executor = executor.release();
-    if (how == "thread") std::thread([] { never_destroyed_executor->spin(); }).detach();
+    if (how == "thread") {
+      std::thread([] { never_destroyed_executor->spin(); }).detach();
+    }
   }
   if (how == "callback") {
     node->timer = node->create_wall_timer(std::chrono::milliseconds(1), [] { std::exit(kExitCode); });

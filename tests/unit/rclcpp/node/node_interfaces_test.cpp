@@ -110,7 +110,9 @@ TEST_F(NodeInterfacesTest, AnExecutorServesABaseOfTheProgram) {
 TEST_F(NodeInterfacesTest, ABaseOfTheProgramIsRemovedWhileItChanges) {
   const auto base = std::make_shared<BaseOfAnother>(node_->get_node_base_interface());
   auto changes = std::async(std::launch::async, [&] {
-    for (int i = 0; i < 30000; ++i) node_->create_callback_group(rclcpp::CallbackGroupType::Reentrant);
+    for (int i = 0; i < 30000; ++i) {
+      node_->create_callback_group(rclcpp::CallbackGroupType::Reentrant);
+    }
   });
   do {
     rclcpp::executors::SingleThreadedExecutor executor;

@@ -38,7 +38,9 @@ TEST_F(ParameterEvents, OfOneParameterOfANodeAndOfAll) {
   const auto later = handler_.add_parameter_callback(
       "speed", [this](const rclcpp::Parameter&) { heard_.push_back("added last"); }, "/ns/owner");
   const auto all = handler_.add_parameter_event_callback([this](const ParameterEvent& event) {
-    if (event.node != "/ns/owner") return;
+    if (event.node != "/ns/owner") {
+      return;
+    }
     for (const rclcpp::Parameter& p : rclcpp::ParameterEventHandler::get_parameters_from_event(event)) {
       heard_.push_back(event.node + ": " + p.get_name());
     }
@@ -74,7 +76,9 @@ TEST_F(ParameterEvents, OfAParameterClient) {
   rclcpp::AsyncParametersClient client(hearer_, "/ns/owner");
   const auto subscription = client.on_parameter_event([this](ParameterEvent::UniquePtr event) {
     for (const auto& parameter : event->new_parameters) {
-      if (event->node == "/ns/owner") heard_.push_back(parameter.name);
+      if (event->node == "/ns/owner") {
+        heard_.push_back(parameter.name);
+      }
     }
   });
   owner_->declare_parameter("height", 1);

@@ -21,7 +21,9 @@ bool read(const Event& event, Struct& fields);
 template <class Struct>
 std::optional<Struct> as(const Event& event) {
   std::optional<Struct> fields(std::in_place);
-  if (!read(event, *fields)) fields.reset();
+  if (!read(event, *fields)) {
+    fields.reset();
+  }
   return fields;
 }
 

@@ -31,7 +31,9 @@ class VerdictMatcher : public ::testing::MatcherInterface<const Trace&> {
   bool MatchAndExplain(const Trace& trace, ::testing::MatchResultListener* listener) const override {
     const Verdict verdict = check_(trace);
     const std::size_t seen = verdict.text.find(kSeen);
-    if (seen != std::string::npos) *listener << verdict.text.substr(seen);
+    if (seen != std::string::npos) {
+      *listener << verdict.text.substr(seen);
+    }
     return verdict.holds;
   }
   void DescribeTo(std::ostream* stream) const override { *stream << description(); }

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef LAUNCH_TRACE__LAUNCH_EVENT_TABLE_H_
-#define LAUNCH_TRACE__LAUNCH_EVENT_TABLE_H_
+#pragma once
 
-/// The one declaration of the events of provider `launch`: the steps of the launcher. Its tracepoints and the structs
-/// of typed_events.hpp come from it. A row is EVENT(given, name, Struct, group, field...), as in
-/// tracetools/event_table.h, with three more types of fields: int32, uint32 and real (a double).
-///
-/// `time` is the CLOCK_MONOTONIC time in nanoseconds at which the step happened or began, `duration` is in nanoseconds.
-/// Steps before the session exists are fired as soon as it does. `file` and `line` are the place in the launch file
-/// that asked for the step, "" and 0 when there is none.
+// The one declaration of the events of provider `launch`: the steps of the launcher. Its tracepoints and the structs
+// of typed_events.hpp come from it. A row is EVENT(given, name, Struct, group, field...), as in
+// tracetools/event_table.h, with three more types of fields: int32, uint32 and real (a double).
+//
+// `time` is the CLOCK_MONOTONIC time in nanoseconds at which the step happened or began, `duration` is in nanoseconds.
+// Steps before the session exists are fired as soon as it does. `file` and `line` are the place in the launch file
+// that asked for the step, "" and 0 when there is none.
 // clang-format off
 #define LAUNCH_EVENT_TABLE(EVENT, given) \
   /* A launch file was read and checked. */ \
@@ -40,5 +39,3 @@
   EVENT(given, cut, Cut, launch, \
     (int64, time), (string, event_class), (string, events), (uint64, rate), (real, share))
 // clang-format on
-
-#endif  // LAUNCH_TRACE__LAUNCH_EVENT_TABLE_H_

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The names that sensor_msgs/msg/CameraInfo has for models of distortion.
+// The names that sensor_msgs/msg/CameraInfo has for models of distortion.
 #pragma once
 
 namespace sensor_msgs {

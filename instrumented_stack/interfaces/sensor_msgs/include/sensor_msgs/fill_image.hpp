@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Fills sensor_msgs/msg/Image from memory.
+// Fills sensor_msgs/msg/Image from memory.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace sensor_msgs {
 
-/// Copies `rows` rows of `step` bytes into the image. The header stays as it is.
+// Copies `rows` rows of `step` bytes into the image. The header stays as it is.
 inline bool fillImage(msg::Image& image, const std::string& encoding, std::uint32_t rows, std::uint32_t columns,
                       std::uint32_t step, const void* data) {
   image.encoding = encoding;
@@ -24,7 +24,7 @@ inline bool fillImage(msg::Image& image, const std::string& encoding, std::uint3
   return true;
 }
 
-/// Empties the data of the image; its other fields stay as they are.
+// Empties the data of the image; its other fields stay as they are.
 inline void clearImage(msg::Image& image) {
   image.data.clear();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The names that sensor_msgs/msg/Image has for the layout of its pixels, and what they mean.
+// The names that sensor_msgs/msg/Image has for the layout of its pixels, and what they mean.
 #pragma once
 
 #include <array>
@@ -78,7 +78,7 @@ struct Layout {
   int bits = 0;
 };
 
-/// The layout of "<bits><U|S|F>C[<channels>]".
+// The layout of "<bits><U|S|F>C[<channels>]".
 inline Layout opencv_layout(std::string_view encoding) {
   Layout layout;
   for (const std::string_view bits : {"8", "16", "32", "64"}) {
@@ -94,13 +94,15 @@ inline Layout opencv_layout(std::string_view encoding) {
   }
   encoding.remove_prefix(2);
   for (const char digit : encoding) {
-    if (std::isdigit(static_cast<unsigned char>(digit)) == 0) return {};
+    if (std::isdigit(static_cast<unsigned char>(digit)) == 0) {
+      return {};
+    }
   }
   layout.channels = encoding.empty() ? 1 : std::stoi(std::string(encoding));
   return layout;
 }
 
-/// Throws std::runtime_error when there is no such encoding.
+// Throws std::runtime_error when there is no such encoding.
 inline Layout layout(const std::string& encoding) {
   struct Named {
     std::string_view name;
@@ -115,16 +117,22 @@ inline Layout layout(const std::string& encoding) {
       {YUYV, {2, 8}},          {YUV422_YUY2, {2, 8}},   {NV21, {2, 8}},          {NV24, {2, 8}},
   }};
   for (const Named& named : kNamed) {
-    if (named.name == encoding) return named.layout;
+    if (named.name == encoding) {
+      return named.layout;
+    }
   }
   const Layout of_opencv = opencv_layout(encoding);
-  if (of_opencv.bits == 0) throw std::runtime_error("Unknown encoding " + encoding);
+  if (of_opencv.bits == 0) {
+    throw std::runtime_error("Unknown encoding " + encoding);
+  }
   return of_opencv;
 }
 
 inline bool is_one_of(const std::string& encoding, std::initializer_list<std::string_view> names) {
   for (const std::string_view name : names) {
-    if (encoding == name) return true;
+    if (encoding == name) {
+      return true;
+    }
   }
   return false;
 }
@@ -147,12 +155,12 @@ inline bool hasAlpha(const std::string& encoding) {
   return detail::is_one_of(encoding, {RGBA8, BGRA8, RGBA16, BGRA16});
 }
 
-/// The number of values for each pixel. Throws std::runtime_error when there is no such encoding.
+// The number of values for each pixel. Throws std::runtime_error when there is no such encoding.
 inline int numChannels(const std::string& encoding) {
   return detail::layout(encoding).channels;
 }
 
-/// The bits of each value. Throws std::runtime_error when there is no such encoding.
+// The bits of each value. Throws std::runtime_error when there is no such encoding.
 inline int bitDepth(const std::string& encoding) {
   return detail::layout(encoding).bits;
 }

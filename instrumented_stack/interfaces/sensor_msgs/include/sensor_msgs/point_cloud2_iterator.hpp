@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Lays out the points of sensor_msgs/msg/PointCloud2, and goes through one of their fields.
+// Lays out the points of sensor_msgs/msg/PointCloud2, and goes through one of their fields.
 #pragma once
 
 #include <cstdarg>
@@ -15,7 +15,7 @@ namespace sensor_msgs {
 
 namespace impl {
 
-/// The bytes of a value. Throws std::runtime_error when there is no such datatype.
+// The bytes of a value. Throws std::runtime_error when there is no such datatype.
 inline std::uint32_t size_of_point_field(int datatype) {
   switch (datatype) {
     case msg::PointField::INT8:
@@ -35,10 +35,12 @@ inline std::uint32_t size_of_point_field(int datatype) {
   }
 }
 
-/// The first byte of a field within a point. "r", "g", "b" and "a" are bytes of the field "rgb" or "rgba", too.
+// The first byte of a field within a point. "r", "g", "b" and "a" are bytes of the field "rgb" or "rgba", too.
 inline std::uint32_t point_field_offset(const msg::PointCloud2& cloud, const std::string& name) {
   for (const msg::PointField& field : cloud.fields) {
-    if (field.name == name) return field.offset;
+    if (field.name == name) {
+      return field.offset;
+    }
   }
   const std::size_t channel = name.size() == 1 ? std::string("bgra").find(name) : std::string::npos;
   if (channel != std::string::npos) {
@@ -51,7 +53,7 @@ inline std::uint32_t point_field_offset(const msg::PointCloud2& cloud, const std
   throw std::runtime_error("Field " + name + " does not exist");
 }
 
-/// Goes from point to point. `Element` is the type of the value, const for a cloud that must not change.
+// Goes from point to point. `Element` is the type of the value, const for a cloud that must not change.
 template <typename Element, typename Byte, typename Cloud, typename Derived>
 class PointCloud2IteratorBase {
  public:
@@ -63,7 +65,7 @@ class PointCloud2IteratorBase {
     end_ = cloud.data.data() + cloud.data.size() + offset;
   }
 
-  /// The elements of a field with several of them.
+  // The elements of a field with several of them.
   Element& operator[](std::size_t index) const { return reinterpret_cast<Element*>(at_)[index]; }
   Element& operator*() const { return *reinterpret_cast<Element*>(at_); }
 
@@ -81,7 +83,7 @@ class PointCloud2IteratorBase {
   bool operator==(const Derived& other) const { return at_ == other.at_; }
   bool operator!=(const Derived& other) const { return at_ != other.at_; }
 
-  /// The position behind the last point.
+  // The position behind the last point.
   Derived end() const {
     Derived result = static_cast<const Derived&>(*this);
     result.at_ = end_;
@@ -97,8 +99,8 @@ class PointCloud2IteratorBase {
 
 }  // namespace impl
 
-/// Goes through the values of a field: `PointCloud2Iterator<float> x(cloud, "x")`. The cloud must outlive it unchanged
-/// in size.
+// Goes through the values of a field: `PointCloud2Iterator<float> x(cloud, "x")`. The cloud must outlive it unchanged
+// in size.
 template <typename T>
 class PointCloud2Iterator
     : public impl::PointCloud2IteratorBase<T, unsigned char, msg::PointCloud2, PointCloud2Iterator<T>> {
@@ -116,21 +118,23 @@ class PointCloud2ConstIterator
                                       PointCloud2ConstIterator<T>>::PointCloud2IteratorBase;
 };
 
-/// Changes the fields and the size of a cloud.
+// Changes the fields and the size of a cloud.
 class PointCloud2Modifier {
  public:
   explicit PointCloud2Modifier(msg::PointCloud2& cloud) : cloud_msg_(cloud) {}
 
-  /// The number of points.
+  // The number of points.
   std::size_t size() const { return cloud_msg_.data.size() / cloud_msg_.point_step; }
   void reserve(std::size_t points) { cloud_msg_.data.reserve(points * cloud_msg_.point_step); }
 
-  /// Makes room for so many points. A cloud with rows and columns becomes a single row, if the number changes.
+  // Makes room for so many points. A cloud with rows and columns becomes a single row, if the number changes.
   void resize(std::size_t points) {
     const std::size_t bytes = points * cloud_msg_.point_step;
     const bool changes = std::size_t{cloud_msg_.height} * cloud_msg_.width != points;
     cloud_msg_.data.resize(bytes);
-    if (!changes) return;
+    if (!changes) {
+      return;
+    }
     if (cloud_msg_.height != 1 && cloud_msg_.width == 1) {
       cloud_msg_.height = static_cast<std::uint32_t>(points);
       return;
@@ -147,20 +151,22 @@ class PointCloud2Modifier {
     cloud_msg_.row_step = width * cloud_msg_.point_step;
   }
 
-  /// Removes all points.
+  // Removes all points.
   void clear() {
     cloud_msg_.data.clear();
     if (cloud_msg_.height != 1 && cloud_msg_.width == 1) {
       cloud_msg_.height = 0;
       return;
     }
-    if (cloud_msg_.height != 1) cloud_msg_.height = 0;
+    if (cloud_msg_.height != 1) {
+      cloud_msg_.height = 0;
+    }
     cloud_msg_.width = 0;
     cloud_msg_.row_step = 0;
   }
 
-  /// Sets the fields. Behind their number come name (const char*), count and datatype (int) of each, without padding:
-  /// `setPointCloud2Fields(2, "x", 1, PointField::FLOAT32, "y", 1, PointField::FLOAT32)`.
+  // Sets the fields. Behind their number come name (const char*), count and datatype (int) of each, without padding:
+  // `setPointCloud2Fields(2, "x", 1, PointField::FLOAT32, "y", 1, PointField::FLOAT32)`.
   void setPointCloud2Fields(int number, ...) {
     cloud_msg_.fields.clear();
     std::uint32_t offset = 0;
@@ -176,8 +182,8 @@ class PointCloud2Modifier {
     lay_out(offset);
   }
 
-  /// Sets the fields by names: "xyz" are three floats, "rgb" and "rgba" four bytes in a float. Each is padded to 16
-  /// bytes. Throws std::runtime_error for another name.
+  // Sets the fields by names: "xyz" are three floats, "rgb" and "rgba" four bytes in a float. Each is padded to 16
+  // bytes. Throws std::runtime_error for another name.
   void setPointCloud2FieldsByString(int number, ...) {
     cloud_msg_.fields.clear();
     std::uint32_t offset = 0;
@@ -186,7 +192,9 @@ class PointCloud2Modifier {
     for (int i = 0; i < number; ++i) {
       const std::string name = va_arg(arguments, const char*);
       if (name == "xyz") {
-        for (const char* axis : {"x", "y", "z"}) offset = add_field(axis, 1, msg::PointField::FLOAT32, offset);
+        for (const char* axis : {"x", "y", "z"}) {
+          offset = add_field(axis, 1, msg::PointField::FLOAT32, offset);
+        }
         offset += 4;
       } else if (name == "rgb" || name == "rgba") {
         offset = add_field(name, 1, msg::PointField::FLOAT32, offset) + 12;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Turns the clouds of older programs, sensor_msgs/msg/PointCloud, into sensor_msgs/msg/PointCloud2, and back.
+// Turns the clouds of older programs, sensor_msgs/msg/PointCloud, into sensor_msgs/msg/PointCloud2, and back.
 #pragma once
 
 #include <cstddef>
@@ -13,15 +13,17 @@
 
 namespace sensor_msgs {
 
-/// The position of a field, or -1.
+// The position of a field, or -1.
 inline int getPointCloud2FieldIndex(const msg::PointCloud2& cloud, const std::string& name) {
   for (std::size_t i = 0; i < cloud.fields.size(); ++i) {
-    if (cloud.fields[i].name == name) return static_cast<int>(i);
+    if (cloud.fields[i].name == name) {
+      return static_cast<int>(i);
+    }
   }
   return -1;
 }
 
-/// Each channel becomes a field of floats behind x, y and z.
+// Each channel becomes a field of floats behind x, y and z.
 inline bool convertPointCloudToPointCloud2(const msg::PointCloud& input, msg::PointCloud2& output) {
   output.header = input.header;
   output.width = static_cast<std::uint32_t>(input.points.size());
@@ -52,11 +54,13 @@ inline bool convertPointCloudToPointCloud2(const msg::PointCloud& input, msg::Po
   return true;
 }
 
-/// Every field beside x, y and z becomes a channel. False when one of them is missing.
+// Every field beside x, y and z becomes a channel. False when one of them is missing.
 inline bool convertPointCloud2ToPointCloud(const msg::PointCloud2& input, msg::PointCloud& output) {
   const int axes[] = {getPointCloud2FieldIndex(input, "x"), getPointCloud2FieldIndex(input, "y"),
                       getPointCloud2FieldIndex(input, "z")};
-  if (axes[0] < 0 || axes[1] < 0 || axes[2] < 0) return false;
+  if (axes[0] < 0 || axes[1] < 0 || axes[2] < 0) {
+    return false;
+  }
   const auto value = [&input](std::size_t point, const msg::PointField& field) {
     return readPointCloud2BufferValue<float>(input.data.data() + point * input.point_step + field.offset,
                                              field.datatype);
@@ -76,7 +80,9 @@ inline bool convertPointCloud2ToPointCloud(const msg::PointCloud2& input, msg::P
     }
     msg::ChannelFloat32& channel = output.channels.emplace_back();
     channel.name = input.fields[field].name;
-    for (std::size_t i = 0; i < output.points.size(); ++i) channel.values.push_back(value(i, input.fields[field]));
+    for (std::size_t i = 0; i < output.points.size(); ++i) {
+      channel.values.push_back(value(i, input.fields[field]));
+    }
   }
   return true;
 }

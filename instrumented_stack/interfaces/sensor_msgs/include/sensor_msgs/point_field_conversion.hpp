@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The types that sensor_msgs/msg/PointField names, and values of them in the bytes of a cloud.
+// The types that sensor_msgs/msg/PointField names, and values of them in the bytes of a cloud.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 
 namespace sensor_msgs {
 
-/// The type of a datatype, as `type`.
+// The type of a datatype, as `type`.
 template <int datatype>
 struct pointFieldTypeAsType {};
 
-/// The datatype of a type, as `value`.
+// The datatype of a type, as `value`.
 template <typename T>
 struct typeAsPointFieldType {};
 
@@ -38,7 +38,7 @@ SENSOR_MSGS_POINT_FIELD_TYPE(FLOAT64, double)
 #undef SENSOR_MSGS_POINT_FIELD_TYPE
 // NOLINTEND
 
-/// Reads a value of `datatype` and converts it. The bytes need no alignment.
+// Reads a value of `datatype` and converts it. The bytes need no alignment.
 template <int datatype, typename T>
 T readPointCloud2BufferValue(const unsigned char* bytes) {
   typename pointFieldTypeAsType<datatype>::type value;
@@ -46,7 +46,7 @@ T readPointCloud2BufferValue(const unsigned char* bytes) {
   return static_cast<T>(value);
 }
 
-/// Does so for a datatype that is known only at run time; T() if there is no such datatype.
+// Does so for a datatype that is known only at run time; T() if there is no such datatype.
 template <typename T>
 T readPointCloud2BufferValue(const unsigned char* bytes, unsigned char datatype) {
   switch (datatype) {
@@ -71,7 +71,7 @@ T readPointCloud2BufferValue(const unsigned char* bytes, unsigned char datatype)
   }
 }
 
-/// Writes a value as `datatype`.
+// Writes a value as `datatype`.
 template <int datatype, typename T>
 void writePointCloud2BufferValue(unsigned char* bytes, T value) {
   const auto converted = static_cast<typename pointFieldTypeAsType<datatype>::type>(value);

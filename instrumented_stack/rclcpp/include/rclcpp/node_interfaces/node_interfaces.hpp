@@ -31,17 +31,19 @@ namespace detail {
 template <typename InterfaceT, typename InterfacesT>
 struct NodeInterfaceAccess;
 
-#define RCLCPP_NODE_INTERFACE_ACCESS_(Interface, getter)                                                       \
-  template <typename InterfacesT>                                                                              \
-  struct NodeInterfaceAccess<Interface, InterfacesT> {                                                         \
-    template <typename NodeT>                                                                                  \
-    static std::shared_ptr<Interface> of(NodeT& node) {                                                        \
-      return node.getter();                                                                                    \
-    }                                                                                                          \
-    std::shared_ptr<Interface> getter() { return static_cast<InterfacesT&>(*this).template get<Interface>(); } \
-    std::shared_ptr<const Interface> getter() const {                                                          \
-      return static_cast<const InterfacesT&>(*this).template get<Interface>();                                 \
-    }                                                                                                          \
+#define RCLCPP_NODE_INTERFACE_ACCESS_(Interface, getter)                       \
+  template <typename InterfacesT>                                              \
+  struct NodeInterfaceAccess<Interface, InterfacesT> {                         \
+    template <typename NodeT>                                                  \
+    static std::shared_ptr<Interface> of(NodeT& node) {                        \
+      return node.getter();                                                    \
+    }                                                                          \
+    std::shared_ptr<Interface> getter() {                                      \
+      return static_cast<InterfacesT&>(*this).template get<Interface>();       \
+    }                                                                          \
+    std::shared_ptr<const Interface> getter() const {                          \
+      return static_cast<const InterfacesT&>(*this).template get<Interface>(); \
+    }                                                                          \
   };
 RCLCPP_NODE_INTERFACE_ACCESS_(NodeBaseInterface, get_node_base_interface)
 RCLCPP_NODE_INTERFACE_ACCESS_(NodeClockInterface, get_node_clock_interface)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef ROSIDL_RUNTIME_C__MESSAGE_TYPE_SUPPORT_STRUCT_H_
-#define ROSIDL_RUNTIME_C__MESSAGE_TYPE_SUPPORT_STRUCT_H_
+#pragma once
 
 #include "rosidl_runtime_c/get_type_support.h"
 
@@ -10,14 +9,14 @@ extern "C" {
 
 typedef struct rosidl_message_type_support_t rosidl_message_type_support_t;
 
-/// Returns the type support with the requested identifier; null if `handle` cannot provide it.
+// Returns the type support with the requested identifier; null if `handle` cannot provide it.
 typedef const rosidl_message_type_support_t* (*rosidl_message_typesupport_handle_function)(
     const rosidl_message_type_support_t* handle, const char* identifier);
 
-/// The facts about a message type that a middleware needs. It has static storage duration.
+// The facts about a message type that a middleware needs. It has static storage duration.
 struct rosidl_message_type_support_t {
-  /// Tells what `data` is; here it is rosidl_typesupport_fastrtps_cpp's identifier for
-  /// message_type_support_callbacks_t.
+  // Tells what `data` is; here it is rosidl_typesupport_fastrtps_cpp's identifier for
+  // message_type_support_callbacks_t.
   const char* typesupport_identifier;
   const void* data;
   rosidl_message_typesupport_handle_function func;
@@ -31,5 +30,3 @@ static inline const rosidl_message_type_support_t* get_message_typesupport_handl
 #ifdef __cplusplus
 }
 #endif
-
-#endif  // ROSIDL_RUNTIME_C__MESSAGE_TYPE_SUPPORT_STRUCT_H_

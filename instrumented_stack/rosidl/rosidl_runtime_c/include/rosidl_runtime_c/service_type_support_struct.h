@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef ROSIDL_RUNTIME_C__SERVICE_TYPE_SUPPORT_STRUCT_H_
-#define ROSIDL_RUNTIME_C__SERVICE_TYPE_SUPPORT_STRUCT_H_
+#pragma once
 
 #include <stdint.h>
 
@@ -12,11 +11,11 @@ extern "C" {
 
 typedef struct rosidl_service_type_support_t rosidl_service_type_support_t;
 
-/// Returns the type support with the requested identifier; null if `handle` cannot provide it.
+// Returns the type support with the requested identifier; null if `handle` cannot provide it.
 typedef const rosidl_service_type_support_t* (*rosidl_service_typesupport_handle_function)(
     const rosidl_service_type_support_t* handle, const char* identifier);
 
-/// An event in a call of a service: the fields of service_msgs/msg/ServiceEventInfo.
+// An event in a call of a service: the fields of service_msgs/msg/ServiceEventInfo.
 typedef struct rosidl_service_introspection_info_s {
   uint8_t event_type;
   int32_t stamp_sec;
@@ -25,24 +24,24 @@ typedef struct rosidl_service_introspection_info_s {
   int64_t sequence_number;
 } rosidl_service_introspection_info_t;
 
-/// Creates an event message of the service with `info` and copies of the messages that are not null. Returns null if
-/// memory runs out.
+// Creates an event message of the service with `info` and copies of the messages that are not null. Returns null if
+// memory runs out.
 typedef void* (*rosidl_service_introspection_event_create_function)(const rosidl_service_introspection_info_t* info,
                                                                     const void* request_message,
                                                                     const void* response_message);
 
 typedef void (*rosidl_service_introspection_event_destroy_function)(void* event_message);
 
-/// The facts about a service type that a middleware needs. It has static storage duration.
+// The facts about a service type that a middleware needs. It has static storage duration.
 struct rosidl_service_type_support_t {
-  /// Tells what `data` is; here it is rosidl_typesupport_fastrtps_cpp's identifier for
-  /// service_type_support_callbacks_t.
+  // Tells what `data` is; here it is rosidl_typesupport_fastrtps_cpp's identifier for
+  // service_type_support_callbacks_t.
   const char* typesupport_identifier;
   const void* data;
   rosidl_service_typesupport_handle_function func;
   const rosidl_message_type_support_t* request_typesupport;
   const rosidl_message_type_support_t* response_typesupport;
-  /// The type support of the event message about calls, and the function that creates one.
+  // The type support of the event message about calls, and the function that creates one.
   const rosidl_message_type_support_t* event_typesupport;
   rosidl_service_introspection_event_create_function event_message_create_handle_function;
   rosidl_service_introspection_event_destroy_function event_message_destroy_handle_function;
@@ -56,5 +55,3 @@ static inline const rosidl_service_type_support_t* get_service_typesupport_handl
 #ifdef __cplusplus
 }
 #endif
-
-#endif  // ROSIDL_RUNTIME_C__SERVICE_TYPE_SUPPORT_STRUCT_H_

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef ROSIDL_RUNTIME_CPP__BOUNDED_VECTOR_HPP_
-#define ROSIDL_RUNTIME_CPP__BOUNDED_VECTOR_HPP_
+#pragma once
 
 #include <cstddef>
 #include <initializer_list>
@@ -14,8 +13,8 @@
 
 namespace rosidl_runtime_cpp {
 
-/// A std::vector of at most UpperBound elements. A function that would exceed the bound throws std::length_error and
-/// changes nothing.
+// A std::vector of at most UpperBound elements. A function that would exceed the bound throws std::length_error and
+// changes nothing.
 template <typename T, std::size_t UpperBound, typename Allocator = std::allocator<T>>
 class BoundedVector : protected std::vector<T, Allocator> {
   using Base = std::vector<T, Allocator>;
@@ -149,5 +148,3 @@ class BoundedVector : protected std::vector<T, Allocator> {
 };
 
 }  // namespace rosidl_runtime_cpp
-
-#endif  // ROSIDL_RUNTIME_CPP__BOUNDED_VECTOR_HPP_

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef ROSIDL_RUNTIME_CPP__MESSAGE_ALLOCATOR_HPP_
-#define ROSIDL_RUNTIME_CPP__MESSAGE_ALLOCATOR_HPP_
+#pragma once
 
 #include <memory>
 
@@ -15,10 +14,8 @@ struct MessageOfAllocator<MessageT, std::allocator<T>> {
   using type = MessageT;
 };
 
-/// What `String_<ContainerAllocator>` of a message `String` means: the message itself, for the standard allocator.
+// What `String_<ContainerAllocator>` of a message `String` means: the message itself, for the standard allocator.
 template <class MessageT, class ContainerAllocator>
 using MessageWithAllocator = typename MessageOfAllocator<MessageT, ContainerAllocator>::type;
 
 }  // namespace rosidl_runtime_cpp
-
-#endif  // ROSIDL_RUNTIME_CPP__MESSAGE_ALLOCATOR_HPP_

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef ROSIDL_RUNTIME_CPP__TRAITS_HPP_
-#define ROSIDL_RUNTIME_CPP__TRAITS_HPP_
+#pragma once
 
 #include <string>
 #include <type_traits>
 
-/// Facts about message and service types, specialised by the generated code of each interface package.
+// Facts about message and service types, specialised by the generated code of each interface package.
 namespace rosidl_generator_traits {
 
-/// "std_msgs::msg::String"
+// "std_msgs::msg::String"
 template <typename T>
 const char* data_type();
 
-/// "std_msgs/msg/String"
+// "std_msgs/msg/String"
 template <typename T>
 const char* name();
 
@@ -22,7 +21,7 @@ struct is_message : std::false_type {};
 template <typename T>
 struct is_service : std::false_type {};
 
-/// T is the request, or the response, of a service.
+// T is the request, or the response, of a service.
 template <typename T>
 struct is_service_request : std::false_type {};
 template <typename T>
@@ -31,7 +30,7 @@ struct is_service_response : std::false_type {};
 template <typename T>
 struct is_action : std::false_type {};
 
-/// T is a part of an action.
+// T is a part of an action.
 template <typename T>
 struct is_action_goal : std::false_type {};
 template <typename T>
@@ -39,20 +38,18 @@ struct is_action_result : std::false_type {};
 template <typename T>
 struct is_action_feedback : std::false_type {};
 
-/// Every object of the type has the same serialised size.
+// Every object of the type has the same serialised size.
 template <typename T>
 struct has_fixed_size : std::false_type {};
 
-/// The serialised size has an upper bound.
+// The serialised size has an upper bound.
 template <typename T>
 struct has_bounded_size : std::false_type {};
 
-/// Converts the message to YAML. The generated function has more options; it is found through its argument's type.
+// Converts the message to YAML. The generated function has more options; it is found through its argument's type.
 template <typename Message, typename = std::enable_if_t<is_message<Message>::value>>
 std::string to_yaml(const Message& message) {
   return to_yaml(message, false);
 }
 
 }  // namespace rosidl_generator_traits
-
-#endif  // ROSIDL_RUNTIME_CPP__TRAITS_HPP_

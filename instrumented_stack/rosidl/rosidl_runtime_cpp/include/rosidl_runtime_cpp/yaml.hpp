@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef ROSIDL_RUNTIME_CPP__YAML_HPP_
-#define ROSIDL_RUNTIME_CPP__YAML_HPP_
+#pragma once
 
 #include <charconv>
 #include <cmath>
@@ -12,11 +11,11 @@
 
 #include "rosidl_runtime_cpp/traits.hpp"
 
-/// Prints the members of messages as YAML. Reading it back gives the same values. Only the generated source files
-/// include this header.
+// Prints the members of messages as YAML. Reading it back gives the same values. Only the generated source files
+// include this header.
 namespace rosidl_runtime_cpp::yaml {
 
-/// The shortest digits that read back as the same number. They can always be recognised as floating point.
+// The shortest digits that read back as the same number. They can always be recognised as floating point.
 template <typename Float>
 void write_floating(std::ostream& out, Float value) {
   if (std::isnan(value)) {
@@ -31,7 +30,7 @@ void write_floating(std::ostream& out, Float value) {
   }
 }
 
-/// A double-quoted YAML scalar. Bytes above 127 are treated as UTF-8 and do not change.
+// A double-quoted YAML scalar. Bytes above 127 are treated as UTF-8 and do not change.
 inline void write_quoted(std::ostream& out, const std::string& text) {
   constexpr char hex[] = "0123456789abcdef";
   out << '"';
@@ -97,7 +96,7 @@ void write_flow_member(std::ostream& out, bool first, const char* name, const T&
   write_flow(out, value);
 }
 
-/// Prints a member with its name, on separate lines.
+// Prints a member with its name, on separate lines.
 template <typename T>
 void write_member(std::ostream& out, const char* name, const T& value, std::size_t indentation) {
   const std::string spaces(indentation, ' ');
@@ -140,5 +139,3 @@ std::string to_string(const Message& message, bool use_flow_style) {
 }
 
 }  // namespace rosidl_runtime_cpp::yaml
-
-#endif  // ROSIDL_RUNTIME_CPP__YAML_HPP_

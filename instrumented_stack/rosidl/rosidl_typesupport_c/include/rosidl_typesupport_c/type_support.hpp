@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef ROSIDL_TYPESUPPORT_C__TYPE_SUPPORT_HPP_
-#define ROSIDL_TYPESUPPORT_C__TYPE_SUPPORT_HPP_
+#pragma once
 
 #include <cstddef>
 #include <cstdint>
@@ -13,27 +12,27 @@
 #include "rosidl_typesupport_fastrtps_cpp/service_type_support.h"
 #include "rosidl_typesupport_interface/macros.h"
 
-/// Creates the handles of C messages from their layouts, and defines their functions. Only the generated source files
-/// include this header.
+// Creates the handles of C messages from their layouts, and defines their functions. Only the generated source files
+// include this header.
 namespace rosidl_typesupport_c {
 
 using Layout = rosidl_typesupport_c__MessageLayout;
 
-/// The bytes of a message. `read` and `write` return false where the callbacks of type supports do.
+// The bytes of a message. `read` and `write` return false where the callbacks of type supports do.
 bool write(const Layout& layout, const void* message, eprosima::fastcdr::Cdr& cdr);
 bool read(const Layout& layout, eprosima::fastcdr::Cdr& cdr, void* message);
 std::uint32_t serialized_size(const Layout& layout, const void* message);
 std::size_t max_serialized_size(const Layout& layout, char& bounds_info);
 
-/// The handle if `identifier` is one of C.
+// The handle if `identifier` is one of C.
 const rosidl_message_type_support_t* itself(const rosidl_message_type_support_t* handle, const char* identifier);
 const rosidl_service_type_support_t* itself(const rosidl_service_type_support_t* handle, const char* identifier);
 
-/// An event message of a service, whose layout is that of its <service>_Event. Null if memory runs out.
+// An event message of a service, whose layout is that of its <service>_Event. Null if memory runs out.
 void* create_event(const Layout& layout, const rosidl_service_introspection_info_t& info, const void* request,
                    const void* response);
 
-/// The callbacks of a type support have no argument that tells the type, so each type has its own.
+// The callbacks of a type support have no argument that tells the type, so each type has its own.
 template <const Layout& L>
 struct Callbacks {
   static bool write(const void* message, eprosima::fastcdr::Cdr& cdr) {
@@ -83,8 +82,8 @@ const rosidl_service_type_support_t* service_type_support(const char* service_na
 
 }  // namespace rosidl_typesupport_c
 
-/// Defines the functions of C message MESSAGE, for example std_msgs__msg__String, and its type support. Its layout
-/// MESSAGE__layout stands before.
+// Defines the functions of C message MESSAGE, for example std_msgs__msg__String, and its type support. Its layout
+// MESSAGE__layout stands before.
 #define ROSIDL_TYPESUPPORT_C__DEFINE_MESSAGE(MESSAGE, PACKAGE, NAMESPACE, NAME)                                \
   bool MESSAGE##__init(MESSAGE* msg) {                                                                         \
     return rosidl_typesupport_c__message_init(&MESSAGE##__layout, msg);                                        \
@@ -127,7 +126,7 @@ const rosidl_service_type_support_t* service_type_support(const char* service_na
     return rosidl_typesupport_c::message_type_support<MESSAGE##__layout>(#PACKAGE "::" #NAMESPACE, #NAME);     \
   }
 
-/// Defines the type support of service SERVICE. Those of its messages stand before.
+// Defines the type support of service SERVICE. Those of its messages stand before.
 #define ROSIDL_TYPESUPPORT_C__DEFINE_SERVICE(SERVICE, PACKAGE, NAMESPACE, NAME)                                        \
   const rosidl_service_type_support_t* ROSIDL_TYPESUPPORT_INTERFACE__SERVICE_SYMBOL_NAME(                              \
       rosidl_typesupport_c, PACKAGE, NAMESPACE, NAME)(void) {                                                          \
@@ -140,7 +139,7 @@ const rosidl_service_type_support_t* service_type_support(const char* service_na
         SERVICE##__type_description);                                                                                  \
   }
 
-/// Defines the type support of action ACTION. Those of its services and messages stand before.
+// Defines the type support of action ACTION. Those of its services and messages stand before.
 #define ROSIDL_TYPESUPPORT_C__DEFINE_ACTION(ACTION, PACKAGE, NAME)                                                    \
   const rosidl_action_type_support_t* ROSIDL_TYPESUPPORT_INTERFACE__ACTION_SYMBOL_NAME(rosidl_typesupport_c, PACKAGE, \
                                                                                        action, NAME)(void) {          \
@@ -154,5 +153,3 @@ const rosidl_service_type_support_t* service_type_support(const char* service_na
         &ACTION##__type_description};                                                                                 \
     return &handle;                                                                                                   \
   }
-
-#endif  // ROSIDL_TYPESUPPORT_C__TYPE_SUPPORT_HPP_

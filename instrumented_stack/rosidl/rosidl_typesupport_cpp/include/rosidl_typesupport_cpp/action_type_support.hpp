@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef ROSIDL_TYPESUPPORT_CPP__ACTION_TYPE_SUPPORT_HPP_
-#define ROSIDL_TYPESUPPORT_CPP__ACTION_TYPE_SUPPORT_HPP_
+#pragma once
 
 #include "rosidl_runtime_c/action_type_support_struct.h"
 #include "rosidl_typesupport_cpp/message_type_support.hpp"
@@ -8,11 +7,11 @@
 
 namespace rosidl_typesupport_cpp {
 
-/// The type support of action type T; every interface package specialises it for its types. Never null.
+// The type support of action type T; every interface package specialises it for its types. Never null.
 template <typename T>
 const rosidl_action_type_support_t* get_action_type_support_handle();
 
-/// Combines the type supports of the services and messages that carry the action.
+// Combines the type supports of the services and messages that carry the action.
 template <typename T>
 const rosidl_action_type_support_t* action_type_support(const rosidl_type_description_t* description) {
   static const rosidl_action_type_support_t handle{
@@ -26,5 +25,3 @@ const rosidl_action_type_support_t* action_type_support(const rosidl_type_descri
 }
 
 }  // namespace rosidl_typesupport_cpp
-
-#endif  // ROSIDL_TYPESUPPORT_CPP__ACTION_TYPE_SUPPORT_HPP_

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef ROSIDL_TYPESUPPORT_FASTRTPS_CPP__CDR_MEMBERS_HPP_
-#define ROSIDL_TYPESUPPORT_FASTRTPS_CPP__CDR_MEMBERS_HPP_
+#pragma once
 
 #include <fastcdr/Cdr.h>
 
@@ -15,13 +14,13 @@
 #include "rosidl_runtime_cpp/bounded_vector.hpp"
 #include "rosidl_typesupport_fastrtps_cpp/cdr_codec.hpp"
 
-/// The bytes of message members, as rmw_fastrtps_cpp writes them: plain CDR, the version before XTypes.
-///   primitives         aligned to their size
-///   string             u32 length with the final NUL, characters, NUL
-///   wstring            u32 length, a u32 per UTF-16 unit, no final NUL
-///   array              its elements; an empty one adds no padding
-///   sequence           u32 length, its elements
-/// Only the generated source files include this header.
+// The bytes of message members, as rmw_fastrtps_cpp writes them: plain CDR, the version before XTypes.
+//   primitives         aligned to their size
+//   string             u32 length with the final NUL, characters, NUL
+//   wstring            u32 length, a u32 per UTF-16 unit, no final NUL
+//   array              its elements; an empty one adds no padding
+//   sequence           u32 length, its elements
+// Only the generated source files include this header.
 namespace rosidl_typesupport_fastrtps_cpp {
 
 template <typename T>
@@ -36,8 +35,8 @@ struct is_sequence<std::vector<T>> : std::true_type {};
 template <typename T, std::size_t N>
 struct is_sequence<rosidl_runtime_cpp::BoundedVector<T, N>> : std::true_type {};
 
-/// A bool is not copied as part of a block, because reading must check that it is 0 or 1, and because std::vector<bool>
-/// stores bits.
+// A bool is not copied as part of a block, because reading must check that it is 0 or 1, and because std::vector<bool>
+// stores bits.
 template <typename T>
 inline constexpr bool is_block_of_primitives = std::is_arithmetic_v<T> && !std::is_same_v<T, bool>;
 
@@ -77,8 +76,8 @@ void cdr_write(eprosima::fastcdr::Cdr& cdr, const T& value) {
   }
 }
 
-/// Reads a length and checks it against the remaining bytes, before memory is allocated for it. So the memory of a
-/// message is at most a small multiple of its bytes, whatever the bytes are.
+// Reads a length and checks it against the remaining bytes, before memory is allocated for it. So the memory of a
+// message is at most a small multiple of its bytes, whatever the bytes are.
 inline std::size_t read_length(eprosima::fastcdr::Cdr& cdr, std::size_t least_element_size) {
   uint32_t length = 0;
   cdr.deserialize(length);
@@ -152,7 +151,7 @@ void cdr_read(eprosima::fastcdr::Cdr& cdr, T& value) {
   }
 }
 
-/// The position after `value` if it is written at `position`.
+// The position after `value` if it is written at `position`.
 template <typename T>
 std::size_t cdr_end_after(const T& value, std::size_t position) {
   if constexpr (std::is_arithmetic_v<T>) {
@@ -223,5 +222,3 @@ void MaxSize::add(std::size_t string_bound) {
 }
 
 }  // namespace rosidl_typesupport_fastrtps_cpp
-
-#endif  // ROSIDL_TYPESUPPORT_FASTRTPS_CPP__CDR_MEMBERS_HPP_

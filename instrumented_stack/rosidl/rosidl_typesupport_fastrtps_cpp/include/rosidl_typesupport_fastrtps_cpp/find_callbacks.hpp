@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef ROSIDL_TYPESUPPORT_FASTRTPS_CPP__FIND_CALLBACKS_HPP_
-#define ROSIDL_TYPESUPPORT_FASTRTPS_CPP__FIND_CALLBACKS_HPP_
+#pragma once
 
 #include <initializer_list>
 
@@ -10,7 +9,7 @@
 
 namespace rosidl_typesupport_fastrtps_cpp {
 
-/// The callbacks of a C++ or a C message; null if the type support has neither.
+// The callbacks of a C++ or a C message; null if the type support has neither.
 inline const message_type_support_callbacks_t* find_callbacks(const rosidl_message_type_support_t* type_support) {
   for (const char* identifier : {typesupport_identifier, typesupport_identifier_of_c}) {
     if (const auto* found = get_message_typesupport_handle(type_support, identifier)) {
@@ -20,7 +19,7 @@ inline const message_type_support_callbacks_t* find_callbacks(const rosidl_messa
   return nullptr;
 }
 
-/// The same for a service.
+// The same for a service.
 inline const service_type_support_callbacks_t* find_callbacks(const rosidl_service_type_support_t* type_support) {
   for (const char* identifier : {typesupport_identifier, typesupport_identifier_of_c}) {
     if (const auto* found = get_service_typesupport_handle(type_support, identifier)) {
@@ -31,5 +30,3 @@ inline const service_type_support_callbacks_t* find_callbacks(const rosidl_servi
 }
 
 }  // namespace rosidl_typesupport_fastrtps_cpp
-
-#endif  // ROSIDL_TYPESUPPORT_FASTRTPS_CPP__FIND_CALLBACKS_HPP_

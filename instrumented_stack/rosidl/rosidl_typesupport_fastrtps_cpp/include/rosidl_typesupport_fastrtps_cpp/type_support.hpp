@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef ROSIDL_TYPESUPPORT_FASTRTPS_CPP__TYPE_SUPPORT_HPP_
-#define ROSIDL_TYPESUPPORT_FASTRTPS_CPP__TYPE_SUPPORT_HPP_
+#pragma once
 
 #include <algorithm>
 #include <cstring>
@@ -15,10 +14,10 @@
 #include "rosidl_typesupport_fastrtps_cpp/message_type_support.h"
 #include "rosidl_typesupport_fastrtps_cpp/service_type_support.h"
 
-/// Creates the handles of a package's types from their codecs. Only the generated source files include this header.
+// Creates the handles of a package's types from their codecs. Only the generated source files include this header.
 namespace rosidl_typesupport_fastrtps_cpp {
 
-/// The callbacks of type support. Here exceptions become return values.
+// The callbacks of type support. Here exceptions become return values.
 template <typename Message>
 struct Callbacks {
   static bool write(const void* message, eprosima::fastcdr::Cdr& cdr) {
@@ -53,7 +52,7 @@ struct Callbacks {
   }
 };
 
-/// Such a handle provides only itself.
+// Such a handle provides only itself.
 template <typename Handle>
 const Handle* itself(const Handle* handle, const char* identifier) {
   return std::strcmp(identifier, typesupport_identifier) == 0 ? handle : nullptr;
@@ -71,7 +70,7 @@ const rosidl_message_type_support_t* message_type_support(const char* message_na
   return &handle;
 }
 
-/// The event messages of a service, for code that knows the type only by its handle.
+// The event messages of a service, for code that knows the type only by its handle.
 template <typename Service>
 struct EventFunctions {
   static void* create(const rosidl_service_introspection_info_t* info, const void* request, const void* response) {
@@ -115,5 +114,3 @@ const rosidl_service_type_support_t* service_type_support(const char* service_na
 }
 
 }  // namespace rosidl_typesupport_fastrtps_cpp
-
-#endif  // ROSIDL_TYPESUPPORT_FASTRTPS_CPP__TYPE_SUPPORT_HPP_

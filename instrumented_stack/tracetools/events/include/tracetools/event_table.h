@@ -1,44 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef TRACETOOLS__EVENT_TABLE_H_
-#define TRACETOOLS__EVENT_TABLE_H_
+#pragma once
 
-/// The one declaration of the events of ROS 2. From it come the functions of tracetools, the probes of LTTng and of
-/// USDT, the structs and the decoder of trace_reader, the names that a trace session records, and the names in Python.
-///
-/// A row is EVENT(given, name, Struct, group, field...):
-///   given   passed unchanged to every row by the user of the table
-///   name    the event's name: `ros2:name` in a trace, ros_trace_name in C
-///   Struct  the name as a C++ type, for readers of traces
-///   group   the subject of the event; a session may drop a whole group if recording costs too much:
-///             init       a fact about an object that is recorded once: never dropped
-///             end        the end of an object: never dropped
-///             state      a change of state, or a note about the trace itself: never dropped
-///             executor   what executors wait for and execute
-///             buffers    messages in the ring buffers of intra-process communication
-///             layers     publishing and taking in rclcpp and rcl
-///             messages   publishing and taking in rmw, and within the process
-///             services   requests and responses
-///             callbacks  beginning and end of callbacks
-///   field   (type, name), in the order of the payload and of the C parameters; at least one, at most six
-///
-/// Types of fields, with the C parameter and what LTTng records:
-///   pointer         const void *       64 bits, displayed in hexadecimal
-///   string          const char *       a text; null is recorded as "(null)"
-///   keyword_string  const char *       like string, for a name that C++ reserves: C++ adds an underscore to it
-///   size            size_t             64 bits, unsigned
-///   uint64, int64   uint64_t, int64_t  64 bits
-///   boolean         bool               32 bits, 0 or 1
-///   gid             const uint8_t *    16 bytes
-///   pointers        const void ** name, size_t num_name: a sequence of pointers, after its length
-///   version         no parameter: the version of tracetools, a text
-///   ignored         const void *       not recorded
-///   nothing         the one field, without a name, of an event without fields
-///
-/// A "handle" is the address of the layer's own struct (rcl_node_t *, rmw_publisher_t *). A gid identifies a DDS
-/// endpoint. Times and periods are nanoseconds. README.md of tracetools explains how to add an event.
+// The one declaration of the events of ROS 2. From it come the functions of tracetools, the probes of LTTng and of
+// USDT, the structs and the decoder of trace_reader, the names that a trace session records, and the names in Python.
+//
+// A row is EVENT(given, name, Struct, group, field...):
+//   given   passed unchanged to every row by the user of the table
+//   name    the event's name: `ros2:name` in a trace, ros_trace_name in C
+//   Struct  the name as a C++ type, for readers of traces
+//   group   the subject of the event; a session may drop a whole group if recording costs too much:
+//             init       a fact about an object that is recorded once: never dropped
+//             end        the end of an object: never dropped
+//             state      a change of state, or a note about the trace itself: never dropped
+//             executor   what executors wait for and execute
+//             buffers    messages in the ring buffers of intra-process communication
+//             layers     publishing and taking in rclcpp and rcl
+//             messages   publishing and taking in rmw, and within the process
+//             services   requests and responses
+//             callbacks  beginning and end of callbacks
+//   field   (type, name), in the order of the payload and of the C parameters; at least one, at most six
+//
+// Types of fields, with the C parameter and what LTTng records:
+//   pointer         const void *       64 bits, displayed in hexadecimal
+//   string          const char *       a text; null is recorded as "(null)"
+//   keyword_string  const char *       like string, for a name that C++ reserves: C++ adds an underscore to it
+//   size            size_t             64 bits, unsigned
+//   uint64, int64   uint64_t, int64_t  64 bits
+//   boolean         bool               32 bits, 0 or 1
+//   gid             const uint8_t *    16 bytes
+//   pointers        const void ** name, size_t num_name: a sequence of pointers, after its length
+//   version         no parameter: the version of tracetools, a text
+//   ignored         const void *       not recorded
+//   nothing         the one field, without a name, of an event without fields
+//
+// A "handle" is the address of the layer's own struct (rcl_node_t *, rmw_publisher_t *). A gid identifies a DDS
+// endpoint. Times and periods are nanoseconds. README.md of tracetools explains how to add an event.
 
-/// The events of provider `ros2`. Names, fields, their order and types are those of tracetools of ros2_tracing 8.10.
-/// Other tools rely on them.
+// The events of provider `ros2`. Names, fields, their order and types are those of tracetools of ros2_tracing 8.10.
+// Other tools rely on them.
 // clang-format off
 #define TRACETOOLS_EVENT_TABLE(EVENT, given) \
   /* A context was initialised. tracetools adds its own version. */ \
@@ -125,8 +124,8 @@
   EVENT(given, message_link_periodic_async, MessageLinkPeriodicAsync, init, (pointers, subs), (pointers, pubs)) \
   EVENT(given, message_link_partial_sync, MessageLinkPartialSync, init, (pointers, subs), (pointers, pubs))
 
-/// The events of provider `ros2_ext`: they are not in ROS 2's tracetools. The provider is separate, so that
-/// `ros2:*` stays what other tools expect. Enable `ros2_ext:*` to record them.
+// The events of provider `ros2_ext`: they are not in ROS 2's tracetools. The provider is separate, so that
+// `ros2:*` stays what other tools expect. Enable `ros2_ext:*` to record them.
 #define TRACETOOLS_EXT_EVENT_TABLE(EVENT, given) \
   /* The end of an object; another object may have its address afterwards. Each event ends an object that an init */ \
   /* event began: rcl_publisher_fini belongs to ros2:rcl_publisher_init, rclcpp_callback_fini to */ \
@@ -178,8 +177,8 @@
   /* In a state dump: the current state of a lifecycle node. */ \
   EVENT(given, rcl_lifecycle_state, RclLifecycleState, state, (pointer, state_machine), (string, label))
 
-/// TRACETOOLS_EACH_FIELD(USE, field...): USE(type, name) for each field of a row, in order. There are no blanks
-/// between them, because LTTng compares the text of its arguments.
+// TRACETOOLS_EACH_FIELD(USE, field...): USE(type, name) for each field of a row, in order. There are no blanks
+// between them, because LTTng compares the text of its arguments.
 #define TRACETOOLS_EACH_FIELD(USE, ...) TRACETOOLS_EACH_PICK(__VA_ARGS__, 6, 5, 4, 3, 2, 1, )(USE, __VA_ARGS__)
 #define TRACETOOLS_EACH_PICK(_1, _2, _3, _4, _5, _6, count, ...) TRACETOOLS_EACH_##count
 #define TRACETOOLS_EACH_1(USE, field) USE field
@@ -189,5 +188,3 @@
 #define TRACETOOLS_EACH_5(USE, field, ...) TRACETOOLS_EACH_1(USE, field)TRACETOOLS_EACH_4(USE, __VA_ARGS__)
 #define TRACETOOLS_EACH_6(USE, field, ...) TRACETOOLS_EACH_1(USE, field)TRACETOOLS_EACH_5(USE, __VA_ARGS__)
 // clang-format on
-
-#endif  // TRACETOOLS__EVENT_TABLE_H_

@@ -5,7 +5,9 @@ namespace arm_messages {
 
 msg::Distance sum(const msg::Reach& reach) {
   msg::Distance distance;
-  for (const double length : reach.lengths) distance.meters += length;
+  for (const double length : reach.lengths) {
+    distance.meters += length;
+  }
   return distance;
 }
 
