@@ -2,7 +2,7 @@
 # project_library(<target> SOURCES <file>... [PUBLIC <target>...] [PRIVATE <target>...])
 #
 # One library for the current folder. Its headers are included by their path from the top of the repository
-# ("launcher/base/diagnostics/source.hpp"), but only a target that links the library can see them: the include directory
+# ("base/diagnostics/source.hpp"), but only a target that links the library can see them: the include directory
 # is a view in the build tree that holds a link to this folder alone. An include against the dependency arrows of
 # docs/architecture.md therefore fails to compile.
 function(project_library target)
@@ -19,6 +19,8 @@ endfunction()
 function(project_header_view target scope)
   file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
   set(view ${PROJECT_BINARY_DIR}/header_view/${target})
+  # In an older build tree the link may stand for a folder above this one.
+  file(REMOVE_RECURSE ${view})
   get_filename_component(parent ${view}/${folder} DIRECTORY)
   file(MAKE_DIRECTORY ${parent})
   file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${view}/${folder} SYMBOLIC)

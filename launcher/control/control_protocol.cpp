@@ -14,7 +14,7 @@
 #include <utility>
 #include <variant>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/diagnostic.hpp"
 #include "launcher/control/json_text.hpp"
 #include "launcher/language/exit_code_filter.hpp"
 

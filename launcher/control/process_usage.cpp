@@ -13,7 +13,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "launcher/base/files/unique_fd.hpp"
+#include "base/files/unique_fd.hpp"
 
 namespace launch {
 

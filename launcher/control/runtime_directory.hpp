@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "launcher/base/environment/environment.hpp"
-#include "launcher/base/files/unique_fd.hpp"
+#include "base/environment/environment.hpp"
+#include "base/files/unique_fd.hpp"
 
 namespace launch {
 

@@ -13,7 +13,7 @@
 #include <optional>
 #include <string_view>
 
-#include "launcher/base/text/shell_quoted.hpp"
+#include "base/text/shell_quoted.hpp"
 #include "launcher/crash/core_file.hpp"
 #include "launcher/crash/core_search.hpp"
 #include "launcher/crash/timed_command.hpp"

@@ -9,8 +9,8 @@
 #include <istream>
 #include <sstream>
 
-#include "launcher/base/environment/own_prefix.hpp"
-#include "launcher/base/files/unique_fd.hpp"
+#include "base/environment/own_prefix.hpp"
+#include "base/files/unique_fd.hpp"
 #include "launcher/crash/timed_command.hpp"
 
 namespace launch {

@@ -6,8 +6,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "launcher/base/files/unique_fd.hpp"
-#include "launcher/base/processes/spawn.hpp"
+#include "base/files/unique_fd.hpp"
+#include "base/processes/spawn.hpp"
 
 namespace launch {
 

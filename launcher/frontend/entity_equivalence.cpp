@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/diagnostic.hpp"
 #include "launcher/frontend/frontend.hpp"
 
 namespace launch {

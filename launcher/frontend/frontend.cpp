@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/diagnostic.hpp"
 #include "launcher/frontend/input_text.hpp"
 
 namespace launch {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string_view>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/diagnostic.hpp"
 #include "launcher/frontend/entity.hpp"
 
 namespace launch {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "launcher/base/text/utf8.hpp"
+#include "base/text/utf8.hpp"
 
 namespace launch {
 

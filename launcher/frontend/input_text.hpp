@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
-#include "launcher/base/diagnostics/source.hpp"
+#include "base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/source.hpp"
 
 namespace launch {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "launcher/base/diagnostics/source.hpp"
+#include "base/diagnostics/source.hpp"
 #include "launcher/frontend/xml_markup.hpp"
 
 namespace launch {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "launcher/base/text/utf8.hpp"
+#include "base/text/utf8.hpp"
 #include "launcher/frontend/xml_cursor.hpp"
 
 namespace launch {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <string>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
-#include "launcher/base/text/utf8.hpp"
+#include "base/diagnostics/diagnostic.hpp"
+#include "base/text/utf8.hpp"
 #include "launcher/frontend/xml_cursor.hpp"
 
 namespace launch {

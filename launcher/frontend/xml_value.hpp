@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "launcher/base/diagnostics/source.hpp"
+#include "base/diagnostics/source.hpp"
 
 namespace launch {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/diagnostic.hpp"
 #include "launcher/frontend/yaml_node.hpp"
 
 namespace launch {

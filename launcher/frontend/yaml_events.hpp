@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/diagnostic.hpp"
 
 namespace launch {
 

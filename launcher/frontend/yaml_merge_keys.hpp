@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/diagnostic.hpp"
 #include "launcher/frontend/yaml_node.hpp"
 
 namespace launch {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/base/diagnostics/source.hpp"
+#include "base/diagnostics/source.hpp"
 #include "launcher/frontend/entity.hpp"
 
 namespace launch {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "launcher/base/text/utf8.hpp"
+#include "base/text/utf8.hpp"
 
 namespace launch {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string_view>
 
-#include "launcher/base/diagnostics/source.hpp"
+#include "base/diagnostics/source.hpp"
 
 namespace launch {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/diagnostic.hpp"
 
 namespace launch {
 

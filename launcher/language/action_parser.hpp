@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/diagnostic.hpp"
 #include "launcher/frontend/entity.hpp"
 #include "launcher/language/action.hpp"
 #include "launcher/language/fields.hpp"

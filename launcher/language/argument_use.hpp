@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "launcher/base/diagnostics/source.hpp"
+#include "base/diagnostics/source.hpp"
 
 namespace launch {
 

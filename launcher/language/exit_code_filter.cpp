@@ -10,8 +10,8 @@
 #include <cstdlib>
 #include <optional>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
-#include "launcher/base/text/ascii.hpp"
+#include "base/diagnostics/diagnostic.hpp"
+#include "base/text/ascii.hpp"
 
 namespace launch {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "launcher/base/text/ascii.hpp"
+#include "base/text/ascii.hpp"
 #include "launcher/substitution/boolean.hpp"
 
 namespace launch {

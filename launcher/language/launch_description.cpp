@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "launcher/base/diagnostics/read_source_file.hpp"
+#include "base/diagnostics/read_source_file.hpp"
 #include "launcher/frontend/frontend.hpp"
 #include "launcher/language/action_parser.hpp"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "launcher/base/diagnostics/source.hpp"
+#include "base/diagnostics/source.hpp"
 #include "launcher/process/output/output_router.hpp"
 
 namespace launch {

@@ -11,7 +11,7 @@
 #include <functional>
 #include <memory>
 
-#include "launcher/base/files/unique_fd.hpp"
+#include "base/files/unique_fd.hpp"
 #include "launcher/process/event_loop.hpp"
 
 namespace launch {

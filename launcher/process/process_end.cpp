@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "launcher/base/processes/ending_signals.hpp"
+#include "base/processes/ending_signals.hpp"
 #include "launcher/process/process_supervisor.hpp"
 #include "launcher/process/supervised_process.hpp"
 

@@ -13,9 +13,9 @@
 #include <string_view>
 #include <vector>
 
-#include "launcher/base/diagnostics/source.hpp"
-#include "launcher/base/environment/environment.hpp"
-#include "launcher/base/files/unique_fd.hpp"
+#include "base/diagnostics/source.hpp"
+#include "base/environment/environment.hpp"
+#include "base/files/unique_fd.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/resource_limits.hpp"
 

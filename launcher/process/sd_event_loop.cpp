@@ -17,8 +17,8 @@
 #include <utility>
 #include <vector>
 
-#include "launcher/base/files/unique_fd.hpp"
-#include "launcher/base/monotonic_clock.hpp"
+#include "base/files/unique_fd.hpp"
+#include "base/monotonic_clock.hpp"
 #include "launcher/process/descriptor_watch.hpp"
 #include "launcher/process/event_loop.hpp"
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/diagnostic.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/visit/coroutine_request.hpp"
 

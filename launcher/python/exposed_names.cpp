@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "launcher/base/environment/own_environment.hpp"
+#include "base/environment/own_environment.hpp"
 #include "launcher/frontend/entity.hpp"
 #include "launcher/python/interpreter/python_module.hpp"
 #include "launcher/python/python_file.hpp"

@@ -5,8 +5,8 @@
 #include <exception>
 #include <utility>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
-#include "launcher/base/diagnostics/read_source_file.hpp"
+#include "base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/read_source_file.hpp"
 
 namespace launch {
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "launcher/base/diagnostics/source.hpp"
+#include "base/diagnostics/source.hpp"
 #include "launcher/python/interpreter/python_runtime.hpp"
 
 namespace launch {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The requests of a launch to the ROS graph. This is the seam between the launcher, which links no middleware, and the
-// program launch-ros-client (launcher/ros/client/), which does.
+// program launch-ros-client (programs/ros_client/), which does.
 //
 // Names are absolute: "/left/driver" for a node, "/left/scan" for a topic or a service.
 #pragma once
@@ -72,7 +72,7 @@ struct WatchTransitions {
 struct WatchMessages {
   std::string topic;
   std::string type;       // "std_msgs/msg/String"
-  std::string condition;  // on their fields (launcher/messages/message_condition.hpp); empty: none
+  std::string condition;  // on their fields (launcher/message_types/message_condition.hpp); empty: none
 };
 
 using RosRequest =

@@ -11,9 +11,9 @@
 #include <array>
 #include <cerrno>
 
-#include "launcher/base/environment/own_prefix.hpp"
-#include "launcher/base/files/unique_fd.hpp"
-#include "launcher/base/processes/spawn.hpp"
+#include "base/environment/own_prefix.hpp"
+#include "base/files/unique_fd.hpp"
+#include "base/processes/spawn.hpp"
 #include "launcher/process/isolation/namespaces.hpp"
 #include "launcher/ros/ros_protocol.hpp"
 

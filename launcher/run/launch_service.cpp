@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "launcher/base/monotonic_clock.hpp"
+#include "base/monotonic_clock.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/visit/farewell_check.hpp"
 

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/diagnostic.hpp"
 #include "launcher/crash/crash_collector.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/process_supervisor.hpp"

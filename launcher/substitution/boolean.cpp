@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "launcher/base/text/ascii.hpp"
+#include "base/text/ascii.hpp"
 
 namespace launch {
 

@@ -14,10 +14,10 @@
 #include <chrono>
 #include <stdexcept>
 
-#include "launcher/base/files/pipe.hpp"
-#include "launcher/base/files/unique_fd.hpp"
-#include "launcher/base/processes/ending_signals.hpp"
-#include "launcher/base/processes/spawn.hpp"
+#include "base/files/pipe.hpp"
+#include "base/files/unique_fd.hpp"
+#include "base/processes/ending_signals.hpp"
+#include "base/processes/spawn.hpp"
 
 namespace launch {
 

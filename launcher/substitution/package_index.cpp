@@ -12,7 +12,7 @@
 #include <system_error>
 #include <utility>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/diagnostic.hpp"
 
 namespace launch {
 

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "launcher/base/diagnostics/source.hpp"
+#include "base/diagnostics/source.hpp"
 
 namespace launch {
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "launcher/base/diagnostics/source.hpp"
-#include "launcher/base/environment/environment.hpp"
+#include "base/diagnostics/source.hpp"
+#include "base/environment/environment.hpp"
 #include "launcher/substitution/parameter.hpp"
 
 namespace launch {

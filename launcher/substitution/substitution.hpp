@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
-#include "launcher/base/diagnostics/source.hpp"
+#include "base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/source.hpp"
 #include "launcher/substitution/scope.hpp"
 
 namespace launch {

@@ -8,7 +8,7 @@
 #include <chrono>
 #include <filesystem>
 
-#include "launcher/base/environment/own_prefix.hpp"
+#include "base/environment/own_prefix.hpp"
 #include "launcher/crash/timed_command.hpp"
 #include "launcher/testing/trace_session.hpp"
 #include "launcher/visit/process_table.hpp"

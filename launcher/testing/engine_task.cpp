@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "actions/builtin_actions.hpp"
-#include "launcher/base/diagnostics/command_error.hpp"
-#include "launcher/base/environment/own_environment.hpp"
+#include "base/diagnostics/command_error.hpp"
+#include "base/environment/own_environment.hpp"
 #include "launcher/testing/engine.hpp"
 #include "launcher/testing/test_queue.hpp"
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
-#include "launcher/base/diagnostics/source.hpp"
+#include "base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/source.hpp"
 
 namespace launch {
 

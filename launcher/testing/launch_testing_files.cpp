@@ -8,7 +8,7 @@
 #include <iterator>
 #include <system_error>
 
-#include "launcher/base/environment/own_prefix.hpp"
+#include "base/environment/own_prefix.hpp"
 
 namespace launch {
 

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "launcher/base/text/utf8.hpp"
-#include "launcher/cli/xml_text.hpp"
+#include "base/text/utf8.hpp"
+#include "programs/launch/describe/xml_text.hpp"
 
 namespace launch {
 

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cstdint>
 
-#include "launcher/base/text/shell_quoted.hpp"
+#include "base/text/shell_quoted.hpp"
 
 namespace launch {
 

@@ -17,11 +17,9 @@
 #include <thread>
 
 #include "actions/builtin_actions.hpp"
-#include "launcher/base/environment/home_directory.hpp"
-#include "launcher/base/environment/own_environment.hpp"
-#include "launcher/base/environment/own_prefix.hpp"
-#include "launcher/cli/argument_check.hpp"
-#include "launcher/cli/subcommand.hpp"
+#include "base/environment/home_directory.hpp"
+#include "base/environment/own_environment.hpp"
+#include "base/environment/own_prefix.hpp"
 #include "launcher/language/introspection.hpp"
 #include "launcher/substitution/package_index.hpp"
 #include "launcher/substitution/template_parser.hpp"
@@ -33,6 +31,8 @@
 #include "launcher/testing/test_files.hpp"
 #include "launcher/testing/test_queue.hpp"
 #include "launcher/testing/test_report.hpp"
+#include "programs/launch/run/argument_check.hpp"
+#include "programs/launch/subcommand.hpp"
 
 namespace launch {
 

@@ -9,14 +9,14 @@
 #include <iterator>
 #include <set>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
-#include "launcher/base/environment/home_directory.hpp"
-#include "launcher/base/environment/own_prefix.hpp"
-#include "launcher/base/environment/test_run_variables.hpp"
-#include "launcher/cli/find_launch_file.hpp"
+#include "base/diagnostics/diagnostic.hpp"
+#include "base/environment/home_directory.hpp"
+#include "base/environment/own_prefix.hpp"
+#include "base/environment/test_run_variables.hpp"
 #include "launcher/testing/checks/trace_check.hpp"
 #include "launcher/visit/launch_plan.hpp"
 #include "launcher/visit/process_table.hpp"
+#include "programs/launch/run/find_launch_file.hpp"
 
 namespace launch {
 

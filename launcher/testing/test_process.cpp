@@ -16,11 +16,10 @@
 #include <system_error>
 #include <utility>
 
-#include "launcher/base/environment/domain_lease.hpp"
-#include "launcher/base/environment/own_prefix.hpp"
-#include "launcher/base/environment/session_suffix.hpp"
-#include "launcher/base/processes/process_mark.hpp"
-#include "launcher/cli/launch_tracepoints.hpp"
+#include "base/environment/domain_lease.hpp"
+#include "base/environment/own_prefix.hpp"
+#include "base/environment/session_suffix.hpp"
+#include "base/processes/process_mark.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/process_messages.hpp"
 #include "launcher/ros/ros_client_process.hpp"
@@ -31,7 +30,8 @@
 #include "launcher/testing/run_judge.hpp"
 #include "launcher/testing/test_result.hpp"
 #include "launcher/testing/trace_session.hpp"
-#include "tracing/lttng/session_daemon.hpp"
+#include "programs/launch/run/launch_tracepoints.hpp"
+#include "tracing/record/lttng/session_daemon.hpp"
 
 namespace launch {
 

@@ -23,9 +23,9 @@
 #include <map>
 #include <system_error>
 
-#include "launcher/base/files/unique_fd.hpp"
-#include "launcher/base/processes/ending_signals.hpp"
-#include "launcher/base/processes/spawn.hpp"
+#include "base/files/unique_fd.hpp"
+#include "base/processes/ending_signals.hpp"
+#include "base/processes/spawn.hpp"
 #include "launcher/process/guardian/left_behind.hpp"
 #include "launcher/testing/checks/check.hpp"
 #include "launcher/testing/engine.hpp"

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "launcher/cli/xml_text.hpp"
+#include "programs/launch/describe/xml_text.hpp"
 
 namespace launch {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "launcher/base/diagnostics/source.hpp"
+#include "base/diagnostics/source.hpp"
 #include "launcher/substitution/parameter.hpp"
 #include "launcher/substitution/scope.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "launcher/base/diagnostics/source.hpp"
+#include "base/diagnostics/source.hpp"
 #include "launcher/python/interpreter/python_runtime.hpp"
 
 namespace launch {

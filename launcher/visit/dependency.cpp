@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "launcher/base/overloaded.hpp"
+#include "base/overloaded.hpp"
 
 namespace launch {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <variant>
 
-#include "launcher/base/diagnostics/source.hpp"
+#include "base/diagnostics/source.hpp"
 #include "launcher/language/exit_code_filter.hpp"
 #include "launcher/language/output_pattern.hpp"
 #include "launcher/language/readiness_condition.hpp"

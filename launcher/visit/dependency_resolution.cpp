@@ -7,7 +7,7 @@
 #include <functional>
 #include <unordered_map>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/diagnostic.hpp"
 
 namespace launch {
 

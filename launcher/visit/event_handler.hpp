@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "launcher/base/diagnostics/source.hpp"
+#include "base/diagnostics/source.hpp"
 #include "launcher/language/action.hpp"
 #include "launcher/language/exit_code_filter.hpp"
 #include "launcher/language/output_pattern.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/visit/farewell_check.hpp"
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/diagnostic.hpp"
 
 namespace launch {
 

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "launcher/base/diagnostics/source.hpp"
+#include "base/diagnostics/source.hpp"
 #include "launcher/visit/dependency.hpp"
 
 namespace launch {

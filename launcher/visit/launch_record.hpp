@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "launcher/base/diagnostics/source.hpp"
+#include "base/diagnostics/source.hpp"
 
 namespace launch {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/diagnostic.hpp"
 
 namespace launch {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/base/diagnostics/source.hpp"
+#include "base/diagnostics/source.hpp"
 #include "launcher/language/action.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/process_spec.hpp"

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "launcher/base/diagnostics/source.hpp"
+#include "base/diagnostics/source.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/process_spec.hpp"
 #include "launcher/visit/launch_record.hpp"

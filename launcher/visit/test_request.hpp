@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "launcher/base/diagnostics/source.hpp"
+#include "base/diagnostics/source.hpp"
 #include "launcher/language/exit_code_filter.hpp"
 #include "launcher/language/message_watch.hpp"
 #include "launcher/language/output_pattern.hpp"

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "launcher/base/diagnostics/source.hpp"
+#include "base/diagnostics/source.hpp"
 #include "launcher/process/event_loop.hpp"
 
 namespace launch {

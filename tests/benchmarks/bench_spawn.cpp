@@ -24,8 +24,8 @@
 #include <utility>
 #include <vector>
 
-#include "launcher/base/files/pipe.hpp"
-#include "launcher/base/files/unique_fd.hpp"
+#include "base/files/pipe.hpp"
+#include "base/files/unique_fd.hpp"
 #include "launcher/process/process_supervisor.hpp"
 
 namespace {

@@ -7,8 +7,8 @@
 #include <memory>
 #include <string>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
-#include "launcher/base/diagnostics/source.hpp"
+#include "base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/source.hpp"
 
 namespace fuzz {
 

@@ -6,7 +6,7 @@
 
 #include "tests/fuzz/trace_input.hpp"
 #include "tests/support/trace_writer/temporary_directory.hpp"
-#include "tracing/reader/trace_reader.hpp"
+#include "tracing/decode/reader/trace_reader.hpp"
 
 namespace {
 

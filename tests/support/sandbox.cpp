@@ -20,8 +20,8 @@
 #include <set>
 #include <system_error>
 
-#include "launcher/base/environment/domain_lease.hpp"
-#include "launcher/base/environment/loopback.hpp"
+#include "base/environment/domain_lease.hpp"
+#include "base/environment/loopback.hpp"
 
 namespace test_support {
 namespace {

@@ -24,10 +24,10 @@
 #include <system_error>
 #include <utility>
 
-#include "launcher/base/environment/own_prefix.hpp"
-#include "launcher/base/files/pipe.hpp"
-#include "launcher/base/processes/process_mark.hpp"
-#include "launcher/base/processes/spawn.hpp"
+#include "base/environment/own_prefix.hpp"
+#include "base/files/pipe.hpp"
+#include "base/processes/process_mark.hpp"
+#include "base/processes/spawn.hpp"
 #include "launcher/process/guardian/guardian_protocol.hpp"
 #include "launcher/process/guardian/process_scan.hpp"
 

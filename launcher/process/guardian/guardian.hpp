@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/base/files/unique_fd.hpp"
+#include "base/files/unique_fd.hpp"
 #include "launcher/process/process_spec.hpp"
 
 namespace launch {

@@ -13,8 +13,8 @@
 #include <optional>
 #include <string_view>
 
-#include "launcher/base/files/unique_fd.hpp"
-#include "launcher/base/processes/process_mark.hpp"
+#include "base/files/unique_fd.hpp"
+#include "base/processes/process_mark.hpp"
 
 namespace launch {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "launcher/base/environment/domain_lease.hpp"
+#include "base/environment/domain_lease.hpp"
 #include "launcher/process/isolation/namespaces.hpp"
 
 namespace launch {

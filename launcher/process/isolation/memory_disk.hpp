@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "launcher/base/files/unique_fd.hpp"
+#include "base/files/unique_fd.hpp"
 
 namespace launch {
 

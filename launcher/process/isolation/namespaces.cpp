@@ -19,11 +19,11 @@
 #include <system_error>
 #include <utility>
 
-#include "launcher/base/environment/loopback.hpp"
-#include "launcher/base/files/pipe.hpp"
-#include "launcher/process/exec/launch_exec_protocol.hpp"
+#include "base/environment/loopback.hpp"
+#include "base/files/pipe.hpp"
 #include "launcher/process/isolation/tap_device.hpp"
 #include "launcher/process/process_runner.hpp"
+#include "launcher/process/spawn/launch_exec_protocol.hpp"
 
 namespace launch {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "launcher/base/files/unique_fd.hpp"
-#include "launcher/base/processes/spawn.hpp"
+#include "base/files/unique_fd.hpp"
+#include "base/processes/spawn.hpp"
 
 namespace launch {
 

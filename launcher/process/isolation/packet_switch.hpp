@@ -13,7 +13,7 @@
 #include <set>
 #include <vector>
 
-#include "launcher/base/files/unique_fd.hpp"
+#include "base/files/unique_fd.hpp"
 #include "launcher/process/event_loop.hpp"
 
 namespace launch {

@@ -8,7 +8,7 @@
 
 #include <cerrno>
 
-#include "launcher/base/environment/network_device.hpp"
+#include "base/environment/network_device.hpp"
 
 namespace launch {
 

@@ -2,7 +2,7 @@
 // A network device whose packets a program carries, as the only way out of a network namespace.
 #pragma once
 
-#include "launcher/base/files/unique_fd.hpp"
+#include "base/files/unique_fd.hpp"
 
 namespace launch {
 

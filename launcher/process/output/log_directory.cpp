@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "launcher/base/environment/home_directory.hpp"
+#include "base/environment/home_directory.hpp"
 #include "launcher/process/output/output_router.hpp"
 
 namespace launch {

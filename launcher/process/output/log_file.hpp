@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "launcher/base/files/unique_fd.hpp"
+#include "base/files/unique_fd.hpp"
 
 namespace launch {
 

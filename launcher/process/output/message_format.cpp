@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "launcher/base/text/utf8.hpp"
+#include "base/text/utf8.hpp"
 
 namespace launch {
 namespace {

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "launcher/base/text/utf8.hpp"
+#include "base/text/utf8.hpp"
 #include "launcher/process/output/log_file.hpp"
 
 namespace launch {

@@ -20,7 +20,7 @@
 #include <string>
 #include <string_view>
 
-#include "launcher/base/files/unique_fd.hpp"
+#include "base/files/unique_fd.hpp"
 #include "launcher/process/event_loop.hpp"
 
 namespace launch {

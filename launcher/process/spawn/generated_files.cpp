@@ -16,7 +16,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "launcher/base/files/unique_fd.hpp"
+#include "base/files/unique_fd.hpp"
 
 namespace launch {
 namespace {

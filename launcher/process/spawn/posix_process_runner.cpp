@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ProcessRunner of real processes (launcher/base/processes/spawn.hpp).
+// The ProcessRunner of real processes (base/processes/spawn.hpp).
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
@@ -21,17 +21,17 @@
 #include <utility>
 #include <vector>
 
-#include "launcher/base/environment/own_prefix.hpp"
-#include "launcher/base/files/pipe.hpp"
-#include "launcher/base/files/unique_fd.hpp"
-#include "launcher/base/processes/ending_signals.hpp"
-#include "launcher/base/processes/process_mark.hpp"
-#include "launcher/base/processes/spawn.hpp"
-#include "launcher/base/terminal/terminal_state.hpp"
-#include "launcher/process/exec/launch_exec_protocol.hpp"
+#include "base/environment/own_prefix.hpp"
+#include "base/files/pipe.hpp"
+#include "base/files/unique_fd.hpp"
+#include "base/processes/ending_signals.hpp"
+#include "base/processes/process_mark.hpp"
+#include "base/processes/spawn.hpp"
+#include "base/terminal/terminal_state.hpp"
 #include "launcher/process/guardian/process_scan.hpp"
 #include "launcher/process/isolation/namespaces.hpp"
 #include "launcher/process/process_runner.hpp"
+#include "launcher/process/spawn/launch_exec_protocol.hpp"
 #include "launcher/process/spawn/program_search.hpp"
 #include "launcher/process/spawn/spawn_failure.hpp"
 #include "launcher/process/spawn/stopped_threads.hpp"

@@ -10,7 +10,7 @@
 #include <cerrno>
 #include <string_view>
 
-#include "launcher/base/files/unique_fd.hpp"
+#include "base/files/unique_fd.hpp"
 
 namespace launch {
 namespace {

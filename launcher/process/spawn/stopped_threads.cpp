@@ -11,7 +11,7 @@
 #include <system_error>
 #include <thread>
 
-#include "launcher/base/processes/process_stat.hpp"
+#include "base/processes/process_stat.hpp"
 
 namespace launch {
 namespace {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "launcher/base/environment/own_prefix.hpp"
+#include "base/environment/own_prefix.hpp"
 
 namespace launch {
 

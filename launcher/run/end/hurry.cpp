@@ -6,7 +6,7 @@
 #include <chrono>
 #include <vector>
 
-#include "launcher/base/text/name_list.hpp"
+#include "base/text/name_list.hpp"
 
 namespace launch {
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/base/diagnostics/source.hpp"
+#include "base/diagnostics/source.hpp"
 #include "launcher/process/process_event.hpp"
 #include "launcher/run/end/failures.hpp"
 

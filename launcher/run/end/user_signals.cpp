@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "launcher/base/processes/ending_signals.hpp"
+#include "base/processes/ending_signals.hpp"
 
 namespace launch {
 

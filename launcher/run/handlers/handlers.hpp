@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/diagnostic.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/process_event.hpp"
 #include "launcher/ros/ros_client.hpp"

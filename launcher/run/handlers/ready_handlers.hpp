@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/diagnostic.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/visit/event_handler.hpp"
 

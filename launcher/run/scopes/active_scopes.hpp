@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/diagnostic.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/visit/run_scope.hpp"
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <variant>
 
-#include "launcher/base/monotonic_clock.hpp"
+#include "base/monotonic_clock.hpp"
 
 namespace launch {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <variant>
 
-#include "launcher/base/overloaded.hpp"
+#include "base/overloaded.hpp"
 
 namespace launch {
 

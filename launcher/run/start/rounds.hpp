@@ -8,7 +8,7 @@
 #include <functional>
 #include <optional>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/diagnostic.hpp"
 #include "launcher/run/scopes/active_scopes.hpp"
 #include "launcher/run/start/round.hpp"
 

@@ -11,7 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/diagnostic.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/run/start/dependency_watches.hpp"
 #include "launcher/visit/dependency.hpp"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/base/files/unique_fd.hpp"
+#include "base/files/unique_fd.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/process_spec.hpp"
 #include "launcher/visit/fault_request.hpp"

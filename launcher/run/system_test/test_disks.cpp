@@ -9,7 +9,7 @@
 #include <optional>
 #include <system_error>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/diagnostic.hpp"
 
 namespace launch {
 namespace {

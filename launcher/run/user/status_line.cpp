@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "launcher/base/text/name_list.hpp"
+#include "base/text/name_list.hpp"
 
 namespace launch {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <variant>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/diagnostic.hpp"
 
 namespace launch {
 

@@ -6,7 +6,7 @@
 
 #include "launcher/testing/failure.hpp"
 #include "launcher/visit/trace_expectation.hpp"
-#include "tracing/analysis/results.hpp"
+#include "tracing/model/analysis/results.hpp"
 
 namespace launch {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/testing/checks/chain_times.hpp"
 
-#include "tracing/analysis/trace_analysis.hpp"
-#include "tracing/reader/trace_reader.hpp"
+#include "tracing/decode/reader/trace_reader.hpp"
+#include "tracing/model/analysis/trace_analysis.hpp"
 
 namespace launch {
 

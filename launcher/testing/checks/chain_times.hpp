@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "tracing/analysis/results.hpp"
-#include "tracing/chains/chain_definition.hpp"
+#include "tracing/model/analysis/results.hpp"
+#include "tracing/model/chains/chain_definition.hpp"
 
 namespace launch {
 

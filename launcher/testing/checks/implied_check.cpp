@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "launcher/base/processes/ending_signals.hpp"
+#include "base/processes/ending_signals.hpp"
 #include "launcher/testing/checks/check.hpp"
 #include "launcher/visit/process_table.hpp"
 

@@ -13,7 +13,7 @@
 #include "launcher/testing/checks/allocation_check.hpp"
 #include "launcher/testing/checks/chain_times.hpp"
 #include "launcher/testing/checks/timer_check.hpp"
-#include "tracing/reader/trace_read_error.hpp"
+#include "tracing/decode/reader/trace_read_error.hpp"
 
 namespace launch {
 

@@ -23,8 +23,8 @@
 #include "tests/support/trace_writer/ping_pong_sequence.hpp"
 #include "tests/support/trace_writer/temporary_directory.hpp"
 #include "tests/support/trace_writer/trace_writer.hpp"
-#include "tracing/reader/ros2_decoder.hpp"
-#include "tracing/reader/trace_reader.hpp"
+#include "tracing/decode/reader/ros2_decoder.hpp"
+#include "tracing/decode/reader/trace_reader.hpp"
 
 extern char** environ;
 

@@ -22,10 +22,10 @@
 #include <vector>
 
 #include "tests/benchmarks/samples/samples_file.hpp"
-#include "tracing/account/loss_account.hpp"
-#include "tracing/plan/trace_config.hpp"
-#include "tracing/plan/trace_error.hpp"
-#include "tracing/session/tracer.hpp"
+#include "tracing/record/account/loss_account.hpp"
+#include "tracing/record/plan/trace_config.hpp"
+#include "tracing/record/plan/trace_error.hpp"
+#include "tracing/record/session/tracer.hpp"
 
 extern char** environ;  // NOLINT: POSIX names it so
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "tracing/reader/trace_reader.hpp"
+#include "tracing/decode/reader/trace_reader.hpp"
 
 namespace tracing::testing {
 

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tracing/reader/ros2_events.hpp"
+#include "tracing/decode/reader/ros2_events.hpp"
 
 namespace tracing::testing {
 

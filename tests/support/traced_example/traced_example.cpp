@@ -2,7 +2,7 @@
 #include "tests/support/traced_example/traced_example.hpp"
 
 #include "tests/support/trace_writer/temporary_directory.hpp"
-#include "tracing/timeline/timeline_recorder.hpp"
+#include "tracing/model/timeline/timeline_recorder.hpp"
 
 namespace tracing::testing {
 

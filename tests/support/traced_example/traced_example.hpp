@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "tests/support/trace_writer/example_system.hpp"
-#include "tracing/timeline/traced_system.hpp"
+#include "tracing/model/timeline/traced_system.hpp"
 
 namespace tracing::testing {
 

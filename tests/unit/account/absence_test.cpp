@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Processes and events that a recording should have had.
-#include "tracing/account/absence.hpp"
+#include "tracing/record/account/absence.hpp"
 
 #include <gmock/gmock.h>
 
-#include "tracing/account/loss_account.hpp"
-#include "tracing/account/loss_text.hpp"
-#include "tracing/account/stream_packets.hpp"
-#include "tracing/account/verdict.hpp"
+#include "tracing/record/account/loss_account.hpp"
+#include "tracing/record/account/loss_text.hpp"
+#include "tracing/record/account/stream_packets.hpp"
+#include "tracing/record/account/verdict.hpp"
 
 namespace {
 

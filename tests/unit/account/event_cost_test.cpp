@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The file of the measured cost of events. Nobody else may decide which file is written.
-#include "tracing/account/event_cost.hpp"
+#include "tracing/record/account/event_cost.hpp"
 
 #include <gtest/gtest.h>
 #include <pwd.h>
@@ -13,7 +13,7 @@
 
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
-#include "tracing/plan/trace_error.hpp"
+#include "tracing/record/plan/trace_error.hpp"
 
 namespace {
 

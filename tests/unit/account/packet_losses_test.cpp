@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Losses that the packets of a recording tell, and what becomes of the session daemon's counts.
-#include "tracing/account/packet_losses.hpp"
+#include "tracing/record/account/packet_losses.hpp"
 
 #include <gtest/gtest.h>
 

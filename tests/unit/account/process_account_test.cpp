@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Attributes lost events to processes, by the events that were fired and the events in the trace.
-#include "tracing/account/process_account.hpp"
+#include "tracing/record/account/process_account.hpp"
 
 #include <gmock/gmock.h>
 
-#include "tracing/account/event_counters.hpp"
-#include "tracing/account/loss_account.hpp"
-#include "tracing/account/loss_attribution.hpp"
-#include "tracing/account/loss_text.hpp"
-#include "tracing/account/losses_by_process.hpp"
-#include "tracing/account/recorded_events.hpp"
-#include "tracing/account/stream_packets.hpp"
-#include "tracing/plan/trace_config.hpp"
-#include "tracing/plan/trace_error.hpp"
+#include "tracing/record/account/event_counters.hpp"
+#include "tracing/record/account/loss_account.hpp"
+#include "tracing/record/account/loss_attribution.hpp"
+#include "tracing/record/account/loss_text.hpp"
+#include "tracing/record/account/losses_by_process.hpp"
+#include "tracing/record/account/recorded_events.hpp"
+#include "tracing/record/account/stream_packets.hpp"
+#include "tracing/record/plan/trace_config.hpp"
+#include "tracing/record/plan/trace_error.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What processes fire while a session is paused is not missing.
-#include "tracing/account/session_pauses.hpp"
+#include "tracing/record/account/session_pauses.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/base/monotonic_clock.hpp"
+#include "base/monotonic_clock.hpp"
 #include "tests/support/sandbox.hpp"
 
 namespace {

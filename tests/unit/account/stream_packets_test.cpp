@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The packets of recordings as LTTng lays them out in directories.
-#include "tracing/account/stream_packets.hpp"
+#include "tracing/record/account/stream_packets.hpp"
 
 #include <gtest/gtest.h>
 

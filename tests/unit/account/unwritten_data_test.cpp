@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The message for a trace whose streams end before its session.
-#include "tracing/account/unwritten_data.hpp"
+#include "tracing/record/account/unwritten_data.hpp"
 
 #include <gtest/gtest.h>
 
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
-#include "tracing/account/loss_account.hpp"
-#include "tracing/account/stream_packets.hpp"
+#include "tracing/record/account/loss_account.hpp"
+#include "tracing/record/account/stream_packets.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The verdict on a trace that lost events, from packets that the tests make up.
-#include "tracing/account/verdict.hpp"
+#include "tracing/record/account/verdict.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,10 +11,10 @@
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
 #include "tests/support/trace_writer/trace_writer.hpp"
-#include "tracing/account/loss_account.hpp"
-#include "tracing/account/loss_text.hpp"
-#include "tracing/account/stream_packets.hpp"
-#include "tracing/plan/trace_error.hpp"
+#include "tracing/record/account/loss_account.hpp"
+#include "tracing/record/account/loss_text.hpp"
+#include "tracing/record/account/stream_packets.hpp"
+#include "tracing/record/plan/trace_error.hpp"
 
 namespace {
 

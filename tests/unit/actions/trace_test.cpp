@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/unit/actions/launch_text.hpp"
-#include "tracing/plan/trace_config.hpp"
+#include "tracing/record/plan/trace_config.hpp"
 
 namespace {
 

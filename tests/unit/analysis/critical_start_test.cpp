@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the process that was ready last had to wait for.
-#include "tracing/analysis/critical_start.hpp"
+#include "tracing/model/analysis/critical_start.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

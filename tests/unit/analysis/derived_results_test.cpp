@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/analysis/derived_results.hpp"
+#include "tracing/model/analysis/derived_results.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/execution/duration_statistics.hpp"
+#include "tracing/model/execution/duration_statistics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an analysis tells while it reads.
-#include "tracing/execution/execution_sink.hpp"
+#include "tracing/model/execution/execution_sink.hpp"
 
 #include <gtest/gtest.h>
 
 #include "tests/support/trace_writer/ping_pong_sequence.hpp"
-#include "tracing/analysis/ros2_analysis.hpp"
+#include "tracing/model/analysis/ros2_analysis.hpp"
 
 namespace tracing {
 namespace {

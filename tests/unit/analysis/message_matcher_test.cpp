@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/messages/message_matcher.hpp"
+#include "tracing/model/messages/message_matcher.hpp"
 
 #include <gtest/gtest.h>
 

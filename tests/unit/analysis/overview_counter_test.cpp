@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/analysis/overview_counter.hpp"
+#include "tracing/model/analysis/overview_counter.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

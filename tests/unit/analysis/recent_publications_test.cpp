@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/messages/recent_publications.hpp"
+#include "tracing/model/messages/recent_publications.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "tracing/analysis/ros2_analysis.hpp"
+#include "tracing/model/analysis/ros2_analysis.hpp"
 
 namespace tracing::testing {
 

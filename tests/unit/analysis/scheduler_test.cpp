@@ -5,7 +5,7 @@
 #include "tests/support/trace_writer/scheduler_writer.hpp"
 #include "tests/support/trace_writer/temporary_directory.hpp"
 #include "tests/support/trace_writer/trace_writer.hpp"
-#include "tracing/analysis/trace_analysis.hpp"
+#include "tracing/model/analysis/trace_analysis.hpp"
 
 namespace tracing {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The times at which processes of the launcher had a node and were ready.
-#include "tracing/analysis/start_tracker.hpp"
+#include "tracing/model/analysis/start_tracker.hpp"
 
 #include <gtest/gtest.h>
 
 #include "tests/support/trace_writer/temporary_directory.hpp"
 #include "tests/support/trace_writer/trace_writer.hpp"
-#include "tracing/reader/trace_reader.hpp"
+#include "tracing/decode/reader/trace_reader.hpp"
 
 namespace tracing {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/base/text/ascii.hpp"
+#include "base/text/ascii.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/base/diagnostics/command_error.hpp"
+#include "base/diagnostics/command_error.hpp"
 
 #include <gtest/gtest.h>
 

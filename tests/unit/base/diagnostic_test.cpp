@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/diagnostic.hpp"
 
 #include <gtest/gtest.h>
 

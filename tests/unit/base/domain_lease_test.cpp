@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/base/environment/domain_lease.hpp"
+#include "base/environment/domain_lease.hpp"
 
 #include <gtest/gtest.h>
 #include <netinet/in.h>
@@ -12,7 +12,7 @@
 #include <set>
 #include <vector>
 
-#include "launcher/base/files/pipe.hpp"
+#include "base/files/pipe.hpp"
 
 namespace launch {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/base/environment/home_directory.hpp"
+#include "base/environment/home_directory.hpp"
 
 #include <gtest/gtest.h>
 #include <pwd.h>

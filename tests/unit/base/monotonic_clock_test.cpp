@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/base/monotonic_clock.hpp"
+#include "base/monotonic_clock.hpp"
 
 #include <gtest/gtest.h>
 #include <time.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/base/text/nearest_name.hpp"
+#include "base/text/nearest_name.hpp"
 
 #include <gtest/gtest.h>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/diagnostic.hpp"
 
 namespace launch {
 namespace {

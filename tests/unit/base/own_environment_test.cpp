@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/base/environment/own_environment.hpp"
+#include "base/environment/own_environment.hpp"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/base/environment/own_prefix.hpp"
+#include "base/environment/own_prefix.hpp"
 
 #include <gtest/gtest.h>
 

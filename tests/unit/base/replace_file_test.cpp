@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A file at a place that others can guess is replaced; nothing is written through a link there.
-#include "launcher/base/files/replace_file.hpp"
+#include "base/files/replace_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/base/diagnostics/source.hpp"
+#include "base/diagnostics/source.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -9,8 +9,8 @@
 #include <fstream>
 #include <string>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
-#include "launcher/base/diagnostics/read_source_file.hpp"
+#include "base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/read_source_file.hpp"
 
 namespace launch {
 namespace {

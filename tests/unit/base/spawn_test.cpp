@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/base/processes/spawn.hpp"
+#include "base/processes/spawn.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 #include <cerrno>
 
-#include "launcher/base/files/pipe.hpp"
+#include "base/files/pipe.hpp"
 
 namespace launch {
 namespace {

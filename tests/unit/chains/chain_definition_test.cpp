@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/chains/chain_definition.hpp"
+#include "tracing/model/chains/chain_definition.hpp"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds settings that LTTng's kernel tracer would silently handle wrongly, before a session exists.
-#include "tracing/checks/kernel_checks.hpp"
+#include "tracing/record/checks/kernel_checks.hpp"
 
 #include <gtest/gtest.h>
 
 #include "tests/unit/plan/trace_error_text.hpp"
-#include "tracing/plan/channel_plan.hpp"
+#include "tracing/record/plan/channel_plan.hpp"
 
 namespace {
 

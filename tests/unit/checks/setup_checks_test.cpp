@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks that fail before LTTng is asked: names, directories, context fields, sizes.
-#include "tracing/checks/setup_checks.hpp"
+#include "tracing/record/checks/setup_checks.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 #include <filesystem>
 
 #include "tests/unit/plan/trace_error_text.hpp"
-#include "tracing/checks/perf_check.hpp"
-#include "tracing/plan/trace_config.hpp"
+#include "tracing/record/checks/perf_check.hpp"
+#include "tracing/record/plan/trace_config.hpp"
 
 namespace {
 

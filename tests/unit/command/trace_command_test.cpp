@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // `launch trace` on a tracer without LTTng.
-#include "tracing/command/trace_command.hpp"
+#include "programs/launch/trace/trace_command.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "tracing/plan/trace_error.hpp"
-#include "tracing/session/fake/fake_tracer.hpp"
+#include "tracing/record/plan/trace_error.hpp"
+#include "tracing/record/session/fake/fake_tracer.hpp"
 
 namespace {
 

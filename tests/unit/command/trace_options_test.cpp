@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/command/trace_options.hpp"
+#include "programs/launch/trace/trace_options.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
-#include "tracing/plan/trace_config.hpp"
+#include "tracing/record/plan/trace_config.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/compare/baseline_file.hpp"
+#include "tracing/model/compare/baseline_file.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Comparisons of made-up runs. The random numbers have fixed seeds.
-#include "tracing/compare/comparison.hpp"
+#include "tracing/model/compare/comparison.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/compare/kept_samples.hpp"
+#include "tracing/model/compare/kept_samples.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/compare/peers.hpp"
+#include "tracing/model/compare/peers.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/compare/rank_test.hpp"
+#include "tracing/model/compare/rank_test.hpp"
 
 #include <gtest/gtest.h>
 

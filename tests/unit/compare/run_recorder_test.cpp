@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is kept of the example system of tests/support/trace_writer/example_system.hpp.
-#include "tracing/compare/run_recorder.hpp"
+#include "tracing/model/compare/run_recorder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/export/output_file.hpp"
+#include "tracing/show/export/output_file.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 
 #include "tests/support/trace_writer/temporary_directory.hpp"
 #include "tests/support/traced_example/traced_example.hpp"
-#include "tracing/export/export.hpp"
+#include "tracing/show/export/export.hpp"
 
 namespace tracing {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "tests/support/trace_writer/temporary_directory.hpp"
 #include "tests/support/traced_example/traced_example.hpp"
-#include "tracing/export/export.hpp"
-#include "tracing/export/output_file.hpp"
+#include "tracing/show/export/export.hpp"
+#include "tracing/show/export/output_file.hpp"
 
 namespace tracing {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/findings/finding.hpp"
+#include "tracing/model/findings/finding.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/findings/printable.hpp"
+#include "tracing/model/findings/printable.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/findings/quantity_text.hpp"
+#include "tracing/model/findings/quantity_text.hpp"
 
 #include <gtest/gtest.h>
 

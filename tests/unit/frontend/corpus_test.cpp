@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "launcher/base/diagnostics/read_source_file.hpp"
+#include "base/diagnostics/read_source_file.hpp"
 #include "launcher/substitution/template_parser.hpp"
 #include "tests/unit/frontend/entity_test_support.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "launcher/base/diagnostics/read_source_file.hpp"
+#include "base/diagnostics/read_source_file.hpp"
 #include "launcher/frontend/entity_equivalence.hpp"
 #include "tests/unit/frontend/entity_test_support.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/kernel/event_format.hpp"
+#include "tracing/record/kernel/event_format.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

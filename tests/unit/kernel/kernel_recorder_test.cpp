@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is left of a kernel recorder that was killed harms nobody.
-#include "tracing/kernel/kernel_recorder.hpp"
+#include "tracing/record/kernel/kernel_recorder.hpp"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -8,10 +8,10 @@
 
 #include <string>
 
-#include "launcher/base/processes/process_stat.hpp"
+#include "base/processes/process_stat.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
-#include "tracing/plan/trace_error.hpp"
+#include "tracing/record/plan/trace_error.hpp"
 
 namespace {
 

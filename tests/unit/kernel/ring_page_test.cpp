@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pages made by hand, record by record.
-#include "tracing/kernel/ring_page.hpp"
+#include "tracing/record/kernel/ring_page.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/kernel/thread_table.hpp"
+#include "tracing/record/kernel/thread_table.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

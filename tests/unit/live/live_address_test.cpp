@@ -5,8 +5,8 @@
 #include <array>
 #include <string>
 
-#include "tracing/reader/live_reader.hpp"
-#include "tracing/reader/trace_read_error.hpp"
+#include "tracing/decode/reader/live_reader.hpp"
+#include "tracing/decode/reader/trace_read_error.hpp"
 
 namespace tracing {
 namespace {

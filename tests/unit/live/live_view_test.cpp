@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/live/live_view.hpp"
+#include "tracing/show/live/live_view.hpp"
 
 #include <gtest/gtest.h>
 

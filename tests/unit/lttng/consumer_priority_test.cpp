@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The priority of LTTng's consumers, tested on a process that only has their name.
-#include "tracing/lttng/consumer_priority.hpp"
+#include "tracing/record/lttng/consumer_priority.hpp"
 
 #include <gtest/gtest.h>
 #include <linux/capability.h>

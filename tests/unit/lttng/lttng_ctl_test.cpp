@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/lttng/lttng_ctl.hpp"
+#include "tracing/record/lttng/lttng_ctl.hpp"
 
 #include <gmock/gmock.h>
 
-#include "tracing/plan/trace_error.hpp"
+#include "tracing/record/plan/trace_error.hpp"
 
 namespace tracing {
 namespace {

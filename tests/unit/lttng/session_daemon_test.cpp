@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/lttng/session_daemon.hpp"
+#include "tracing/record/lttng/session_daemon.hpp"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>

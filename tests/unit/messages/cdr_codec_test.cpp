@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Values to bytes and back. The generated code of the same interfaces is the reference.
-#include "launcher/messages/cdr/cdr_codec.hpp"
+#include "launcher/message_types/cdr/cdr_codec.hpp"
 
 #include <fastcdr/Cdr.h>
 #include <fastcdr/FastBuffer.h>

@@ -2,8 +2,8 @@
 // Conditions on fields, and the choice of a field.
 #include <gtest/gtest.h>
 
-#include "launcher/messages/field_path.hpp"
-#include "launcher/messages/message_condition.hpp"
+#include "launcher/message_types/field_path.hpp"
+#include "launcher/message_types/message_condition.hpp"
 #include "test_library.hpp"
 
 namespace {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "launcher/messages/print_value.hpp"
+#include "launcher/message_types/print_value.hpp"
 #include "test_library.hpp"
 
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Values as text.
-#include "launcher/messages/print_value.hpp"
+#include "launcher/message_types/print_value.hpp"
 
 #include <gtest/gtest.h>
 
-#include "launcher/messages/python_text.hpp"
-#include "launcher/messages/yaml_text.hpp"
+#include "launcher/message_types/python_text.hpp"
+#include "launcher/message_types/yaml_text.hpp"
 #include "test_library.hpp"
 
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // YAML to values, and its mistakes.
-#include "launcher/messages/read_value.hpp"
+#include "launcher/message_types/read_value.hpp"
 
 #include <gtest/gtest.h>
 
-#include "launcher/messages/print_value.hpp"
+#include "launcher/message_types/print_value.hpp"
 #include "test_library.hpp"
 
 namespace {

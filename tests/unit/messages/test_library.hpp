@@ -9,9 +9,9 @@
 #include <fstream>
 #include <string>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
-#include "launcher/messages/interface_library.hpp"
-#include "launcher/messages/read_value.hpp"
+#include "base/diagnostics/diagnostic.hpp"
+#include "launcher/message_types/interface_library.hpp"
+#include "launcher/message_types/read_value.hpp"
 
 class TestLibrary {
  public:

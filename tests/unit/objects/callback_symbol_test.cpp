@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/objects/callback_symbol.hpp"
+#include "tracing/model/objects/callback_symbol.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/objects/process_table.hpp"
+#include "tracing/model/objects/process_table.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/page/column_buffer.hpp"
+#include "tracing/show/page/column_buffer.hpp"
 
 #include <gtest/gtest.h>
 #include <zlib.h>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/page/page.hpp"
+#include "tracing/show/page/page.hpp"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include "tests/support/traced_example/traced_example.hpp"
-#include "tracing/findings/finding.hpp"
+#include "tracing/model/findings/finding.hpp"
 
 namespace tracing {
 namespace {

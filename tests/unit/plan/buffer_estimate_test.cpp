@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/plan/buffer_estimate.hpp"
+#include "tracing/record/plan/buffer_estimate.hpp"
 
 #include <gtest/gtest.h>
 
-#include "tracing/plan/trace_config.hpp"
+#include "tracing/record/plan/trace_config.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/plan/channel_plan.hpp"
+#include "tracing/record/plan/channel_plan.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "tests/unit/plan/trace_error_text.hpp"
-#include "tracing/plan/plan_channels.hpp"
-#include "tracing/plan/shared_memory_fit.hpp"
-#include "tracing/plan/trace_config.hpp"
+#include "tracing/record/plan/plan_channels.hpp"
+#include "tracing/record/plan/shared_memory_fit.hpp"
+#include "tracing/record/plan/trace_config.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/plan/context_fields.hpp"
+#include "tracing/record/plan/context_fields.hpp"
 
 #include <gtest/gtest.h>
 #include <linux/perf_event.h>
@@ -8,7 +8,7 @@
 #include <string>
 
 #include "tests/unit/plan/trace_error_text.hpp"
-#include "tracing/plan/perf_counters.hpp"
+#include "tracing/record/plan/perf_counters.hpp"
 
 namespace {
 

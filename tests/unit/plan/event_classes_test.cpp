@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The events that max-overhead may drop from a trace.
-#include "tracing/plan/event_classes.hpp"
+#include "tracing/record/plan/event_classes.hpp"
 
 #include <gmock/gmock.h>
 
 #include <set>
 
-#include "tracing/plan/channel_plan.hpp"
-#include "tracing/plan/event_rule.hpp"
-#include "tracing/plan/plan_channels.hpp"
-#include "tracing/plan/trace_config.hpp"
+#include "tracing/record/plan/channel_plan.hpp"
+#include "tracing/record/plan/event_rule.hpp"
+#include "tracing/record/plan/plan_channels.hpp"
+#include "tracing/record/plan/trace_config.hpp"
 
 namespace {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/plan/event_rule.hpp"
+#include "tracing/record/plan/event_rule.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tracing/plan/trace_error.hpp"
+#include "tracing/record/plan/trace_error.hpp"
 
 namespace {
 

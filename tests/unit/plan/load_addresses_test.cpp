@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/plan/load_addresses.hpp"
+#include "tracing/record/plan/load_addresses.hpp"
 
 #include <gtest/gtest.h>
 

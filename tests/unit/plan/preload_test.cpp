@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/plan/preload.hpp"
+#include "tracing/record/plan/preload.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "tests/support/command.hpp"
-#include "tracing/plan/library_search.hpp"
+#include "tracing/record/plan/library_search.hpp"
 
 namespace {
 

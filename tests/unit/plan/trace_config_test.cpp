@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/plan/trace_config.hpp"
+#include "tracing/record/plan/trace_config.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

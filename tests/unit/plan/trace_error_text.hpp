@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "tracing/plan/trace_error.hpp"
+#include "tracing/record/plan/trace_error.hpp"
 
 namespace tracing::testing {
 

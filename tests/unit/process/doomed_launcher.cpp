@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/base/processes/process_mark.hpp"
+#include "base/processes/process_mark.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/process_runner.hpp"
 

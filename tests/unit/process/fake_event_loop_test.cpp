@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/base/files/unique_fd.hpp"
+#include "base/files/unique_fd.hpp"
 
 namespace launch {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "launcher/base/files/unique_fd.hpp"
+#include "base/files/unique_fd.hpp"
 
 class MemoryScreen {
  public:

@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "launcher/base/files/pipe.hpp"
+#include "base/files/pipe.hpp"
 #include "memory_screen.hpp"
 #include "temporary_directory.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/process/process_messages.hpp"
 
-#include "launcher/base/diagnostics/source.hpp"
+#include "base/diagnostics/source.hpp"
 #include "supervisor_fixture.hpp"
 
 namespace launch {

@@ -14,7 +14,7 @@
 #include <array>
 #include <string>
 
-#include "launcher/base/files/pipe.hpp"
+#include "base/files/pipe.hpp"
 #include "launcher/process/fake/fake_event_loop.hpp"
 
 namespace launch {

@@ -2,7 +2,7 @@
 // Processes that have the terminal of the launch, and those that would like to have it.
 #include <gmock/gmock.h>
 
-#include "launcher/base/diagnostics/source.hpp"
+#include "base/diagnostics/source.hpp"
 #include "launcher/process/process_messages.hpp"
 #include "supervisor_fixture.hpp"
 

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "tests/unit/python/python_plan.hpp"
-#include "tracing/plan/ros_events.hpp"
+#include "tracing/record/plan/ros_events.hpp"
 
 namespace {
 

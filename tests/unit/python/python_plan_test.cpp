@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/cli/dry_run.hpp"
+#include "programs/launch/plan/dry_run.hpp"
 
 namespace {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/read/event_filter.hpp"
+#include "tracing/model/selection/event_filter.hpp"
 
 #include <gtest/gtest.h>
 
 #include "tests/support/trace_writer/temporary_directory.hpp"
 #include "tests/support/trace_writer/trace_writer.hpp"
-#include "tracing/reader/trace_reader.hpp"
+#include "tracing/decode/reader/trace_reader.hpp"
 
 namespace tracing {
 namespace {

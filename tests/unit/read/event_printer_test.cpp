@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/read/event_printer.hpp"
+#include "programs/read/event_printer.hpp"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
 #include "tests/support/trace_writer/temporary_directory.hpp"
 #include "tests/support/trace_writer/trace_writer.hpp"
-#include "tracing/reader/trace_reader.hpp"
+#include "tracing/decode/reader/trace_reader.hpp"
 
 namespace tracing {
 namespace {

@@ -12,8 +12,8 @@
 #include "tests/support/trace_writer/temporary_directory.hpp"
 #include "tests/support/trace_writer/trace_text.hpp"
 #include "tests/support/trace_writer/trace_writer.hpp"
-#include "tracing/ctf/structure_decoder.hpp"
-#include "tracing/ctf/trace_class.hpp"
+#include "tracing/decode/ctf/structure_decoder.hpp"
+#include "tracing/decode/ctf/trace_class.hpp"
 
 namespace tracing {
 namespace {

@@ -9,8 +9,8 @@
 #include "tests/support/sandbox.hpp"
 #include "tests/unit/reader/recording_sink.hpp"
 #include "tracetools/events.h"
-#include "tracing/reader/ros2_decoder.hpp"
-#include "tracing/reader/trace_reader.hpp"
+#include "tracing/decode/reader/ros2_decoder.hpp"
+#include "tracing/decode/reader/trace_reader.hpp"
 
 namespace tracing {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "tracing/reader/trace_reader.hpp"
+#include "tracing/decode/reader/trace_reader.hpp"
 
 namespace tracing::testing {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/reader/ros2_decoder.hpp"
+#include "tracing/decode/reader/ros2_decoder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,9 +10,9 @@
 
 #include "tests/support/trace_writer/temporary_directory.hpp"
 #include "tests/support/trace_writer/trace_writer.hpp"
-#include "tracing/reader/execution_event.hpp"
-#include "tracing/reader/object_end.hpp"
-#include "tracing/reader/trace_reader.hpp"
+#include "tracing/decode/reader/execution_event.hpp"
+#include "tracing/decode/reader/object_end.hpp"
+#include "tracing/decode/reader/trace_reader.hpp"
 
 namespace tracing {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/reader/trace_reader.hpp"
+#include "tracing/decode/reader/trace_reader.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

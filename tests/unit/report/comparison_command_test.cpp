@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs the program `launch-report` to compare traces.
-#include "tracing/report/comparison_command.hpp"
+#include "tracing/show/report/comparison_command.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "tracing/report/report.hpp"
+#include "tracing/show/report/report.hpp"
 
 namespace tracing {
 

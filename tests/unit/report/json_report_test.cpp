@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/unit/report/example_reports.hpp"
-#include "tracing/report/report.hpp"
+#include "tracing/show/report/report.hpp"
 
 namespace tracing {
 namespace {

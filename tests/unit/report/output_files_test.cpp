@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/report/output_files.hpp"
+#include "tracing/show/report/output_files.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

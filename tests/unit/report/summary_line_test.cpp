@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/report/example_reports.hpp"
-#include "tracing/report/report.hpp"
+#include "tracing/show/report/report.hpp"
 
 namespace tracing {
 namespace {

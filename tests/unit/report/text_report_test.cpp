@@ -5,9 +5,9 @@
 #include <sstream>
 
 #include "tests/unit/report/example_reports.hpp"
-#include "tracing/findings/quantity_text.hpp"
-#include "tracing/report/recorded_sessions.hpp"
-#include "tracing/report/report.hpp"
+#include "tracing/model/findings/quantity_text.hpp"
+#include "tracing/show/report/recorded_sessions.hpp"
+#include "tracing/show/report/report.hpp"
 
 namespace tracing {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/report/text_table.hpp"
+#include "tracing/show/report/text_table.hpp"
 
 #include <gtest/gtest.h>
 

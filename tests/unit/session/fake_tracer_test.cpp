@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/session/fake/fake_tracer.hpp"
+#include "tracing/record/session/fake/fake_tracer.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <atomic>
 #include <thread>
 
-#include "tracing/plan/trace_config.hpp"
-#include "tracing/plan/trace_error.hpp"
+#include "tracing/record/plan/trace_config.hpp"
+#include "tracing/record/plan/trace_error.hpp"
 
 namespace {
 

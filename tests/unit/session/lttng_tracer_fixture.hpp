@@ -10,9 +10,9 @@
 #include <string>
 
 #include "tests/support/sandbox.hpp"
-#include "tracing/plan/trace_config.hpp"
-#include "tracing/plan/trace_error.hpp"
-#include "tracing/session/tracer.hpp"
+#include "tracing/record/plan/trace_config.hpp"
+#include "tracing/record/plan/trace_error.hpp"
+#include "tracing/record/session/tracer.hpp"
 
 namespace trace_test {
 

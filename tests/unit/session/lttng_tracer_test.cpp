@@ -11,13 +11,13 @@
 #include "tests/support/command.hpp"
 #include "tests/unit/session/lttng_tracer_fixture.hpp"
 #include "tests/unit/session/trace_reading.hpp"
-#include "tracing/account/loss_account.hpp"
-#include "tracing/account/session_step.hpp"
-#include "tracing/lttng/lttng_ctl.hpp"
-#include "tracing/plan/trace_config.hpp"
-#include "tracing/plan/trace_error.hpp"
-#include "tracing/session/session_details.hpp"
-#include "tracing/session/tracer.hpp"
+#include "tracing/record/account/loss_account.hpp"
+#include "tracing/record/account/session_step.hpp"
+#include "tracing/record/lttng/lttng_ctl.hpp"
+#include "tracing/record/plan/trace_config.hpp"
+#include "tracing/record/plan/trace_error.hpp"
+#include "tracing/record/session/session_details.hpp"
+#include "tracing/record/session/tracer.hpp"
 
 namespace {
 

@@ -15,16 +15,16 @@
 #include <thread>
 #include <vector>
 
-#include "launcher/base/processes/process_stat.hpp"
+#include "base/processes/process_stat.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
 #include "tests/unit/session/listed_session.hpp"
 #include "tests/unit/session/trace_reading.hpp"
-#include "tracing/account/loss_account.hpp"
-#include "tracing/account/loss_text.hpp"
-#include "tracing/plan/trace_config.hpp"
-#include "tracing/plan/trace_error.hpp"
-#include "tracing/session/tracer.hpp"
+#include "tracing/record/account/loss_account.hpp"
+#include "tracing/record/account/loss_text.hpp"
+#include "tracing/record/plan/trace_config.hpp"
+#include "tracing/record/plan/trace_error.hpp"
+#include "tracing/record/session/tracer.hpp"
 
 namespace {
 

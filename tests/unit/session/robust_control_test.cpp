@@ -21,12 +21,12 @@
 #include "tests/support/sandbox.hpp"
 #include "tests/unit/session/listed_session.hpp"
 #include "tests/unit/session/trace_reading.hpp"
-#include "tracing/account/loss_account.hpp"
-#include "tracing/checks/context_check.hpp"
-#include "tracing/lttng/session_daemon.hpp"
-#include "tracing/plan/trace_config.hpp"
-#include "tracing/plan/trace_error.hpp"
-#include "tracing/session/tracer.hpp"
+#include "tracing/record/account/loss_account.hpp"
+#include "tracing/record/checks/context_check.hpp"
+#include "tracing/record/lttng/session_daemon.hpp"
+#include "tracing/record/plan/trace_config.hpp"
+#include "tracing/record/plan/trace_error.hpp"
+#include "tracing/record/session/tracer.hpp"
 
 namespace {
 

@@ -12,9 +12,9 @@
 #include "tests/support/command.hpp"
 #include "tests/unit/session/lttng_tracer_fixture.hpp"
 #include "tests/unit/session/trace_reading.hpp"
-#include "tracing/lttng/session_daemon.hpp"
-#include "tracing/plan/trace_config.hpp"
-#include "tracing/plan/trace_error.hpp"
+#include "tracing/record/lttng/session_daemon.hpp"
+#include "tracing/record/plan/trace_config.hpp"
+#include "tracing/record/plan/trace_error.hpp"
 
 namespace {
 

@@ -15,10 +15,10 @@
 #include "tests/support/command.hpp"
 #include "tests/unit/session/lttng_tracer_fixture.hpp"
 #include "tests/unit/session/trace_reading.hpp"
-#include "tracing/account/verdict.hpp"
-#include "tracing/plan/trace_config.hpp"
-#include "tracing/session/snapshot.hpp"
-#include "tracing/session/tracer.hpp"
+#include "tracing/record/account/verdict.hpp"
+#include "tracing/record/plan/trace_config.hpp"
+#include "tracing/record/session/snapshot.hpp"
+#include "tracing/record/session/tracer.hpp"
 
 namespace {
 

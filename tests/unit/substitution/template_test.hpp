@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "launcher/base/diagnostics/diagnostic.hpp"
+#include "base/diagnostics/diagnostic.hpp"
 #include "launcher/substitution/package_index.hpp"
 #include "launcher/substitution/template_parser.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/timeline/instance_index.hpp"
+#include "tracing/model/timeline/instance_index.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/timeline/node_graph.hpp"
+#include "tracing/model/timeline/node_graph.hpp"
 
 #include <gtest/gtest.h>
 

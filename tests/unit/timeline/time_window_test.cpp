@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/timeline/time_window.hpp"
+#include "tracing/model/timeline/time_window.hpp"
 
 #include <gtest/gtest.h>
 

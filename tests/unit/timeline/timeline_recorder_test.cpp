@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/timeline/timeline_recorder.hpp"
+#include "tracing/model/timeline/timeline_recorder.hpp"
 
 #include <gtest/gtest.h>
 

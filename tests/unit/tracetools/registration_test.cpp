@@ -11,8 +11,8 @@
 
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
-#include "tracing/account/event_counters.hpp"
-#include "tracing/lttng/session_daemon.hpp"
+#include "tracing/record/account/event_counters.hpp"
+#include "tracing/record/lttng/session_daemon.hpp"
 
 namespace {
 

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "actions/ros/composable_nodes.hpp"
+
+#include <fmt/format.h>
+
+#include "actions/process/process_findings.hpp"
+#include "actions/ros/node_process.hpp"
+#include "actions/ros/parameter_file.hpp"
+#include "actions/ros/plugin_findings.hpp"
+#include "actions/ros/ros_names.hpp"
+
+namespace launch {
+
+namespace {
+
+constexpr const char* kTags[] = {"composable_node", "composable_lifecycle_node"};
+
+}  // namespace
+
+std::vector<ItemSpec> ComposableNodes::items() {
+  ItemSpec node;
+  node.tag = kTags[0];
+  node.help = "a node that the container loads from a library";
+  node.attributes = {{"pkg", AttributeType::kText, true, "", "the package that registers the plugin"},
+                     {"plugin", AttributeType::kText, true, "", "its class, such as demo::Talker"},
+                     {"name", AttributeType::kText, true, "", "name of the node"},
+                     {"namespace", AttributeType::kText, false, "", "namespace of the node, below that of the scope"}};
+  node.items = {Parameters::item(),
+                remap_item(),
+                {"extra_arg",
+                 "an option for the container, such as use_intra_process_comms",
+                 {{"name", AttributeType::kText, true, "", "name of the option"},
+                  {"value", AttributeType::kText, true, "", "its value, typed by YAML 1.1 rules"}}}};
+  node.has_condition = true;
+
+  ItemSpec lifecycle = node;
+  lifecycle.tag = kTags[1];
+  lifecycle.help = "a composable node with a managed life cycle";
+  lifecycle.attributes.push_back(
+      {"autostart", AttributeType::kBoolean, false, "false", "configure and activate the node"});
+  return {std::move(node), std::move(lifecycle)};
+}
+
+ComposableNodes::ComposableNodes(const Fields& fields) {
+  for (const char* const tag : kTags) {
+    for (const Fields* item : fields.items(tag)) {
+      Description node{item->where(),
+                       item->condition(),
+                       item->text("pkg"),
+                       item->text("plugin"),
+                       item->text("name"),
+                       item->optional_text("namespace"),
+                       {},
+                       remaps_of(*item),
+                       {},
+                       item->boolean("autostart", false)};
+      for (const Fields* parameter : item->items("param")) {
+        node.parameters.emplace_back(*parameter);
+      }
+      for (const Fields* argument : item->items("extra_arg")) {
+        node.extra_arguments.emplace_back(argument->text("name"), argument->text("value"));
+      }
+      nodes_.push_back(std::move(node));
+    }
+  }
+}
+
+void ComposableNodes::request(LaunchContext& context, const std::string& target, const Environment& environment,
+                              const SourceRange& where) const {
+  LoadRequest request;
+  request.target = target;
+  request.environment = environment;
+  request.origin = where;
+  for (const Description& node : nodes_) {
+    if (node.condition.holds(context.scope())) {
+      request.nodes.push_back(evaluate(node, environment, context));
+    }
+  }
+  if (!request.nodes.empty()) {
+    context.requests().loads.push_back(std::move(request));
+  }
+}
+
+ComposableNode ComposableNodes::evaluate(const Description& node, const Environment& environment,
+                                         LaunchContext& context) {
+  Scope& scope = context.scope();
+  ComposableNode result;
+  result.origin = node.where;
+  result.package = node.package.perform(scope);
+  result.plugin = node.plugin.perform(scope);
+  result.name = node.name.perform(scope);
+  result.name_space = resolve_namespace(node.name_space, scope, node.where).value_or("");
+  result.autostart = node.autostart.perform(scope);
+  find_missing_plugin(result, environment, node.package.where(), node.plugin.where(), context);
+  const std::string full_name = qualified_name(result.name_space, result.name);
+  if (!result.name_space.empty() && !result.name.empty()) {
+    context.note_node(full_name);
+  }
+  for (const GlobalParameter& parameter : scope.global_parameters) {
+    if (const auto* const named = std::get_if<NamedParameter>(&parameter)) {
+      result.parameters.push_back(*named);
+    } else {
+      const auto& file = std::get<ParameterFilePath>(parameter);
+      append_parameter_file(file.path, full_name, file.where, result.parameters);
+    }
+  }
+  for (const Parameters& parameters : node.parameters) {
+    parameters.append_to(result.parameters, context, full_name);
+  }
+  result.remaps = scope.global_remaps;
+  for (const auto& [from, to] : node.remaps) {
+    const auto& [before, after] = result.remaps.emplace_back(from.perform(scope), to.perform(scope));
+    find_invalid_remap(before, from.where(), after, to.where(), context);
+  }
+  for (const auto& [name, value] : node.extra_arguments) {
+    result.extra_arguments.push_back({name.perform(scope), typed_parameter(value.perform(scope), value.where())});
+  }
+  return result;
+}
+
+}  // namespace launch

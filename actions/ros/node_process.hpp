@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// The common part of <node>, <node_container> and <lifecycle_node>: a process that understands --ros-args.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "actions/process/process_fields.hpp"
+#include "actions/ros/parameters.hpp"
+
+namespace launch {
+
+class NodeProcess {
+ public:
+  // Declarations for an ActionType. With `named`, the attributes name and namespace are required.
+  static std::vector<AttributeSpec> attributes(bool named);
+  static std::vector<ItemSpec> items();
+
+  explicit NodeProcess(const Fields& fields);
+
+  // Asks the context to start the process. Returns the node's fully qualified name, or an empty text when the program
+  // chooses a part of the name.
+  std::string request(LaunchContext& context) const;
+
+ private:
+  std::string program(Scope& scope) const;
+  std::optional<std::string> node_name(Scope& scope) const;
+
+  SourceRange where_;
+  std::optional<Template> package_;
+  Template executable_;
+  std::optional<Template> name_;
+  std::optional<Template> exec_name_;
+  std::optional<Template> namespace_;
+  std::vector<Template> arguments_;
+  std::optional<std::vector<Template>> ros_arguments_;
+  std::vector<Parameters> parameters_;
+  std::vector<std::pair<Template, Template>> remaps_;
+  ProcessFields process_;
+};
+
+// The <remap> items of nodes and components.
+ItemSpec remap_item();
+std::vector<std::pair<Template, Template>> remaps_of(const Fields& fields);
+
+}  // namespace launch

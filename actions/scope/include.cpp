@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// <include file="…"/>: visits another launch file here, in the current scope.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "actions/ros/ros_names.hpp"
+#include "base/monotonic_clock.hpp"
+#include "launcher/language/argument_use.hpp"
+#include "launcher/language/fields.hpp"
+#include "launcher/language/introspection.hpp"
+#include "launcher/visit/launch_context.hpp"
+
+namespace launch {
+
+namespace {
+
+// A longer chain of includes than this is taken for a file that includes itself without end.
+constexpr int kMaximumDepth = 200;
+
+int include_depth(const SourceRange& where) {
+  int depth = 0;
+  for (const SourceRange* place = &where; place->file != nullptr; place = &place->file->included_from()) {
+    ++depth;
+  }
+  return depth;
+}
+
+class IncludeLaunchDescription : public Action {
+ public:
+  explicit IncludeLaunchDescription(const Fields& fields)
+      : Action(fields.where(), fields.condition()), namespace_(fields.optional_text("ns")) {
+    declaration_.file = fields.text("file");
+    declaration_.where = fields.where();
+    // All `arg` come first, then all `let`, whatever their order in the file, as in ros2 launch.
+    for (const char* const tag : {"arg", "let"}) {
+      for (const Fields* item : fields.items(tag)) {
+        declaration_.arguments.emplace_back(item->text("name"), item->text("value"));
+      }
+    }
+  }
+
+  Introspection introspect() const override { return {.include = &declaration_}; }
+
+ protected:
+  void execute(LaunchContext& context) const override {
+    if (include_depth(where()) > kMaximumDepth) {
+      throw LaunchError(fmt::format("includes are nested more than {} deep", kMaximumDepth), where(),
+                        "a file includes itself, directly or through others", Finding::kEndless);
+    }
+    const std::string path = declaration_.file.perform(context.scope());
+    std::error_code ignored;
+    if (path.ends_with(".py") && context.is_plan_only() && !std::filesystem::exists(path, ignored)) {
+      note_missing_python(path, context);
+      return;
+    }
+    const std::int64_t begin = monotonic_time();
+    const auto included = load_launch_description(path, context.registry(), context.scope(), declaration_.file.where());
+
+    std::vector<std::string> given;
+    for (const auto& [name, value] : declaration_.arguments) {
+      given.push_back(name.perform(context.scope()));
+    }
+    check_required_arguments(*included, context.registry(), context.scope(), given, where());
+    if (context.explores()) {
+      find_undeclared_arguments(*included, given, context);
+    }
+    ++context.requests().includes;
+    // The arguments are performed inside, so that $(dirname) in a value means the included file, as in ros2 launch.
+    const std::optional<std::string> outer_namespace = pushed_namespace(context.scope());
+    if (namespace_) {
+      push_namespace(*namespace_, context.scope());
+    }
+    const bool only_planned =
+        std::exchange(context.scope().only_planned, context.scope().only_planned && !context.scope().planned_by_timer);
+    context.visit(*included, [&] { set_arguments(context.scope()); });
+    context.scope().only_planned = only_planned;
+    if (namespace_) {
+      restore_namespace(outer_namespace, context.scope());
+    }
+    context.requests().records.push_back({.kind = LaunchRecord::Kind::kInclude,
+                                          .name = path,
+                                          .where = where(),
+                                          .time = begin,
+                                          .duration = monotonic_time() - begin});
+  }
+
+ private:
+  void set_arguments(Scope& scope) const {
+    for (const auto& [name, value] : declaration_.arguments) {
+      std::string key = name.perform(scope);
+      scope.configurations.insert_or_assign(std::move(key), value.perform(scope));
+    }
+  }
+
+  // The arguments that neither the included file nor a file around it declares or reads.
+  void find_undeclared_arguments(const LaunchDescription& included, const std::vector<std::string>& given,
+                                 LaunchContext& context) const {
+    std::optional<ArgumentList> list;
+    const bool depends_on_command = context.scope().command_was_left_out();
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      if (is_own_configuration(given[i]) || may_read(*included.file, given[i]) || is_read_around(given[i])) {
+        continue;
+      }
+      if (!list) {
+        list = find_arguments(included, context.registry(), context.scope());
+      }
+      std::vector<std::string> declared;
+      for (const ArgumentInfo& argument : list->arguments) {
+        declared.push_back(argument.declaration->name);
+      }
+      const bool is_read = std::any_of(list->loaded.begin(), list->loaded.end(), [&](const auto& description) {
+        return description->file != nullptr && may_read(*description->file, given[i]);
+      });
+      if (list->complete && !is_read && std::find(declared.begin(), declared.end(), given[i]) == declared.end()) {
+        context.remark({Severity::kWarning,
+                        fmt::format("the included file declares no argument '{}', and nothing reads it", given[i]),
+                        declaration_.arguments[i].first.where(), did_you_mean(given[i], declared),
+                        Finding::kUnknownArgument});
+      }
+    }
+    if (!depends_on_command) {
+      context.scope().forget_left_out_command();  // the paths of further includes were only tried
+    }
+  }
+
+  // What an include sets stays set, so the files that lead to it may read it.
+  bool is_read_around(const std::string& name) const {
+    for (const SourceRange* place = &where(); place->file != nullptr; place = &place->file->included_from()) {
+      if (may_read(*place->file, name)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  // It is not known what a missing Python launch file would do, so a plan goes on without it.
+  void note_missing_python(const std::string& path, LaunchContext& context) const {
+    context.message(LogLevel::kWarning, "launch",
+                    fmt::format("{}: what the Python launch file asks for is not known, it does not exist: {}",
+                                to_string(declaration_.file.where()), path));
+    context.requests().python_includes.push_back(std::filesystem::absolute(path).lexically_normal().string());
+    set_arguments(context.scope());
+  }
+
+  IncludeDeclaration declaration_;
+  std::optional<Template> namespace_;
+};
+
+}  // namespace
+
+ActionType include_action() {
+  const std::vector<AttributeSpec> name_and_value = {
+      {"name", AttributeType::kText, true, "", "name of the configuration"},
+      {"value", AttributeType::kText, true, "", "its value"}};
+  return {
+      .tag = "include",
+      .help = "Visits another launch file in place. Not a scope: what the file sets stays set.",
+      .attributes = {{"file", AttributeType::kText, true, "",
+                      "path of the launch file; relative to the launcher's working directory"},
+                     {"ns", AttributeType::kText, false, "",
+                      "namespace of every node of the file; ends with the file, unlike other settings", true}},
+      .items = {{"arg", "an argument for the file", name_and_value},
+                {"let", "an argument for the file, set after all arg items", name_and_value}},
+      .make = [](const Fields& fields) { return std::make_shared<IncludeLaunchDescription>(fields); },
+  };
+}
+
+}  // namespace launch

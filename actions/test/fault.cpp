@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: Apache-2.0
+// <fault process="…" do="kill|stop|slow|limit">: what a test does to a process of the system, and
+// <fault topic|service="…" do="drop|duplicate|corrupt|delay">: what it does to messages, and <fault group="…"
+// do="partition|lose|delay">: what it does to the network, and <fault clock="…" do="stop|skew|jump">: to simulated
+// time, and <fault path="…" do="fill_disk">: to a disk. The random parts are drawn here, so that a run has nothing left
+// to chance.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+
+#include "actions/process/depends_on.hpp"
+#include "actions/process/resource_fields.hpp"
+#include "actions/test/clock_fault.hpp"
+#include "actions/test/disk_fault.hpp"
+#include "actions/test/expectation_fields.hpp"
+#include "actions/test/message_fault.hpp"
+#include "actions/test/network_fault.hpp"
+#include "actions/test/range_field.hpp"
+#include "launcher/language/exit_code_filter.hpp"
+#include "launcher/language/fields.hpp"
+#include "launcher/visit/launch_context.hpp"
+
+namespace launch {
+
+namespace {
+
+enum class Kind {
+  kKill,
+  kStop,
+  kSlow,
+  kLimit,
+  kDrop,
+  kDuplicate,
+  kCorrupt,
+  kDelay,
+  kPartition,
+  kLose,
+  kSkew,
+  kJump,
+  kFillDisk
+};
+const std::vector<std::string> kKinds = {"kill",  "stop",      "slow", "limit", "drop", "duplicate", "corrupt",
+                                         "delay", "partition", "lose", "skew",  "jump", "fill_disk"};
+
+std::optional<NetworkFault::Kind> network_kind(Kind kind, const Fields& fields) {
+  switch (kind) {
+    case Kind::kPartition:
+      return NetworkFault::Kind::kPartition;
+    case Kind::kLose:
+      return NetworkFault::Kind::kLose;
+    case Kind::kDelay:
+      return fields.has("group") ? std::optional(NetworkFault::Kind::kDelay) : std::nullopt;
+    default:
+      return std::nullopt;
+  }
+}
+
+std::optional<ClockFault::Kind> clock_kind(Kind kind, const Fields& fields) {
+  switch (kind) {
+    case Kind::kSkew:
+      return ClockFault::Kind::kSkew;
+    case Kind::kJump:
+      return ClockFault::Kind::kJump;
+    case Kind::kStop:
+      return fields.has("clock") ? std::optional(ClockFault::Kind::kStop) : std::nullopt;
+    default:
+      return std::nullopt;
+  }
+}
+
+std::optional<MessageFault::Kind> message_kind(Kind kind) {
+  switch (kind) {
+    case Kind::kDrop:
+      return MessageFault::Kind::kDrop;
+    case Kind::kDuplicate:
+      return MessageFault::Kind::kDuplicate;
+    case Kind::kCorrupt:
+      return MessageFault::Kind::kCorrupt;
+    case Kind::kDelay:
+      return MessageFault::Kind::kDelay;
+    default:
+      return std::nullopt;
+  }
+}
+
+// An attribute that only some faults have.
+struct OwnAttribute {
+  const char* name;
+  std::vector<Kind> kinds;
+  const char* with;
+};
+
+unsigned percent(const Template& given, Scope& scope) {
+  const std::string text = given.perform(scope);
+  unsigned value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  constexpr unsigned kAll = 100;
+  if (error != std::errc() || std::string_view(end, text.data() + text.size()) != "%" || value == 0 || value >= kAll) {
+    throw LaunchError(fmt::format("'{}' is no part of the processor", text), given.where(), "write 1% to 99%",
+                      Finding::kWrongValue);
+  }
+  return value;
+}
+
+class Fault : public Action {
+ public:
+  explicit Fault(const Fields& fields)
+      : Action(fields.where(), fields.condition()),
+        kind_(static_cast<Kind>(choice(fields, "do", kKinds))),
+        process_(fields.optional_text("process")),
+        name_(fields.optional_text("name")),
+        at_(RangeField::of(fields, "at")),
+        lasts_(RangeField::of(fields, "for")),
+        probability_(from_zero(fields, "probability")),
+        probability_where_(fields.where("probability")),
+        signal_(fields.optional_text("signal")),
+        share_(fields.optional_text("to")),
+        memory_(fields.optional_text("memory")),
+        files_(from_zero(fields, "files")) {
+    check_attributes(fields);
+    for (const Fields* const item : fields.items("depends_on")) {
+      dependencies_.emplace_back(*item);
+    }
+    check_literals();
+    if (const auto network = network_kind(kind_, fields)) {
+      network_.emplace(fields, *network);
+    } else if (const auto clock = clock_kind(kind_, fields)) {
+      clock_.emplace(fields, *clock);
+    } else if (const auto messages = message_kind(kind_)) {
+      messages_.emplace(fields, *messages);
+    } else if (kind_ == Kind::kFillDisk) {
+      disk_.emplace(fields);
+    }
+  }
+
+ protected:
+  void execute(LaunchContext& context) const override {
+    if (!context.is_in_test()) {
+      throw LaunchError("a fault belongs in a <test>", where(),
+                        "there it may be in groups, loops and included files; at and depends_on say when it happens",
+                        Finding::kWrongPlace);
+    }
+    Scope& scope = context.scope();
+    std::vector<FaultRequest>& others = context.requests().faults;
+    FaultRequest fault;
+    fault.number = others.size() + 1;
+    if (const Template* const process = clock_ ? &clock_->clock() : process_ ? &*process_ : nullptr) {
+      fault.process = process->perform(scope);
+      fault.process_where = process->where();
+    }
+    fault.where = where();
+    const double probability = perform_probability(scope);
+    const NumberRange at = at_ ? at_->perform(scope) : NumberRange{};
+    const NumberRange lasts = lasts_ ? lasts_->perform(scope) : NumberRange{};
+    set_what(fault, scope);
+    const std::optional<MessageFaultRanges> messages =
+        messages_ ? std::optional(messages_->perform(scope)) : std::nullopt;
+    const std::optional<NetworkFaultRanges> network = network_ ? std::optional(network_->perform(scope)) : std::nullopt;
+    const std::optional<ClockFaultRanges> clock = clock_ ? std::optional(clock_->perform(scope)) : std::nullopt;
+    if (disk_) {
+      fault.what = disk_->perform(scope);
+    }
+    const std::string what = messages  ? fmt::format("{} {}", fault.process, messages->identity())
+                             : network ? network->identity()
+                             : clock   ? fmt::format("{} {}", fault.process, clock->identity())
+                             : disk_   ? disk_->identity()
+                                       : describe(fault);
+    fault.identity = name_
+                         ? name_->perform(scope)
+                         : fmt::format("{} {}..{} {}..{} {}", what, at.from, at.to, lasts.from, lasts.to, probability);
+    const auto equal = std::count_if(others.begin(), others.end(),
+                                     [&](const FaultRequest& other) { return other.identity == fault.identity; });
+
+    const FaultDraw draw(context.fault_choice().seed, fmt::format("{} {}", fault.identity, equal));
+    fault.at = as_duration(draw.number("at", at));
+    if (lasts_) {
+      fault.lasts = as_duration(draw.number("for", lasts));
+    }
+    fault.is_random = at.is_random() || lasts.is_random() || probability < 1;
+    if (messages) {
+      fault.what = messages->draw(draw);
+      fault.is_random = fault.is_random || messages->is_random();
+    } else if (network) {
+      fault.what = network->draw(draw);
+      fault.is_random = fault.is_random || network->is_random();
+    } else if (clock) {
+      fault.what = clock->draw(draw);
+      fault.is_random = fault.is_random || clock->is_random();
+    }
+    for (std::size_t i = 0; i < dependencies_.size(); ++i) {
+      fault.is_random = fault.is_random || dependencies_[i].is_random(scope);
+      if (std::optional<Dependency> dependency = dependencies_[i].perform(context, draw, i)) {
+        fault.dependencies.push_back(std::move(*dependency));
+      }
+    }
+    const auto& chosen = context.fault_choice().numbers;
+    if (draw.share("probability") >= probability) {
+      fault.left_out = "not drawn";
+    } else if (chosen && !chosen->contains(fault.number)) {
+      fault.left_out = "not chosen";
+    }
+    others.push_back(std::move(fault));
+  }
+
+ private:
+  void check_attributes(const Fields& fields) const {
+    static const std::vector<Kind> kOfMessages = {Kind::kDrop, Kind::kDuplicate, Kind::kCorrupt, Kind::kDelay};
+    static const char* const kWithMessages = "do=\"drop\", do=\"duplicate\", do=\"corrupt\" and do=\"delay\"";
+    static const std::vector<Kind> kOfNetwork = {Kind::kPartition, Kind::kLose, Kind::kDelay};
+    static const char* const kWithNetwork = "do=\"partition\", do=\"lose\" and do=\"delay\"";
+    static const std::array<OwnAttribute, 19> kOwn = {
+        {{"signal", {Kind::kKill}, "do=\"kill\""},
+         {"topic", kOfMessages, kWithMessages},
+         {"service", kOfMessages, kWithMessages},
+         {"node", kOfMessages, kWithMessages},
+         {"on", kOfMessages, kWithMessages},
+         {"occurrence", kOfMessages, kWithMessages},
+         {"every", kOfMessages, kWithMessages},
+         {"count", kOfMessages, kWithMessages},
+         {"by", {Kind::kDelay, Kind::kJump}, "do=\"delay\" and do=\"jump\""},
+         {"clock", {Kind::kStop, Kind::kSkew, Kind::kJump}, "do=\"stop\", do=\"skew\" and do=\"jump\""},
+         {"rate", {Kind::kSkew}, "do=\"skew\""},
+         {"group", kOfNetwork, kWithNetwork},
+         {"from", kOfNetwork, kWithNetwork},
+         {"share", {Kind::kLose}, "do=\"lose\""},
+         {"path", {Kind::kFillDisk}, "do=\"fill_disk\""},
+         {"free", {Kind::kFillDisk}, "do=\"fill_disk\""},
+         {"to", {Kind::kSlow}, "do=\"slow\""},
+         {"memory", {Kind::kLimit}, "do=\"limit\""},
+         {"files", {Kind::kLimit}, "do=\"limit\""}}};
+    for (const OwnAttribute& own : kOwn) {
+      if (fields.has(own.name) && std::find(own.kinds.begin(), own.kinds.end(), kind_) == own.kinds.end()) {
+        throw LaunchError(fmt::format("{} goes with {} only", own.name, own.with), fields.where(own.name), {},
+                          Finding::kExclusive);
+      }
+    }
+    if (kind_ == Kind::kKill && fields.has("for")) {
+      throw LaunchError("for does not go with do=\"kill\": a kill is over at once", fields.where("for"), {},
+                        Finding::kExclusive);
+    }
+    const bool is_of_network = network_kind(kind_, fields).has_value();
+    if (is_of_network) {
+      for (const char* const other : {"process", "topic", "service", "node", "on", "occurrence", "every", "count"}) {
+        if (fields.has(other)) {
+          throw LaunchError(fmt::format("{} does not go with a fault of the network", other), fields.where(other),
+                            "group and from name the processes", Finding::kExclusive);
+        }
+      }
+    }
+    const bool is_of_clock = clock_kind(kind_, fields).has_value();
+    if (is_of_clock && process_) {
+      throw LaunchError("either a process or a clock suffers", fields.where("process"), {}, Finding::kExclusive);
+    }
+    if (kind_ == Kind::kFillDisk && process_) {
+      throw LaunchError("process does not go with do=\"fill_disk\": all processes of the test share the disk",
+                        fields.where("process"), {}, Finding::kExclusive);
+    }
+    const bool has_process = !is_of_network && !is_of_clock && !message_kind(kind_) && kind_ != Kind::kFillDisk;
+    if (!process_ && has_process) {
+      throw LaunchError("it is not said which process suffers", fields.where(),
+                        "process=\"…\": the name of the process or of its node", Finding::kMissingAttribute);
+    }
+    if (kind_ == Kind::kSlow && !share_) {
+      throw LaunchError("it is not said how slow the process is", fields.where(), "to=\"25%\": a quarter of the time",
+                        Finding::kMissingAttribute);
+    }
+    if (kind_ == Kind::kLimit && !memory_ && !files_) {
+      throw LaunchError("it is not said what is limited", fields.where(), "give memory, files or both",
+                        Finding::kMissingAttribute);
+    }
+  }
+
+  void check_literals() const {
+    Scope nothing;
+    if (signal_ && signal_->is_literal()) {
+      signal_of(signal_->perform(nothing), signal_->where());
+    }
+    if (share_ && share_->is_literal()) {
+      percent(*share_, nothing);
+    }
+    if (memory_ && memory_->is_literal()) {
+      parse_bytes(memory_->perform(nothing), memory_->where());
+    }
+  }
+
+  double perform_probability(Scope& scope) const {
+    const double probability = probability_ ? probability_->perform(scope) : 1;
+    if (probability > 1) {
+      throw LaunchError(fmt::format("a probability is at most 1, got {:g}", probability), probability_where_, {},
+                        Finding::kWrongValue);
+    }
+    return probability;
+  }
+
+  void set_what(FaultRequest& fault, Scope& scope) const {
+    switch (kind_) {
+      case Kind::kKill:
+        fault.what = KillFault{signal_ ? signal_of(signal_->perform(scope), signal_->where()) : SIGKILL};
+        break;
+      case Kind::kStop:
+        fault.what = StopFault{};
+        break;
+      case Kind::kSlow:
+        fault.what = SlowFault{percent(*share_, scope)};
+        break;
+      case Kind::kLimit: {
+        LimitFault limit;
+        if (memory_) {
+          limit.memory = parse_bytes(memory_->perform(scope), memory_->where());
+        }
+        if (files_) {
+          limit.files = static_cast<std::uint64_t>(files_->perform(scope));
+        }
+        fault.what = limit;
+        break;
+      }
+      default:
+        break;  // of messages
+    }
+  }
+
+  Kind kind_;
+  std::optional<Template> process_;
+  std::optional<Template> name_;
+  std::optional<RangeField> at_;
+  std::optional<RangeField> lasts_;
+  std::optional<NumberField> probability_;
+  SourceRange probability_where_;
+  std::optional<Template> signal_;
+  std::optional<Template> share_;
+  std::optional<Template> memory_;
+  std::optional<NumberField> files_;
+  std::optional<MessageFaultFields> messages_;
+  std::optional<NetworkFaultFields> network_;
+  std::optional<ClockFaultFields> clock_;
+  std::optional<DiskFaultFields> disk_;
+  std::vector<DependsOn> dependencies_;
+};
+
+}  // namespace
+
+ActionType fault_action() {
+  ActionType type{
+      .tag = "fault",
+      .help =
+          "In a test: does something to a process, to messages, to the network, to simulated time or to a disk, at a "
+          "time "
+          "or when something is ready.",
+      .attributes =
+          {{"process", AttributeType::kText, false, "",
+            "name of the process or of its node; all processes of that name are meant. With topic and service: each "
+            "process",
+            true},
+           {"do", AttributeType::kLiteral, true, "",
+            "kill: sends it a signal; stop: it stands still; slow: it runs for a part of the time; limit: it gets "
+            "no more memory or descriptors; drop, duplicate, corrupt, delay: messages of a topic or service are lost, "
+            "come twice, "
+            "with other bytes, or late; partition, lose, delay: packets between processes are lost or late; stop, "
+            "skew, jump: simulated time stands still, is faster or "
+            "slower, or jumps; fill_disk: a disk is full",
+            true},
+           {"at", AttributeType::kText, false, "0",
+            "seconds from the begin of the test, or from when all depends_on hold; a range such as 1..5, from which "
+            "the seed draws",
+            true},
+           {"for", AttributeType::kText, false, "until the end", "not with kill and jump: seconds, or a range of them",
+            true},
+           {"probability", AttributeType::kFloat, false, "1", "in how many runs it happens, from 0 to 1", true},
+           {"signal", AttributeType::kText, false, "SIGKILL", "with kill: the name or number of the signal", true},
+           {"to", AttributeType::kText, false, "", "with slow: the part of the time in which it runs, such as 25%",
+            true},
+           {"memory", AttributeType::kText, false, "none", "with limit: its address space in bytes, or with K, M or G",
+            true},
+           {"files", AttributeType::kInteger, false, "none", "with limit: its open descriptors", true},
+           {"name", AttributeType::kText, false, "all attributes", "what tells its draws from those of other faults",
+            true}},
+      .items = {DependsOn::item_of_fault()},
+      .extension = true,
+      .make = [](const Fields& fields) { return std::make_shared<Fault>(fields); }};
+  for (const std::vector<AttributeSpec>& more : {MessageFaultFields::attributes(), NetworkFaultFields::attributes(),
+                                                 ClockFaultFields::attributes(), DiskFaultFields::attributes()}) {
+    type.attributes.insert(type.attributes.end(), more.begin(), more.end());
+  }
+  return type;
+}
+
+}  // namespace launch

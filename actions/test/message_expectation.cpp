@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// <message topic="…">: messages that come on a topic while a test runs.
+#include <fmt/format.h>
+
+#include "actions/ros/ros_names.hpp"
+#include "actions/test/expectation_fields.hpp"
+#include "actions/test/expectations.hpp"
+#include "actions/test/message_texts.hpp"
+#include "launcher/message_types/interface_library.hpp"
+#include "launcher/message_types/message_condition.hpp"
+#include "launcher/ros/ros_message_watch.hpp"
+
+namespace launch {
+
+namespace {
+
+class Messages {
+ public:
+  explicit Messages(const Fields& fields)
+      : subject_(fields),
+        topic_(fields.text("topic")),
+        type_(fields.text("type")),
+        condition_(fields.optional_text("where")),
+        least_(from_zero(fields, "min")),
+        most_(from_zero(fields, "max")),
+        most_where_(fields.where("max")),
+        absent_(fields.boolean("absent", false)),
+        least_rate_(from_zero(fields, "min_rate")),
+        most_rate_(from_zero(fields, "max_rate")),
+        rate_where_(fields.where("max_rate")) {
+    for (const char* const other : {"min", "max", "min_rate", "max_rate"}) {
+      if (fields.has("absent") && fields.has(other)) {
+        throw LaunchError("absent means max=\"0\": it goes without min, max and rates", fields.where("absent"), {},
+                          Finding::kExclusive);
+      }
+    }
+  }
+
+  Expectation perform(LaunchContext& context) const {
+    Scope& scope = context.scope();
+    ExpectedMessages expected;
+    WatchMessages watch{resolve_name(topic_, scope), type_.perform(scope),
+                        condition_ ? condition_->perform(scope) : ""};
+    check(scope, watch);
+    expected.watch = std::make_shared<RosMessageWatch>(context.ros_client(), std::move(watch), scope.environment);
+    if (least_rate_) {
+      expected.least_rate = least_rate_->perform(scope);
+    }
+    if (most_rate_) {
+      expected.most_rate = most_rate_->perform(scope);
+      if (expected.least_rate && *expected.most_rate < *expected.least_rate) {
+        throw LaunchError(fmt::format("max_rate is less than min_rate, {:g}", *expected.least_rate), rate_where_);
+      }
+    }
+    const bool has_rate = least_rate_ || most_rate_;
+    expected.least = has_rate ? 2 : 1;  // a rate needs two
+    if (most_) {
+      expected.most = static_cast<std::uint64_t>(most_->perform(scope));
+      expected.least = has_rate ? 2 : 0;
+    }
+    if (least_) {
+      expected.least = std::max(static_cast<std::uint64_t>(least_->perform(scope)), std::uint64_t(has_rate ? 2 : 0));
+    }
+    if (absent_.perform(scope)) {
+      expected.least = 0;
+      expected.most = 0;
+    }
+    if (expected.most && *expected.most < expected.least) {
+      throw LaunchError(fmt::format("max is less than min, {}", expected.least), most_where_);
+    }
+    return subject_.of(std::move(expected), scope);
+  }
+
+ private:
+  // Completes the name of the type. Looks for mistakes in it, and in the condition.
+  void check(Scope& scope, WatchMessages& watch) const {
+    InterfaceLibrary library(*scope.packages, scope.environment);
+    std::shared_ptr<const MessageType> type;
+    at_place(type_.where(), [&] { type = library.message(watch.type); });
+    watch.type = type->name;
+    if (condition_) {
+      at_place(condition_->where(), [&] { MessageCondition(type, located(watch.condition, condition_->where())); });
+    }
+  }
+
+  ExpectationSubject subject_;
+  Template topic_;
+  Template type_;
+  std::optional<Template> condition_;
+  std::optional<NumberField> least_;
+  std::optional<NumberField> most_;
+  SourceRange most_where_;
+  BooleanField absent_;
+  std::optional<NumberField> least_rate_;
+  std::optional<NumberField> most_rate_;
+  SourceRange rate_where_;
+};
+
+}  // namespace
+
+ExpectationType message_expectation_type() {
+  return {expectation_item(
+              "message", "messages that come on a topic",
+              {own_attribute("topic", AttributeType::kText, true, "", "their topic"),
+               own_attribute("type", AttributeType::kText, true, "", "their type"),
+               own_attribute("where", AttributeType::kText, false, "none",
+                             "a condition on their fields, as `launch topic echo --filter` has it: data > 3"),
+               own_attribute("min", AttributeType::kInteger, false, "1; with a rate: 2; with max: 0",
+                             "how many there are at least"),
+               own_attribute("max", AttributeType::kInteger, false, "any number", "how many there are at most"),
+               own_attribute("absent", AttributeType::kBoolean, false, "false", "true: there is none"),
+               own_attribute("min_rate", AttributeType::kFloat, false, "none",
+                             "messages in a second at least, from the first to the last one"),
+               own_attribute("max_rate", AttributeType::kFloat, false, "none", "messages in a second at most"),
+               own_attribute("within", AttributeType::kFloat, false, "none",
+                             "seconds from the begin of the test until there are enough")}),
+          [](const Fields& fields) -> PerformExpectation {
+            return [messages = Messages(fields)](LaunchContext& context) { return messages.perform(context); };
+          }};
+}
+
+}  // namespace launch

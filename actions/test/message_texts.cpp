@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "actions/test/message_texts.hpp"
+
+namespace launch {
+
+LocatedText located(const std::string& text, const SourceRange& where) {
+  const bool verbatim = where && where.end <= where.file->text().size() &&
+                        where.file->text().compare(where.begin, where.end - where.begin, text) == 0;
+  return verbatim ? LocatedText(text, where) : LocatedText(text);
+}
+
+}  // namespace launch

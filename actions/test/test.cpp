@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// <test name="…">: what must happen when the launch file runs. Only `launch test` looks at it.
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <utility>
+
+#include "actions/test/expectation_fields.hpp"
+#include "actions/test/expectations.hpp"
+#include "base/environment/test_run_variables.hpp"
+#include "launcher/language/fields.hpp"
+#include "launcher/visit/launch_context.hpp"
+
+namespace launch {
+
+namespace {
+
+constexpr Duration kTimeout = std::chrono::seconds(60);
+
+// While it lives, the scope has the variables of a run.
+class RunEnvironment {
+ public:
+  explicit RunEnvironment(Scope& scope)
+      : scope_(scope), before_(std::exchange(scope.environment, with_variables_of_a_test_run(scope.environment))) {}
+  ~RunEnvironment() { scope_.environment = std::move(before_); }
+  RunEnvironment(const RunEnvironment&) = delete;
+  RunEnvironment& operator=(const RunEnvironment&) = delete;
+
+ private:
+  Scope& scope_;
+  Environment before_;
+};
+
+class Test : public Action {
+ public:
+  explicit Test(const Fields& fields)
+      : Action(fields.where(), fields.condition()),
+        name_(fields.text("name")),
+        timeout_(TimeField::of(fields, "timeout")),
+        duration_(TimeField::of(fields, "duration")),
+        actions_(fields.actions()) {
+    std::vector<Diagnostic> errors;
+    for (const ExpectationType& type : expectation_types()) {
+      for (const Fields* const item : fields.items(type.item.tag)) {
+        try {
+          items_.push_back({item->condition(), item->where(), type.make(*item)});
+        } catch (const LaunchError& error) {
+          errors.insert(errors.end(), error.diagnostics().begin(), error.diagnostics().end());
+        }
+      }
+    }
+    if (!errors.empty()) {
+      std::sort(errors.begin(), errors.end(),
+                [](const Diagnostic& a, const Diagnostic& b) { return a.where.begin < b.where.begin; });
+      throw LaunchError(std::move(errors));
+    }
+    if (items_.empty()) {
+      throw LaunchError("the test expects nothing", fields.where(),
+                        "say what must happen: <output text=\"…\"/>, <exit process=\"…\"/>, …",
+                        Finding::kMissingAttribute);
+    }
+    std::sort(items_.begin(), items_.end(), [](const Item& a, const Item& b) { return a.where.begin < b.where.begin; });
+  }
+
+  Introspection introspect() const override { return {.children = &actions_, .children_may_not_run = true}; }
+
+ protected:
+  void execute(LaunchContext& context) const override {
+    const LaunchContext::TestPart part = context.next_test();
+    if (context.explores()) {
+      // Each test is a run of its own: its processes are not there together with those of the others.
+      Requests others = std::exchange(context.requests(), Requests());
+      const RunEnvironment variables(context.scope());
+      context.visit_test(actions_);
+      request(context.scope(), context);
+      context.requests() = std::move(others);
+    } else if (part != LaunchContext::TestPart::kNothing) {
+      TestRequest test = request(context.scope(), context);
+      if (part == LaunchContext::TestPart::kActionsToo) {
+        test.faults = context.visit_test(actions_);
+      }
+      context.requests().tests.push_back(std::move(test));
+    }
+  }
+
+ private:
+  struct Item {
+    Condition condition;
+    SourceRange where;
+    PerformExpectation perform;
+  };
+
+  TestRequest request(Scope& scope, LaunchContext& context) const {
+    TestRequest test;
+    test.name = name_.perform(scope);
+    test.name_where = name_.where();
+    test.where = where();
+    if (test.name.empty()) {
+      throw LaunchError("the test has no name", name_.where());
+    }
+    const auto is_control = [](unsigned char c) { return std::iscntrl(c) != 0; };
+    if (std::any_of(test.name.begin(), test.name.end(), is_control)) {
+      throw LaunchError("the name of the test has a line break or another control character", name_.where(),
+                        "it stands on one line in reports");
+    }
+    test.has_actions = !actions_.empty();
+    test.timeout = timeout_ ? timeout_->perform(scope) : kTimeout;
+    if (duration_) {
+      test.duration = duration_->perform(scope);
+    }
+    for (const Item& item : items_) {
+      if (item.condition.holds(scope)) {
+        test.expectations.push_back(item.perform(context));
+      }
+    }
+    if (test.expectations.empty()) {
+      throw LaunchError("the test expects nothing: the conditions leave all its expectations out", where());
+    }
+    return test;
+  }
+
+  Template name_;
+  std::optional<TimeField> timeout_;
+  std::optional<TimeField> duration_;
+  std::vector<Item> items_;
+  std::vector<ActionPtr> actions_;
+};
+
+}  // namespace
+
+ActionType test_action() {
+  std::vector<ItemSpec> items;
+  for (const ExpectationType& type : expectation_types()) {
+    items.push_back(type.item);
+  }
+  return {
+      .tag = "test",
+      .help =
+          "What must happen when the launch file runs: `launch test` runs it and checks. The actions are visited "
+          "for this test alone.",
+      .attributes = {{"name", AttributeType::kText, true, "", "name of the test", true},
+                     {"timeout", AttributeType::kFloat, false, "60", "seconds after which the test has failed", true},
+                     {"duration", AttributeType::kFloat, false, "none",
+                      "seconds that the system runs at least, even if everything has happened", true}},
+      .items = std::move(items),
+      .holds_actions = true,
+      .may_hold_none = true,
+      .extension = true,
+      .make = [](const Fields& fields) { return std::make_shared<Test>(fields); }};
+}
+
+}  // namespace launch

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// Chooses the processes that a <trace> records, and prepares their environment.
+#include <fmt/format.h>
+#include <fnmatch.h>
+#include <sys/sysinfo.h>
+
+#include <algorithm>
+
+#include "actions/trace/trace_scope.hpp"
+#include "tracing/record/account/event_counters.hpp"
+#include "tracing/record/lttng/session_daemon.hpp"
+#include "tracing/record/plan/buffer_estimate.hpp"
+#include "tracing/record/plan/load_addresses.hpp"
+#include "tracing/record/plan/preload.hpp"
+#include "tracing/record/plan/trace_config.hpp"
+
+namespace launch {
+
+namespace {
+
+// Compares the pattern with the label of the process and with the name of its node.
+bool matches(const std::string& pattern, const ProcessSpec& spec) {
+  const auto is_meant = [&pattern](const std::string& name) {
+    return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+  };
+  return is_meant(spec.name) || std::any_of(spec.other_names.begin(), spec.other_names.end(), is_meant);
+}
+
+bool may_block(const tracing::TraceConfig& config) {
+  return config.blocking_timeout_ust != 0 ||
+         std::any_of(config.channels.begin(), config.channels.end(),
+                     [](const tracing::ChannelConfig& channel) { return channel.blocking_timeout != 0; });
+}
+
+constexpr double kNanosecondsPerMillisecond = 1e6;
+// Milliseconds. A process of the stack waits so long while the session daemon works, and no second if it does not.
+constexpr const char* kLongestRegistration = "30000";
+
+std::string nanoseconds_of(double milliseconds) {
+  return fmt::format("{:.0f}", milliseconds * kNanosecondsPerMillisecond);
+}
+
+}  // namespace
+
+void TraceScope::expect(const std::vector<ProcessSpec>& processes) {
+  const auto traced = static_cast<std::size_t>(
+      std::count_if(processes.begin(), processes.end(), [this](const ProcessSpec& spec) { return traces(spec); }));
+  const auto processors = static_cast<std::size_t>(::get_nprocs_conf());
+  if (choices_.auto_buffers) {
+    config_.subbuffer_size_ust = tracing::sufficient_subbuffer_size(config_, traced, processors);
+  }
+  if (std::string warning = tracing::buffer_warning(config_, traced, processors); !warning.empty()) {
+    setup_.warnings.push_back(std::move(warning));
+  }
+  for (const std::string& pattern : choices_.nodes.value_or(std::vector<std::string>())) {
+    if (std::none_of(processes.begin(), processes.end(),
+                     [&](const ProcessSpec& spec) { return matches(pattern, spec); })) {
+      setup_.warnings.push_back(
+          fmt::format("nothing that is launched now is called '{}', which 'nodes' names", pattern));
+    }
+  }
+}
+
+bool TraceScope::traces(const ProcessSpec& spec) const {
+  return spec.traced &&
+         (!choices_.nodes || std::any_of(choices_.nodes->begin(), choices_.nodes->end(),
+                                         [&](const std::string& pattern) { return matches(pattern, spec); }));
+}
+
+void TraceScope::prepare(ProcessSpec& spec) const {
+  if (!traces(spec)) {
+    std::string& variable = spec.environment["LD_PRELOAD"];
+    const std::string library = prefix_ + "/lib/launch/liblaunch_untraced.so";
+    if (variable.find(library) == std::string::npos) {
+      variable = tracing::append_preload(variable, {library});
+    }
+    // The process must not wait for a session daemon.
+    spec.environment.emplace("LTTNG_UST_REGISTER_TIMEOUT", "0");
+    return;
+  }
+  if (!tracing::session_daemon_can_answer()) {
+    // Otherwise the process would wait for three seconds, three times, before its main().
+    spec.environment.emplace("LTTNG_UST_REGISTER_TIMEOUT", "0");
+  }
+  spec.environment.emplace("TRACETOOLS_REGISTER_TIMEOUT", kLongestRegistration);
+  if (!preload_.empty()) {
+    std::string& variable = spec.environment["LD_PRELOAD"];
+    variable = tracing::append_preload(variable, preload_);
+  }
+  if (tracing::records_load_addresses(config_.all_events_ust())) {
+    spec.tells_load_addresses = true;
+    spec.environment.erase(tracing::kWithoutLoadAddresses);
+  } else if (!spec.tells_load_addresses) {
+    spec.environment.emplace(tracing::kWithoutLoadAddresses, "1");
+  }
+  if (counters_) {
+    spec.environment.emplace(tracing::kEventCountersVariable, counters_->path().string());
+  }
+  if (choices_.callback_deadline != 0) {
+    spec.environment.emplace("TRACETOOLS_CALLBACK_DEADLINE", nanoseconds_of(choices_.callback_deadline));
+  }
+  if (choices_.message_deadline != 0) {
+    spec.environment.emplace("TRACETOOLS_MESSAGE_DEADLINE", nanoseconds_of(choices_.message_deadline));
+  }
+  if (may_block(config_)) {
+    spec.environment.emplace("LTTNG_UST_ALLOW_BLOCKING", "1");
+  }
+}
+
+}  // namespace launch

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/diagnostics/read_source_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+#include "base/diagnostics/diagnostic.hpp"
+#include "base/files/unique_fd.hpp"
+
+namespace launch {
+
+std::shared_ptr<const SourceFile> read_source_file(const std::string& path, SourceRange included_from) {
+  const auto fail = [&](int error) {
+    throw LaunchError(fmt::format("can't read launch file '{}': {}", path, std::strerror(error)), included_from,
+                      included_from && !path.starts_with('/')
+                          ? "a relative path is relative to the launcher's working directory; use $(dirname)/…"
+                          : "",
+                      Finding::kUnreadableFile);
+  };
+  const UniqueFd fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!fd) {
+    fail(errno);
+  }
+  std::string text;
+  constexpr std::size_t kChunk = 64 * 1024;
+  while (true) {
+    const std::size_t size = text.size();
+    text.resize(size + kChunk);
+    const ssize_t count = ::read(fd.get(), text.data() + size, kChunk);
+    const int error = errno;
+    text.resize(size + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+    if (count == 0) {
+      break;
+    }
+    if (count < 0 && error != EINTR) {
+      fail(error);
+    }
+  }
+  text.shrink_to_fit();  // the text stays as long as the launch, and each process of `launch test` inherits it
+  try {
+    return std::make_shared<const SourceFile>(path, std::move(text), included_from);
+  } catch (const std::length_error& error) {
+    throw LaunchError(error.what(), included_from, {}, Finding::kUnreadableFile);
+  }
+}
+
+}  // namespace launch

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// The variables that `launch test` sets in each run of a test, with values of its own.
+#pragma once
+
+#include "base/environment/environment.hpp"
+
+namespace launch {
+
+// For a look at a test that does not run: `environment` with a value for each variable that it does not have.
+Environment with_variables_of_a_test_run(Environment environment);
+
+}  // namespace launch

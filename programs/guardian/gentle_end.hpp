@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ends what a launcher has left: SIGINT, then SIGTERM and SIGKILL after the timeouts of each process, until none is
+// there.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "launcher/process/guardian/process_scan.hpp"
+#include "programs/guardian/guardian_log.hpp"
+#include "programs/guardian/launch_cgroup.hpp"
+#include "programs/guardian/left_output.hpp"
+
+namespace launch {
+
+// Which processes belong to the launch.
+struct LaunchMembers {
+  std::string launch_id;
+  pid_t group = 0;              // of the launcher, which may hold other programs of a shell
+  pid_t session = 0;            // of the launcher
+  std::set<pid_t> strangers{};  // these and their descendants are not ours
+  // False: all descendants of this process. True: this process has not adopted them, so the processes with the mark of
+  // the launch, those that still have the launcher's descriptor of the records, and all their descendants.
+  bool by_mark = false;
+  int records = -1;
+  LaunchCgroup cgroup{};  // further members, where there is one
+};
+
+class GentleEnd {
+ public:
+  GentleEnd(LaunchMembers members, GuardianLog& log) : members_(std::move(members)), log_(log), output_(log) {}
+
+  // Returns false when a process could not be ended, which the log says then. `launcher_ended` is what has happened to
+  // the launcher, such as "the launcher was killed by SIGKILL". Empty: it has ended by itself, and each process that it
+  // left is named. `signals` is a signalfd with SIGCHLD and the signals that a user sends, or -1; each of the latter
+  // takes the end a step further.
+  bool run(const std::string& launcher_ended, int signals);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  // One process on its way to its end.
+  struct Ending {
+    std::uint64_t started = 0;
+    ProcessMark mark{};
+    std::string name{};
+    int sent = 0;          // the last signal
+    bool refused = false;  // it belongs to another user
+    Clock::time_point sent_at{};
+  };
+
+  std::vector<FoundProcess> find();
+  std::vector<FoundProcess> marked(const std::vector<FoundProcess>& all);
+  Ending& ending_of(const FoundProcess& process);
+  void tell(const std::string& launcher_ended, const std::vector<FoundProcess>& found);
+  // Sends the signals that are due. Returns when to look again. A signal that asks goes to whole groups, so that nobody
+  // gets it twice or is missed. What a process starts while it cleans up is not asked.
+  Clock::time_point signal(const std::vector<FoundProcess>& found);
+  // False when the process belongs to another user.
+  bool send(const FoundProcess& process, int signal);
+  bool hopeless(const std::vector<FoundProcess>& found);
+  void wait(Clock::time_point until, int signals);
+  void read_signals(int signals);
+
+  LaunchMembers members_;
+  GuardianLog& log_;
+  LeftOutput output_;
+  std::map<pid_t, Ending> endings_;
+  std::set<std::pair<pid_t, int>> asked_groups_;  // and the signals that they got
+  Clock::time_point begin_ = Clock::now();
+  bool first_ = true;
+  bool leaves_some_ = false;  // that are meant to go on
+  int steps_ = 0;             // 1: SIGTERM now, 2: SIGKILL now
+  Clock::time_point last_step_{};
+};
+
+}  // namespace launch

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "programs/launch/check/explain_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "programs/launch/check/finding_table.hpp"
+#include "programs/launch/result_output.hpp"
+#include "programs/launch/subcommand.hpp"
+
+namespace launch {
+
+namespace {
+
+constexpr std::size_t kColumns = 100;  // of a paragraph
+
+std::string_view severity_name(Severity severity) {
+  return severity == Severity::kError ? "error" : "warning";
+}
+
+std::string wrapped(std::string_view text) {
+  std::string result;
+  std::size_t column = 0;
+  while (!text.empty()) {
+    const std::string_view word = text.substr(0, text.find(' '));
+    text.remove_prefix(std::min(word.size() + 1, text.size()));
+    if (column != 0 && column + 1 + word.size() > kColumns) {
+      result += "\n";
+      column = 0;
+    }
+    result += (column == 0 ? "" : " ");
+    result += word;
+    column += word.size() + (column == 0 ? 0 : 1);
+  }
+  return result + "\n";
+}
+
+std::string indented(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    const std::string_view line = text.substr(0, end);
+    result += line.empty() ? "\n" : fmt::format("    {}\n", line);
+    text.remove_prefix(end + 1);
+  }
+  return result;
+}
+
+std::string explanation(const FindingInfo& info) {
+  std::string text = fmt::format("{}: {} ({})\n\n{}\nExample:\n\n{}", finding_id(info.finding), info.title,
+                                 severity_name(info.severity), wrapped(info.explanation), indented(info.example));
+  if (!info.parameter_file.empty()) {
+    text += fmt::format("\nparams.yaml:\n\n{}", indented(info.parameter_file));
+  }
+  return text;
+}
+
+std::string list() {
+  std::string text;
+  for (const FindingInfo& info : finding_table()) {
+    text += fmt::format("{}  {:7}  {}\n", finding_id(info.finding), severity_name(info.severity), info.title);
+  }
+  return text;
+}
+
+std::string_view language_of(std::string_view example) {
+  return example.front() == '<' ? "xml" : example.starts_with("launch:") ? "yaml" : "python";
+}
+
+std::string page() {
+  std::string text =
+      "# Findings of launch check\n\n"
+      "`launch explain --markdown` prints this page, and `launch explain ID` one section of it. An error of an action\n"
+      "that its condition leaves out is a warning. `launch check --disable ID` leaves a finding out.\n";
+  for (const FindingInfo& info : finding_table()) {
+    text +=
+        fmt::format("\n## {}: {}\n\nSeverity: {}.\n\n{}\n```{}\n{}```\n", finding_id(info.finding), info.title,
+                    severity_name(info.severity), wrapped(info.explanation), language_of(info.example), info.example);
+    if (!info.parameter_file.empty()) {
+      text += fmt::format("\n`params.yaml`:\n\n```yaml\n{}```\n", info.parameter_file);
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+int explain_command(const std::vector<std::string>& words) {
+  std::string id;
+  bool markdown = false;
+  Subcommand command("launch explain",
+                     "Explains a finding of launch check, with an example. Without an id: lists all.");
+  command.take_text("id", id, "id of the finding, such as LF0101");
+  command.take_flag("--markdown", markdown, "all explanations as a page");
+  if (const auto exit_code = command.parse(words)) {
+    return *exit_code;
+  }
+  ResultOutput result("launch explain");
+  if (markdown) {
+    result.print(page());
+  } else if (id.empty()) {
+    result.print(list());
+  } else if (const auto finding = find_finding(id)) {
+    result.print(explanation(finding_info(*finding)));
+  } else {
+    print_usage_error(unknown_finding(id), "launch explain");
+    return kWrongCommandLine;
+  }
+  return result.finish() ? 0 : 1;
+}
+
+}  // namespace launch

@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "programs/launch/run/run_command.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "actions/builtin_actions.hpp"
+#include "base/environment/own_prefix.hpp"
+#include "base/files/unique_fd.hpp"
+#include "base/monotonic_clock.hpp"
+#include "base/processes/process_mark.hpp"
+#include "base/terminal/terminal_colour.hpp"
+#include "launcher/control/control_socket.hpp"
+#include "launcher/control/launch_control.hpp"
+#include "launcher/language/introspection.hpp"
+#include "launcher/process/guardian/guardian.hpp"
+#include "launcher/process/isolation/isolation.hpp"
+#include "launcher/process/process_messages.hpp"
+#include "launcher/python/interpreter/python_module.hpp"
+#include "launcher/ros/ros_client_process.hpp"
+#include "launcher/run/launch_service.hpp"
+#include "launcher/run/user/status_line.hpp"
+#include "launcher/visit/launch_plan.hpp"
+#include "programs/launch/plan/dry_run.hpp"
+#include "programs/launch/plan/print_description.hpp"
+#include "programs/launch/plan/shell_script.hpp"
+#include "programs/launch/result_output.hpp"
+#include "programs/launch/run/argument_check.hpp"
+#include "programs/launch/run/find_launch_file.hpp"
+#include "programs/launch/run/launch_tracepoints.hpp"
+#include "programs/launch/run/trace_every_launch.hpp"
+#include "programs/launch/subcommand.hpp"
+
+namespace launch {
+
+namespace {
+
+// Throws std::invalid_argument with a sentence.
+std::optional<MessageFormat> message_format(const Environment& environment, const char* variable) {
+  const auto found = environment.find(variable);
+  if (found == environment.end() || found->second.empty()) {
+    return std::nullopt;
+  }
+  try {
+    return MessageFormat(found->second);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("{}: {}", variable, error.what()));
+  }
+}
+
+OutputRouter::Options output_options(const CommandLine& command, const Environment& environment,
+                                     const std::string& log_directory, EventLoop& loop) {
+  OutputRouter::Options options;
+  options.log_directory = log_directory;
+  if (const auto name = environment.find("OVERRIDE_LAUNCH_LOG_FILE_NAME");
+      name != environment.end() && !name->second.empty()) {
+    options.log_name = std::filesystem::path(name->second).filename().string();
+  }
+  options.screen_level = command.debug ? LogLevel::kDebug : LogLevel::kInfo;
+  options.colour = shows_colour(STDOUT_FILENO);
+  options.timestamps = command.timestamps;
+  options.screen_format = message_format(environment, "OVERRIDE_LAUNCH_SCREEN_FORMAT");
+  options.log_format = message_format(environment, "OVERRIDE_LAUNCH_LOG_FORMAT");
+  options.rotation = {command.log_size, command.log_files};
+  options.error_fd = STDERR_FILENO;
+  options.loop = &loop;
+  return options;
+}
+
+void set_arguments(const CommandLine& command, LaunchContext& context) {
+  std::vector<LaunchContext::NodeLogLevel> levels;
+  for (const auto& [node, level] : command.log_levels) {
+    levels.push_back({node, level});
+  }
+  context.set_log_levels(std::move(levels));
+  Scope& scope = context.scope();
+  for (const auto& [name, value] : command.arguments) {
+    scope.configurations.insert_or_assign(name, value);
+  }
+  if (!command.crash_directory.empty()) {
+    scope.configurations.insert_or_assign("crash-dir", command.crash_directory);
+  }
+  if (!command.launch_prefix.empty()) {
+    scope.configurations.insert_or_assign("launch-prefix", command.launch_prefix);
+  }
+  if (!command.launch_prefix_filter.empty()) {
+    scope.configurations.insert_or_assign("launch-prefix-filter", command.launch_prefix_filter);
+  }
+}
+
+// Throws LaunchError if a problem with the launch arguments is an error, else warns.
+void report_arguments(const CommandLine& command, const LaunchDescription& description, const ArgumentList& declared) {
+  const Severity severity = command.strict_arguments ? Severity::kError : Severity::kWarning;
+  std::vector<Diagnostic> found = check_arguments(command.arguments, description, declared, severity);
+  if (command.strict_arguments && !found.empty()) {
+    throw LaunchError(std::move(found));
+  }
+  fmt::print(stderr, "{}", render(found, shows_colour(STDERR_FILENO), "launch"));
+}
+
+void print_timing(const std::vector<TimedStep>& steps) {
+  fmt::print(stderr, "timing:\n");
+  for (const TimedStep& step : steps) {
+    fmt::print(stderr, "  {:<36} {:>9.3f} ms\n", step.name,
+               std::chrono::duration<double, std::milli>(step.took).count());
+  }
+}
+
+LaunchFacts launch_facts(const CommandLine& command, const std::vector<std::string>& files, const Guardian& guardian,
+                         const Isolation& isolation, const std::string& log_directory, const std::string& log) {
+  std::error_code unknown;
+  std::vector<std::string> paths;
+  for (const std::string& file : files) {
+    paths.push_back(file == "-" ? file : std::filesystem::absolute(file, unknown).string());
+  }
+  return {.pid = guardian.pid(),
+          .command = command.words,
+          .files = std::move(paths),
+          .directory = std::filesystem::current_path(unknown).string(),
+          .log_directory = log_directory,
+          .log_file = log,
+          .started = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count(),
+          .isolation = isolation.domain       ? fmt::format("ROS_DOMAIN_ID={}", isolation.domain->id())
+                       : isolation.namespaces ? "namespaces"
+                                              : ""};
+}
+
+void tell_isolation(const Isolation& isolation, OutputRouter& output) {
+  if (isolation.domain) {
+    output.message(
+        LogLevel::kWarning, "launch",
+        fmt::format("namespaces are not allowed here ({}): the launch is isolated by ROS_DOMAIN_ID={}, which "
+                    "it has leased",
+                    isolation.refused, isolation.domain->id()));
+  } else if (isolation.namespaces) {
+    output.message(LogLevel::kInfo, "launch", "the launch has a network and a /dev/shm of its own");
+  }
+}
+
+// Makes everything that a run needs. The order is that of destruction, backwards.
+int run(const CommandLine& command, const Registry& registry, const Environment& environment,
+        const std::shared_ptr<const LaunchDescription>& description, const std::vector<std::string>& files,
+        Guardian& guardian, const Isolation& isolation, TimedStep load, LaunchRecord load_record) {
+  // A signal that was ignored when we started would never arrive. Shells ignore some for programs in the background.
+  // nohup(1) ignores SIGHUP, which stays so.
+  for (const int signal : {SIGINT, SIGQUIT, SIGTERM}) {
+    ::signal(signal, SIG_DFL);
+  }
+  ::signal(SIGPIPE, SIG_IGN);
+
+  const LogDirectory log_directory = LogDirectory::create(environment);
+  const std::unique_ptr<EventLoop> loop = make_sd_event_loop();
+  const OutputRouter::Options options = output_options(command, environment, log_directory.path, *loop);
+  const std::string log = log_directory.path + "/" + options.log_name;
+  OutputRouter output(options);
+  output.message(LogLevel::kInfo, "launch", fmt::format("All log files can be found below {}", log_directory.path));
+  output.message(LogLevel::kInfo, "launch",
+                 fmt::format("Default logging verbosity is set to {}", command.debug ? "DEBUG" : "INFO"));
+  if (!log_directory.warning.empty()) {
+    output.message(LogLevel::kWarning, "launch", log_directory.warning);
+  }
+
+  tell_isolation(isolation, output);
+
+  const Namespaces* const namespaces = isolation.namespaces ? &*isolation.namespaces : nullptr;
+  const std::unique_ptr<ProcessRunner> runner = make_posix_process_runner(default_exec_program(), namespaces);
+  guardian.set_log(log);
+  ProcessSupervisor supervisor(*loop, *runner, output);
+  supervisor.use_guardian(guardian);
+  supervisor.observe(process_messages(output));
+  if (const UniqueFd terminal(::open("/dev/tty", O_RDONLY | O_NOCTTY | O_CLOEXEC)); terminal) {
+    supervisor.watch_terminal();
+  }
+
+  RosClientProcess ros_client(*loop, RosClientProcess::default_program(), namespaces);
+  LaunchContext context(registry, environment, own_prefix(),
+                        [&output](LogLevel level, std::string_view logger, std::string_view text) {
+                          output.message(level, logger, text);
+                        });
+  context.scope().log_directory = log_directory.path;
+  set_arguments(command, context);
+
+  LaunchTracepoints tracepoints(own_prefix());
+  LaunchService service(context, *loop, supervisor, [&output](const LaunchError& error) {
+    output.error(render(error.diagnostics(), shows_colour(STDERR_FILENO), "launch"));
+  });
+  service.use_ros_client(ros_client);
+  service.use_guardian(guardian);
+  service.give_up_by([&output] {
+    output.show_status("");
+    ::_exit(EXIT_FAILURE);
+  });
+  if (const auto variable = environment.find("OVERRIDE_LAUNCH_IGNORE_FAILURES");
+      command.ignore_failures || (variable != environment.end() && variable->second == "1")) {
+    service.ignore_failures();
+  }
+  service.record_to(tracepoints);
+  service.record(load_record);
+  std::optional<ControlSocket> socket;
+  std::optional<LaunchControl> control;
+  try {
+    socket.emplace(RuntimeDirectory::make(environment), guardian);
+    control.emplace(*loop, socket->fd().get(), supervisor, service.steering(),
+                    launch_facts(command, files, guardian, isolation, log_directory.path, log));
+  } catch (const std::system_error& error) {
+    output.message(LogLevel::kWarning, "launch",
+                   fmt::format("'launch ps' and other commands can't reach this launch: {}", error.what()));
+  }
+  std::optional<StatusLine> status;
+  if (output.can_show_status()) {
+    status.emplace(*loop, supervisor, service.steering(),
+                   [&output](const std::string& line) { output.show_status(line); });
+    service.observe_suspension([&status](bool stops) { status->suspend(stops); });
+  }
+  guardian.wait_until_ready();
+  const int exit_code = service.run(*description);
+  output.show_status("");
+  if (command.timing) {
+    std::vector<TimedStep> steps = {std::move(load)};
+    steps.insert(steps.end(), service.timing().begin(), service.timing().end());
+    print_timing(steps);
+  }
+  return exit_code;
+}
+
+// Before anything else: a launch file can start processes while it is loaded. Programs that the launcher starts for
+// itself have the mark of the launch, too.
+Guardian guard_this_process(const CommandLine& command, const Isolation& isolation) {
+  // The guardian may still end processes of the domain when the launcher has gone.
+  const std::vector<int> held = isolation.domain ? std::vector<int>{isolation.domain->fd()} : std::vector<int>{};
+  Guardian guardian = Guardian::put_above(command.words, Guardian::default_program(), held);
+  const std::string mark = guardian.mark("launch", {});
+  ::setenv(kMarkVariable, mark.c_str() + std::string_view(kMarkVariable).size() + 1, 1);
+  return guardian;
+}
+
+std::string dry_run(const CommandLine& command, LaunchContext& context, const LaunchDescription& description,
+                    const Environment& environment) {
+  const LaunchPlan plan = plan_launch(context, description);
+  const auto show = command.mode == CommandMode::kDryRunJson    ? plan_as_json
+                    : command.mode == CommandMode::kDryRunShell ? plan_as_shell_script
+                                                                : plan_as_text;
+  return show(plan, environment);
+}
+
+}  // namespace
+
+int run_command(const CommandLine& command, Environment environment,
+                std::shared_ptr<const LaunchDescription> description) {
+  if (command.show_all_output) {
+    environment.insert_or_assign("OVERRIDE_LAUNCH_PROCESS_OUTPUT", "both");
+  }
+  if (command.report) {
+    environment.insert_or_assign("LAUNCH_TRACE_REPORT", "1");
+  }
+  if (command.debug) {
+    show_python_tracebacks();
+  }
+  Isolation isolation;
+  std::optional<Guardian> guardian;
+  if (command.mode == CommandMode::kRun) {
+    try {
+      if (command.isolate) {
+        isolation = make_isolation();
+      }
+      guardian = guard_this_process(command, isolation);
+    } catch (const std::runtime_error& error) {
+      fmt::print(stderr, "{}", command_error("launch", error.what()));
+      return 1;
+    }
+  }
+  if (isolation.domain) {
+    const std::string domain = std::to_string(isolation.domain->id());
+    environment.insert_or_assign("ROS_DOMAIN_ID", domain);
+    ::setenv("ROS_DOMAIN_ID", domain.c_str(), 1);
+  }
+  const Registry registry = builtin_actions();
+  std::optional<ResultOutput> result;
+  if (command.mode != CommandMode::kRun) {
+    result.emplace("launch");
+  }
+  try {
+    LaunchContext context(registry, environment, own_prefix(),
+                          [](LogLevel, std::string_view logger, std::string_view text) {
+                            fmt::print(stderr, "[{}]: {}\n", logger, text);
+                          });
+    set_arguments(command, context);
+
+    const std::int64_t begin = monotonic_time();
+    std::vector<std::string> files;
+    if (description == nullptr) {
+      files = find_launch_files(command.target, context.scope());
+      description = load_launch_files(files, registry, context.scope());
+    }
+    if (!command.arguments.empty()) {
+      report_arguments(command, *description, find_arguments(*description, registry, context.scope()));
+    }
+    if (command.trace || command.report) {
+      description = with_trace(*description, registry);
+    }
+    const std::int64_t loading = monotonic_time() - begin;
+    const TimedStep load = {"load", std::chrono::nanoseconds(loading)};
+    switch (command.mode) {
+      case CommandMode::kShowArguments:
+        result->print(show_arguments(find_arguments(*description, registry, context.scope())));
+        return result->finish() ? 0 : 1;
+      case CommandMode::kPrint:
+        result->print(print_description(*description, registry, context.scope()));
+        return result->finish() ? 0 : 1;
+      case CommandMode::kDryRunText:
+      case CommandMode::kDryRunJson:
+      case CommandMode::kDryRunShell:
+        result->print(dry_run(command, context, *description, environment));
+        return result->finish() ? 0 : 1;
+      case CommandMode::kRun:
+        return run(command, registry, environment, description, files, *guardian, isolation, load,
+                   {.kind = LaunchRecord::Kind::kLoad,
+                    .name = description->file == nullptr ? "several files" : description->file->path(),
+                    .where = {description->file, 0, 0},
+                    .time = begin,
+                    .duration = loading});
+    }
+  } catch (const LaunchError& error) {
+    print_errors(error, "launch");
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}", command_error("launch", error.what()));
+  }
+  return 1;
+}
+
+}  // namespace launch

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "programs/launch/top/node_watch.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <sstream>
+#include <utility>
+
+#include "base/environment/own_prefix.hpp"
+#include "base/files/pipe.hpp"
+#include "base/processes/spawn.hpp"
+
+namespace launch {
+namespace {
+
+constexpr char kEndOfText = '\f';
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+}  // namespace
+
+NodeWatch::NodeWatch() : lines_{"A recording of the nodes begins."} {
+  ::signal(SIGPIPE, SIG_IGN);  // launch-watch may have ended when a width is written
+  Pipe input = make_pipe();
+  Pipe output = make_pipe();
+  const std::string program = own_library_file("launch-watch");
+  pid_ = spawn({.program = program,
+                .argv = {program},
+                .descriptors = {{STDIN_FILENO, input.read.get()},
+                                {STDOUT_FILENO, output.write.get()},
+                                {STDERR_FILENO, kDevNull}},
+                .group = ChildGroup::kOwnSession,
+                .signals = ChildSignals::kFresh});
+  input_ = std::move(input.write);
+  output_ = std::move(output.read);
+}
+
+NodeWatch::~NodeWatch() {
+  end();
+}
+
+void NodeWatch::set_width(std::size_t columns) {
+  if (columns == width_ || !input_) {
+    return;
+  }
+  width_ = columns;
+  const std::string line = fmt::format("{}\n", columns);
+  // A program that has ended says why, see read_some().
+  [[maybe_unused]] const ssize_t written = ::write(input_.get(), line.data(), line.size());
+}
+
+void NodeWatch::update() {
+  for (pollfd readable{output_.get(), POLLIN, 0}; output_ && ::poll(&readable, 1, 0) > 0;) {
+    if (!read_some()) {
+      output_.reset();
+    }
+  }
+}
+
+bool NodeWatch::read_some() {
+  std::array<char, 65'536> bytes{};
+  const ssize_t count = ::read(output_.get(), bytes.data(), bytes.size());
+  if (count <= 0) {
+    return count < 0 && errno == EINTR;
+  }
+  received_.append(bytes.data(), static_cast<std::size_t>(count));
+  for (std::size_t end; (end = received_.find(kEndOfText)) != std::string::npos;) {
+    take(received_.substr(0, end));
+    received_.erase(0, end + 1);
+  }
+  return true;
+}
+
+void NodeWatch::take(const std::string& text) {
+  const std::size_t line_end = text.find('\n');
+  const std::string what = text.substr(0, line_end);
+  const std::string rest = line_end == std::string::npos ? std::string() : text.substr(line_end + 1);
+  if (what != "report") {
+    lines_ = lines_of(rest);
+  }
+  if (what == "report") {
+    report_ = rest;
+  }
+}
+
+std::vector<std::string> NodeWatch::lines_with(const std::string& text) const {
+  std::vector<std::string> found;
+  for (const std::string& line : lines_) {
+    if (!line.starts_with("  ") || line.find(text) != std::string::npos) {
+      found.push_back(line);
+    }
+  }
+  return found;
+}
+
+std::string NodeWatch::end() {
+  input_.reset();
+  while (output_ && read_some()) {
+  }
+  output_.reset();
+  if (pid_ > 0) {
+    wait_for(std::exchange(pid_, -1));
+  }
+  return report_;
+}
+
+}  // namespace launch

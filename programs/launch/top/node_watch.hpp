@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the nodes do while `launch top` shows it: runs launch-watch, which records them.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "base/files/unique_fd.hpp"
+
+namespace launch {
+
+class NodeWatch {
+ public:
+  // Starts it. Throws SpawnError.
+  NodeWatch();
+  // Ends it and the recording.
+  ~NodeWatch();
+  NodeWatch(const NodeWatch&) = delete;
+  NodeWatch& operator=(const NodeWatch&) = delete;
+
+  // Takes what has come. Does not block.
+  void update();
+  // The columns of the terminal.
+  void set_width(std::size_t columns);
+
+  // The newest view, or why there is none.
+  const std::vector<std::string>& lines() const { return lines_; }
+  // The lines that hold `text`, and those that are no rows of a table.
+  std::vector<std::string> lines_with(const std::string& text) const;
+
+  // Ends the recording and returns the report of all of it; "" if there is none.
+  std::string end();
+
+ private:
+  void take(const std::string& text);
+  // False at the end.
+  bool read_some();
+
+  pid_t pid_ = -1;
+  UniqueFd input_;
+  UniqueFd output_;
+  std::size_t width_ = 0;
+  std::string received_;
+  std::vector<std::string> lines_;
+  std::string report_;
+};
+
+}  // namespace launch

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// The names in the ROS graph, as the commands need them.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "programs/ros/graph_session.hpp"
+#include "programs/ros/verb.hpp"
+
+namespace launch {
+
+using NamesAndTypes = std::map<std::string, std::vector<std::string>>;
+
+// Full names, sorted; a name as often as nodes have it. Hidden nodes begin with "_".
+std::vector<std::string> node_names(GraphSession& session, bool hidden);
+
+enum class OfNode { kSubscriptions, kPublishers, kServices, kClients };
+// `node` is a full name.
+NamesAndTypes names_of_node(GraphSession& session, const std::string& node, OfNode what);
+
+// The actions among services or clients of a node, which have a part for each: name and type.
+NamesAndTypes actions_among(const NamesAndTypes& services);
+// All actions of the graph.
+NamesAndTypes actions_of_graph(GraphSession& session);
+
+// Prints the names, a line each, with their types if asked for. `count`: prints only how many there are.
+void put_names(const NamesAndTypes& names, bool show_types, bool count);
+
+// Waits until there is the node, 3 seconds or `time`. Throws CommandError if it does not come. Returns the full name.
+std::string require_node(GraphSession& session, const std::string& name, std::optional<Seconds> time);
+
+// Nodes with a service of this name behind their own name ("/get_state") and this type.
+std::vector<std::string> nodes_with_service(GraphSession& session, const std::string& suffix, const std::string& type);
+
+// Calls a service with a request written as YAML, and gives the response. Throws CommandError if it is not there or
+// does not answer within ten seconds.
+struct Reply {
+  std::shared_ptr<const MessageType> type;
+  MessageValue value;
+
+  // A part of it: "result.names". The path must be right.
+  const MessageValue& at(const std::string& path) const;
+};
+Reply ask(GraphSession& session, const std::string& service, const std::string& type, const std::string& request);
+
+// A member of a message that is an element of a list, by name.
+const MessageValue& member(const MessageType& type, const MessageValue& value, const std::string& name);
+const std::string& text_of(const MessageValue& value);
+std::int64_t number_of(const MessageValue& value);
+
+// For the shell's completion.
+std::vector<std::string> all_node_names();
+
+}  // namespace launch

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "programs/ros/graph_session.hpp"
+
+#include <fmt/format.h>
+#include <rcl/graph.h>
+#include <rcl/wait.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <rclcpp/exceptions.hpp>
+
+namespace launch {
+
+namespace {
+
+// A participant is found within a few hundredths of a second, and announced anew each tenth.
+constexpr std::chrono::milliseconds kShortestLook{300};
+constexpr std::chrono::milliseconds kQuiet{200};
+constexpr std::chrono::seconds kLongestLook{3};
+// Matches are no changes of the graph, and a signal may come just before a wait.
+constexpr std::chrono::milliseconds kPatience{50};
+
+volatile sig_atomic_t stopped = 0;
+
+void stop(int /*signal*/) {
+  stopped = 1;
+}
+
+void require_ok(rcl_ret_t ret) {
+  if (ret != RCL_RET_OK) {
+    rclcpp::exceptions::throw_from_rcl_error(ret, "cannot wait for the graph");
+  }
+}
+
+class WaitSet {
+ public:
+  WaitSet(const GraphSession::WakeUps& wake_ups, rcl_context_t* context) {
+    require_ok(rcl_wait_set_init(&set_, wake_ups.subscriptions.size(), 1, 0, wake_ups.clients.size(), 0, 0, context,
+                                 rcl_get_default_allocator()));
+  }
+  ~WaitSet() { (void)rcl_wait_set_fini(&set_); }
+  WaitSet(const WaitSet&) = delete;
+  WaitSet& operator=(const WaitSet&) = delete;
+
+  rcl_wait_set_t& set() { return set_; }
+
+ private:
+  rcl_wait_set_t set_ = rcl_get_zero_initialized_wait_set();
+};
+
+}  // namespace
+
+GraphSession::GraphSession(const std::string& name) {
+  rclcpp::init(0, nullptr, rclcpp::InitOptions().auto_initialize_logging(false), rclcpp::SignalHandlerOptions::None);
+  struct sigaction action {};
+  action.sa_handler = stop;
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+  node_ = std::make_shared<rclcpp::Node>(name.empty() ? fmt::format("_launch_{}", ::getpid()) : name,
+                                         rclcpp::NodeOptions()
+                                             .start_parameter_services(false)
+                                             .start_parameter_event_publisher(false)
+                                             .enable_rosout(false)
+                                             .use_global_arguments(false));
+  last_change_ = SessionClock::now();
+}
+
+GraphSession::~GraphSession() {
+  node_.reset();
+  rclcpp::shutdown();
+}
+
+rcl_node_t& GraphSession::rcl_node() {
+  return *node_->get_node_base_interface()->get_rcl_node_handle();
+}
+
+bool GraphSession::is_stopped() {
+  return stopped != 0;
+}
+
+void GraphSession::forget_stop() {
+  stopped = 0;
+}
+
+void GraphSession::discover(std::optional<Seconds> time) {
+  const SessionClock::time_point begin = SessionClock::now();
+  const auto longest = begin + std::chrono::duration_cast<SessionClock::duration>(time.value_or(kLongestLook));
+  while (!is_stopped() && SessionClock::now() < longest) {
+    const SessionClock::time_point quiet = std::max(last_change_ + kQuiet, begin + kShortestLook);
+    if (!time && SessionClock::now() >= quiet) {
+      return;
+    }
+    wait({}, time ? longest : std::min(quiet, longest));
+  }
+}
+
+bool GraphSession::wait_until(const std::function<bool()>& holds, std::optional<Seconds> time) {
+  const auto end = time ? SessionClock::now() + std::chrono::duration_cast<SessionClock::duration>(*time)
+                        : SessionClock::time_point::max();
+  while (true) {
+    if (holds()) {
+      return true;
+    }
+    if (is_stopped() || SessionClock::now() >= end) {
+      return false;
+    }
+    wait({}, end);
+  }
+}
+
+void GraphSession::wait(const WakeUps& wake_ups, SessionClock::time_point until) {
+  const auto now = SessionClock::now();
+  if (is_stopped()) {
+    return;
+  }
+  const auto time = std::clamp<SessionClock::duration>(until - now, SessionClock::duration(0), kPatience);
+  rcl_node_t* const node = &rcl_node();
+  WaitSet wait(wake_ups, node->context);
+  const rcl_guard_condition_t* const graph = rcl_node_get_graph_guard_condition(node);
+  require_ok(rcl_wait_set_add_guard_condition(&wait.set(), graph, nullptr));
+  for (const rcl_subscription_t* subscription : wake_ups.subscriptions) {
+    require_ok(rcl_wait_set_add_subscription(&wait.set(), subscription, nullptr));
+  }
+  for (const rcl_client_t* client : wake_ups.clients) {
+    require_ok(rcl_wait_set_add_client(&wait.set(), client, nullptr));
+  }
+  const rcl_ret_t ret = rcl_wait(&wait.set(), std::chrono::nanoseconds(time).count());
+  if (ret == RCL_RET_TIMEOUT) {
+    rcl_reset_error();
+    return;
+  }
+  require_ok(ret);
+  if (wait.set().guard_conditions[0] != nullptr) {
+    last_change_ = SessionClock::now();
+  }
+}
+
+}  // namespace launch

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+// launch param list, get, set, describe, delete
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <regex>
+
+#include "base/diagnostics/diagnostic.hpp"
+#include "launcher/message_types/print_value.hpp"
+#include "programs/ros/graph_names.hpp"
+#include "programs/ros/parameter_text.hpp"
+#include "programs/ros/parameter_verb.hpp"
+
+namespace launch {
+
+namespace {
+
+constexpr const char* kTypeNames[] = {"not set",    "boolean",       "integer",       "double",       "string",
+                                      "byte array", "boolean array", "integer array", "double array", "string array"};
+constexpr const char* kLabels[] = {
+    "Parameter not set.", "Boolean value is:",   "Integer value is:",   "Double value is:",   "String value is:",
+    "Byte values are:",   "Boolean values are:", "Integer values are:", "Double values are:", "String values are:"};
+
+class ParamList final : public Verb {
+ public:
+  void declare(CLI::App& app) override {
+    app.add_option("node", node_, "name of the node; default: all nodes");
+    look_.declare(app);
+    app.add_flag("--include-hidden-nodes", hidden_, "also nodes whose name begins with '_'");
+    app.add_option("--param-prefixes", prefixes_, "only parameters below these names")->expected(1, 100);
+    app.add_flag("--param-type", types_, "also print the types");
+    app.add_option("--filter", filter_, "only names that begin like this regular expression");
+  }
+
+  int run() override {
+    GraphSession session;
+    session.discover(look_.time());
+    std::vector<std::string> nodes;
+    if (node_.empty()) {
+      nodes = nodes_with_service(session, "/list_parameters", "rcl_interfaces/srv/ListParameters");
+      std::erase_if(nodes, [this](const std::string& node) { return !hidden_ && is_hidden(node); });
+    } else {
+      nodes.push_back(require_node(session, node_, look_.time()));
+    }
+    for (const std::string& node : nodes) {
+      std::vector<std::string> names = parameter_names(session, node, prefixes_);
+      if (!filter_.empty()) {
+        const std::regex pattern(filter_);
+        std::erase_if(names, [&](const std::string& name) {
+          return !std::regex_search(name, pattern, std::regex_constants::match_continuous);
+        });
+      }
+      put(node_.empty() && !names.empty() ? node + ":\n" : "");
+      std::vector<std::int64_t> types;
+      if (types_ && !names.empty()) {
+        const Reply reply = ask(session, node + "/describe_parameters", "rcl_interfaces/srv/DescribeParameters",
+                                fmt::format("{{names: {}}}", yaml_list(names)));
+        const MessageType& descriptor = *reply.type->find("descriptors")->type.message;
+        for (const MessageValue& each : reply.at("descriptors").list()) {
+          types.push_back(number_of(member(descriptor, each, "type")));
+        }
+      }
+      for (std::size_t i = 0; i < names.size(); ++i) {
+        put(i < types.size() ? fmt::format("  {} (type: {})\n", names[i], kTypeNames[types[i]])
+                             : fmt::format("  {}\n", names[i]));
+      }
+    }
+    return 0;
+  }
+
+  std::vector<std::string> complete(const std::vector<std::string>& words) override {
+    return words.empty() ? all_node_names() : std::vector<std::string>();
+  }
+
+ private:
+  std::string node_, filter_;
+  LookOptions look_;
+  bool hidden_ = false;
+  bool types_ = false;
+  std::vector<std::string> prefixes_;
+};
+
+class ParamGet final : public ParameterVerb {
+ public:
+  void declare(CLI::App& app) override {
+    declare_node(app);
+    app.add_option("parameter", parameter_, "name of the parameter")->required();
+    app.add_flag("--hide-type", hide_type_, "print the value alone");
+  }
+
+  int run() override {
+    GraphSession session;
+    const std::string node = find_node(session);
+    const std::vector<ParameterReading> values = parameter_values(session, node, {parameter_});
+    if (values.empty() || values.front().type == 0) {
+      throw CommandError(fmt::format("parameter '{}' of '{}' is not set", parameter_, node),
+                         did_you_mean(parameter_, parameter_names(session, node, {})));
+    }
+    const ParameterReading& value = values.front();
+    put(hide_type_ ? value.python() + "\n" : fmt::format("{} {}\n", kLabels[value.type], value.python()));
+    return 0;
+  }
+
+ private:
+  bool hide_type_ = false;
+};
+
+class ParamSet final : public ParameterVerb {
+ public:
+  void declare(CLI::App& app) override {
+    declare_node(app);
+    app.add_option("parameter", parameter_, "name of the parameter")->required();
+    app.add_option("value", value_, "the value as YAML: 3, 1.5, true, text, [1, 2]")->required();
+  }
+
+  int run() override {
+    GraphSession session;
+    const std::string node = find_node(session);
+    return report(set_parameter(session, node, parameter_, parameter_value_yaml(value_)), "Set parameter successful",
+                  "Setting parameter failed");
+  }
+
+ private:
+  std::string value_;
+};
+
+class ParamDelete final : public ParameterVerb {
+ public:
+  void declare(CLI::App& app) override {
+    declare_node(app);
+    app.add_option("parameter", parameter_, "name of the parameter")->required();
+  }
+
+  int run() override {
+    GraphSession session;
+    const std::string node = find_node(session);
+    return report(set_parameter(session, node, parameter_, "{type: 0}"), "Deleted parameter successfully",
+                  "Deleting parameter failed");
+  }
+};
+
+class ParamDescribe final : public ParameterVerb {
+ public:
+  void declare(CLI::App& app) override {
+    declare_node(app);
+    app.add_option("parameters", parameters_, "names of the parameters")->required();
+  }
+
+  int run() override {
+    GraphSession session;
+    const std::string node = find_node(session);
+    const Reply reply = ask(session, node + "/describe_parameters", "rcl_interfaces/srv/DescribeParameters",
+                            fmt::format("{{names: {}}}", yaml_list(parameters_)));
+    const MessageType& descriptor = *reply.type->find("descriptors")->type.message;
+    for (const MessageValue& each : reply.at("descriptors").list()) {
+      put(description(descriptor, each));
+    }
+    return 0;
+  }
+
+ private:
+  static std::string description(const MessageType& type, const MessageValue& value) {
+    const auto at = [&](const char* name) -> const MessageValue& { return member(type, value, name); };
+    std::string text =
+        fmt::format("Parameter name: {}\n  Type: {}\n", text_of(at("name")), kTypeNames[number_of(at("type"))]);
+    if (!text_of(at("description")).empty()) {
+      text += fmt::format("  Description: {}\n", text_of(at("description")));
+    }
+    text += "  Constraints:\n";
+    if (std::get<bool>(at("read_only").data)) {
+      text += "    Read only: true\n";
+    }
+    for (const char* const name : {"floating_point_range", "integer_range"}) {
+      const MessageType& range = *type.find(name)->type.message;
+      for (const MessageValue& each : at(name).list()) {
+        const auto part = [&](const char* of) { return to_csv(range.find(of)->type, member(range, each, of)); };
+        text += fmt::format("    Min value: {}\n    Max value: {}\n", part("from_value"), part("to_value"));
+        if (part("step") != "0" && part("step") != "0.0") {
+          text += fmt::format("    Step: {}\n", part("step"));
+        }
+      }
+    }
+    if (!text_of(at("additional_constraints")).empty()) {
+      text += fmt::format("    Additional constraints: {}\n", text_of(at("additional_constraints")));
+    }
+    return text;
+  }
+
+  std::vector<std::string> parameters_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_param_list() {
+  return std::make_unique<ParamList>();
+}
+std::unique_ptr<Verb> make_param_get() {
+  return std::make_unique<ParamGet>();
+}
+std::unique_ptr<Verb> make_param_set() {
+  return std::make_unique<ParamSet>();
+}
+std::unique_ptr<Verb> make_param_delete() {
+  return std::make_unique<ParamDelete>();
+}
+std::unique_ptr<Verb> make_param_describe() {
+  return std::make_unique<ParamDescribe>();
+}
+
+}  // namespace launch

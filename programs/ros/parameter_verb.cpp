@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "programs/ros/parameter_verb.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "launcher/message_types/print_value.hpp"
+#include "launcher/message_types/python_text.hpp"
+#include "launcher/message_types/yaml_text.hpp"
+#include "programs/ros/parameter_text.hpp"
+
+namespace launch {
+
+namespace {
+
+// The members of ParameterValue, by ParameterType.
+constexpr const char* kMembers[] = {"",
+                                    "bool_value",
+                                    "integer_value",
+                                    "double_value",
+                                    "string_value",
+                                    "byte_array_value",
+                                    "bool_array_value",
+                                    "integer_array_value",
+                                    "double_array_value",
+                                    "string_array_value"};
+
+}  // namespace
+
+std::string ParameterReading::python() const {
+  if (type == 0) {
+    return "None";
+  }
+  // A text alone is printed as it is.
+  return field.many == Many::kOne && field.kind == FieldKind::kString ? text_of(value) : to_python(field, value);
+}
+
+std::vector<std::string> parameter_names(GraphSession& session, const std::string& node,
+                                         const std::vector<std::string>& prefixes) {
+  const Reply reply = ask(session, node + "/list_parameters", "rcl_interfaces/srv/ListParameters",
+                          fmt::format("{{prefixes: {}}}", yaml_list(prefixes)));
+  std::vector<std::string> names;
+  for (const MessageValue& name : reply.at("result.names").list()) {
+    names.push_back(text_of(name));
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::vector<ParameterReading> parameter_values(GraphSession& session, const std::string& node,
+                                               const std::vector<std::string>& names) {
+  const Reply reply = ask(session, node + "/get_parameters", "rcl_interfaces/srv/GetParameters",
+                          fmt::format("{{names: {}}}", yaml_list(names)));
+  const MessageType& type = *reply.type->find("values")->type.message;
+  std::vector<ParameterReading> readings;
+  for (const MessageValue& value : reply.at("values").list()) {
+    ParameterReading& reading = readings.emplace_back();
+    reading.type = static_cast<std::size_t>(number_of(member(type, value, "type")));
+    if (reading.type != 0 && reading.type < std::size(kMembers)) {
+      reading.field = type.find(kMembers[reading.type])->type;
+      reading.value = member(type, value, kMembers[reading.type]);
+    }
+  }
+  return readings;
+}
+
+SetResult set_parameter(GraphSession& session, const std::string& node, const std::string& name,
+                        const std::string& value) {
+  const Reply reply = ask(session, node + "/set_parameters", "rcl_interfaces/srv/SetParameters",
+                          fmt::format("{{parameters: [{{name: {}, value: {}}}]}}", yaml_text(name, true), value));
+  const MessageType& type = *reply.type->find("results")->type.message;
+  const MessageValue::List& results = reply.at("results").list();
+  if (results.empty()) {
+    throw CommandError(fmt::format("'{}' has not said whether it has set '{}'", node, name));
+  }
+  return {std::get<bool>(member(type, results.front(), "successful").data),
+          text_of(member(type, results.front(), "reason"))};
+}
+
+void ParameterVerb::declare_node(CLI::App& app) {
+  app.add_option("node", node_, "name of the node")->required();
+  look_.declare(app);
+  app.add_flag("--include-hidden-nodes", hidden_, "has no effect: a node that is named may be hidden");
+  app.add_option("--timeout", timeout_, "wait so many seconds for the node")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+}
+
+std::string ParameterVerb::find_node(GraphSession& session) const {
+  return require_node(session, node_, Seconds(std::max(timeout_, look_.spin_time.value_or(0.0))));
+}
+
+int ParameterVerb::report(const SetResult& result, const std::string& good, const std::string& bad) {
+  const std::string text = (result.successful ? good : bad) + (result.reason.empty() ? "" : ": " + result.reason);
+  if (result.successful) {
+    put(text + "\n");
+    return 0;
+  }
+  fmt::print(stderr, "{}\n", text);
+  return 1;
+}
+
+std::vector<std::string> ParameterVerb::complete(const std::vector<std::string>& words) {
+  if (words.empty()) {
+    return all_node_names();
+  }
+  if (words.size() > 1) {
+    return {};
+  }
+  GraphSession session;
+  return parameter_names(session, require_node(session, words.front(), std::nullopt), {});
+}
+
+}  // namespace launch

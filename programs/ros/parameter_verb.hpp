@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the commands on parameters of one node have in common.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "programs/ros/graph_names.hpp"
+#include "programs/ros/topic_graph.hpp"
+#include "programs/ros/verb.hpp"
+
+namespace launch {
+
+// The value of a parameter that a node has answered with.
+struct ParameterReading {
+  std::size_t type = 0;  // rcl_interfaces/msg/ParameterType
+  FieldType field;       // of the value
+  MessageValue value;    // none if the parameter is not set
+
+  std::string python() const;  // as Python prints it
+};
+
+std::vector<std::string> parameter_names(GraphSession& session, const std::string& node,
+                                         const std::vector<std::string>& prefixes);
+std::vector<ParameterReading> parameter_values(GraphSession& session, const std::string& node,
+                                               const std::vector<std::string>& names);
+
+struct SetResult {
+  bool successful = false;
+  std::string reason;
+};
+// `value` is a rcl_interfaces/msg/ParameterValue as YAML.
+SetResult set_parameter(GraphSession& session, const std::string& node, const std::string& name,
+                        const std::string& value);
+
+class ParameterVerb : public Verb {
+ public:
+  std::vector<std::string> complete(const std::vector<std::string>& words) override;
+
+ protected:
+  void declare_node(CLI::App& app);
+  // Waits for the node. Returns its full name.
+  std::string find_node(GraphSession& session) const;
+  // Prints the result, and returns the exit code.
+  static int report(const SetResult& result, const std::string& good, const std::string& bad);
+
+  std::string node_;
+  std::string parameter_;
+
+ private:
+  LookOptions look_;
+  bool hidden_ = false;
+  double timeout_ = 1.0;
+};
+
+}  // namespace launch

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the commands on topics have in common.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "programs/ros/graph_session.hpp"
+#include "programs/ros/verb.hpp"
+
+namespace launch {
+
+// The options that `ros2` has for all commands that look at the graph.
+struct LookOptions {
+  std::optional<double> spin_time;
+  bool no_daemon = false;
+
+  void declare(CLI::App& app);
+  std::optional<Seconds> time() const;
+};
+
+// Options for the quality of service.
+struct QosOptions {
+  std::string profile;
+  std::optional<int> depth;
+  std::string history, reliability, durability, liveliness;
+  std::optional<double> lease;
+
+  // `verb` is "subscribe" or "publish", `default_profile` "sensor_data" or "default".
+  void declare(CLI::App& app, const std::string& verb, const std::string& default_profile);
+  // The profile with the changes that were asked for. Throws CommandError for an unknown word.
+  rmw_qos_profile_t make() const;
+  bool is_chosen() const;
+};
+
+// The quality of service with which a subscription hears every publisher that there is, beginning with `profile`.
+// Warns if publishers differ.
+rmw_qos_profile_t matching_qos(GraphSession& session, const std::string& topic, rmw_qos_profile_t profile);
+
+// Nullopt if nobody knows the topic. Throws CommandError if it has several types.
+std::optional<std::string> type_of_topic(GraphSession& session, const std::string& topic);
+
+// Waits until the topic has a type, without end, and says once that it waits. Empty if the user has asked to stop.
+std::string wait_for_type(GraphSession& session, const std::string& topic);
+
+// The names of all topics, or the types of one, for the shell's completion.
+std::vector<std::string> topic_names();
+std::vector<std::string> types_of_topic_or_all(const std::string& topic);
+
+// For a topic that does not exist.
+CommandError unknown_topic(GraphSession& session, const std::string& topic);
+
+}  // namespace launch

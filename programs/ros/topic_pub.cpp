@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// launch topic pub
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <iterator>
+
+#include "launcher/message_types/python_text.hpp"
+#include "launcher/message_types/read_value.hpp"
+#include "programs/ros/endpoints.hpp"
+#include "programs/ros/topic_graph.hpp"
+
+namespace launch {
+
+namespace {
+
+// A subscription may learn of the publisher after the publisher has learned of the subscription. A reliable one then
+// asks for what it has missed.
+constexpr Seconds kAckPatience(2);
+
+class TopicPub final : public Verb {
+ public:
+  void declare(CLI::App& app) override {
+    app.add_option("topic", topic_, "name of the topic")->required();
+    app.add_option("type", type_, "type of the messages, such as std_msgs/msg/String")->required();
+    CLI::Option* const values = app.add_option("values", values_, "the message as YAML; default: {}");
+    app.add_flag("--stdin", stdin_, "read the message from standard input")->excludes(values);
+    app.add_option("-r,--rate", rate_, "messages in a second")->check(CLI::PositiveNumber)->capture_default_str();
+    app.add_option("-p,--print", print_nth_, "print each N-th message")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    CLI::Option* const once = app.add_flag("-1,--once", once_, "publish one message");
+    app.add_option("-t,--times", times_, "publish so many messages")->check(CLI::NonNegativeNumber)->excludes(once);
+    app.add_option("-w,--wait-matching-subscriptions", wait_,
+                   "wait for so many subscriptions first; default: 1 with --once or --times, else 0")
+        ->check(CLI::NonNegativeNumber);
+    app.add_option("--max-wait-time-secs", longest_wait_, "fail after waiting so long; default: wait without end")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--keep-alive", keep_alive_, "keep the publisher so many seconds after the last message")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    app.add_option("-n,--node-name", node_name_, "name of the node; default: a hidden one");
+    qos_.declare(app, "publish", "default");
+    look_.declare(app);
+  }
+
+  int run() override {
+    const std::string topic = full_name(topic_);
+    const std::shared_ptr<const MessageType> type = installed_interfaces().message(type_);
+    if (stdin_) {
+      values_.assign(std::istreambuf_iterator<char>(std::cin), {});
+    }
+    MessageText message = read_message(*type, word_of_command_line(stdin_ ? "standard input" : "values", values_));
+    times_ = once_ ? 1 : times_;
+    const std::size_t wanted = wait_.value_or(times_ != 0 ? 1 : 0);
+    if (wanted == 0 && longest_wait_) {
+      throw CommandError("--max-wait-time-secs needs --wait-matching-subscriptions, --once or --times");
+    }
+    GraphSession session(node_name_);
+    DescribedPublisher publisher(session, topic, type, qos_.make());
+    if (!wait_for_subscriptions(session, publisher, wanted)) {
+      return GraphSession::is_stopped() ? 0 : 1;
+    }
+    put("publisher: beginning loop\n");
+    const auto period = std::chrono::duration_cast<SessionClock::duration>(Seconds(1.0 / rate_));
+    auto next = SessionClock::now();
+    for (std::uint64_t count = 1; !GraphSession::is_stopped() && (times_ == 0 || count <= times_); ++count) {
+      message.stamp(session.node().now().nanoseconds());
+      if (print_nth_ != 0 && count % print_nth_ == 0) {
+        put(fmt::format("publishing #{}: {}\n\n", count, to_python(*type, message.value)));
+      }
+      publisher.publish(message.value);
+      next += period;
+      while (count != times_ && !GraphSession::is_stopped() && SessionClock::now() < next) {
+        session.wait({}, next);
+      }
+    }
+    publisher.wait_for_all_acked(kAckPatience);
+    const auto end = SessionClock::now() + std::chrono::duration_cast<SessionClock::duration>(Seconds(keep_alive_));
+    while (!GraphSession::is_stopped() && SessionClock::now() < end) {
+      session.wait({}, end);
+    }
+    return 0;
+  }
+
+  std::vector<std::string> complete(const std::vector<std::string>& words) override {
+    return words.empty()       ? topic_names()
+           : words.size() == 1 ? types_of_topic_or_all(words.front())
+                               : std::vector<std::string>();
+  }
+
+ private:
+  bool wait_for_subscriptions(GraphSession& session, const DescribedPublisher& publisher, std::size_t wanted) const {
+    const auto enough = [&] { return publisher.subscription_count() >= wanted; };
+    Seconds waited(0);
+    while (!session.wait_until(enough, waited == Seconds(0) ? Seconds(0) : Seconds(1))) {
+      if (GraphSession::is_stopped()) {
+        return false;
+      }
+      if (longest_wait_ && waited.count() >= *longest_wait_) {
+        throw CommandError(fmt::format("waited for subscriptions in vain: {} of {} are there",
+                                       publisher.subscription_count(), wanted));
+      }
+      fmt::print("Waiting for at least {} matching subscription(s)...\n", wanted);
+      put("");
+      waited += Seconds(1);
+    }
+    return true;
+  }
+
+  std::string topic_, type_, values_ = "{}", node_name_;
+  bool stdin_ = false, once_ = false;
+  double rate_ = 1.0;
+  std::uint64_t print_nth_ = 1;
+  std::uint64_t times_ = 0;
+  std::optional<std::size_t> wait_;
+  std::optional<double> longest_wait_;
+  double keep_alive_ = 0.1;
+  QosOptions qos_;
+  LookOptions look_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_topic_pub() {
+  return std::make_unique<TopicPub>();
+}
+
+}  // namespace launch

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: Apache-2.0
+// launch topic hz, bw, delay
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <map>
+
+#include "launcher/message_types/cdr/cdr_codec.hpp"
+#include "launcher/message_types/field_path.hpp"
+#include "launcher/message_types/message_condition.hpp"
+#include "programs/ros/endpoints.hpp"
+#include "programs/ros/rate_statistics.hpp"
+#include "programs/ros/topic_graph.hpp"
+
+namespace launch {
+
+namespace {
+
+constexpr std::chrono::seconds kPrintPeriod{1};
+
+// A topic and what is measured of it.
+struct Measured {
+  std::string topic;
+  std::shared_ptr<const MessageType> type;
+  std::unique_ptr<RawSubscription> subscription;
+};
+
+// None if the user has asked to stop before the topic has appeared.
+std::optional<Measured> measure(GraphSession& session, const std::string& topic, const QosOptions& qos) {
+  const std::string type = wait_for_type(session, topic);
+  if (type.empty()) {
+    return std::nullopt;
+  }
+  Measured measured{topic, installed_interfaces().message(type), nullptr};
+  measured.subscription = std::make_unique<RawSubscription>(session, topic, measured.type, qos.make());
+  return measured;
+}
+
+// Calls `take` for each message and `print` each second, until the user stops it.
+template <typename Take, typename Print>
+void run_until_stopped(GraphSession& session, const std::vector<Measured>& topics, const Take& take,
+                       const Print& print) {
+  auto next = SessionClock::now() + kPrintPeriod;
+  GraphSession::WakeUps wake_ups;
+  for (const Measured& topic : topics) {
+    wake_ups.subscriptions.push_back(topic.subscription->handle());
+  }
+  while (!GraphSession::is_stopped()) {
+    for (const Measured& topic : topics) {
+      while (const auto message = topic.subscription->take()) {
+        take(topic, *message);
+      }
+    }
+    if (SessionClock::now() >= next) {
+      print();
+      next += kPrintPeriod;
+    }
+    session.wait(wake_ups, next);
+  }
+}
+
+double now_seconds(GraphSession& session) {
+  return session.node().now().seconds();
+}
+
+class TopicHz final : public Verb {
+ public:
+  void declare(CLI::App& app) override {
+    app.add_option("topic", topics_, "names of the topics")->required();
+    app.add_option("-w,--window", window_, "the last so many messages count")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    app.add_option("--filter", filter_, "only messages of which this holds, such as 'm.data > 3'");
+    app.add_flag("--wall-time", wall_time_, "has no effect: the time of the machine is used");
+    qos_.declare(app, "subscribe", "sensor_data");
+    look_.declare(app);
+  }
+
+  int run() override {
+    GraphSession session;
+    std::vector<Measured> measured;
+    for (const std::string& topic : topics_) {
+      auto one = measure(session, full_name(topic), qos_);
+      if (!one) {
+        return 0;
+      }
+      if (!filter_.empty()) {
+        conditions_.try_emplace(one->topic, one->type, word_of_command_line("--filter", filter_));
+      }
+      statistics_.try_emplace(one->topic, window_);
+      if (topics_.size() > 1) {
+        put(fmt::format("Subscribed to [{}]\n", one->topic));
+      }
+      measured.push_back(std::move(*one));
+    }
+    run_until_stopped(
+        session, measured,
+        [&](const Measured& topic, const RawSubscription::Message& message) { take(session, topic, message); },
+        [&] { print(measured); });
+    return 0;
+  }
+
+  std::vector<std::string> complete(const std::vector<std::string>& words) override {
+    (void)words;
+    return topic_names();
+  }
+
+ private:
+  void take(GraphSession& session, const Measured& topic, const RawSubscription::Message& message) {
+    if (const auto condition = conditions_.find(topic.topic); condition != conditions_.end()) {
+      const rmw_serialized_message_t& bytes = message.bytes.get_rcl_serialized_message();
+      if (!condition->second.holds(from_cdr(*topic.type, bytes.buffer, bytes.buffer_length))) {
+        return;
+      }
+    }
+    statistics_.at(topic.topic).add_arrival(now_seconds(session));
+  }
+
+  void print(const std::vector<Measured>& topics) {
+    std::vector<std::pair<std::string, RateStatistics::Summary>> rows;
+    for (const Measured& topic : topics) {
+      if (const auto summary = statistics_.at(topic.topic).take_summary()) {
+        rows.emplace_back(topic.topic, *summary);
+      }
+    }
+    put(topics.size() == 1 ? (rows.empty() ? "" : rate_text(rows.front().second)) : rate_table(rows));
+  }
+
+  std::vector<std::string> topics_;
+  std::size_t window_ = 10000;
+  std::string filter_;
+  bool wall_time_ = false;
+  QosOptions qos_;
+  LookOptions look_;
+  std::map<std::string, RateStatistics> statistics_;
+  std::map<std::string, MessageCondition> conditions_;
+};
+
+class TopicBw final : public Verb {
+ public:
+  void declare(CLI::App& app) override {
+    app.add_option("topic", topic_, "name of the topic")->required();
+    app.add_option("-w,--window", window_, "the last so many messages count")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    qos_.declare(app, "subscribe", "sensor_data");
+    look_.declare(app);
+  }
+
+  int run() override {
+    GraphSession session;
+    std::vector<Measured> measured;
+    if (auto one = measure(session, full_name(topic_), qos_)) {
+      measured.push_back(std::move(*one));
+      put(fmt::format("Subscribed to [{}]\n", measured.front().topic));
+      BandwidthStatistics statistics(window_);
+      run_until_stopped(
+          session, measured,
+          [&](const Measured&, const RawSubscription::Message& message) {
+            statistics.add(now_seconds(session), message.bytes.size());
+          },
+          [&] { put(statistics.text(now_seconds(session))); });
+    }
+    return 0;
+  }
+
+  std::vector<std::string> complete(const std::vector<std::string>& words) override {
+    return words.empty() ? topic_names() : std::vector<std::string>();
+  }
+
+ private:
+  std::string topic_;
+  std::size_t window_ = 100;
+  QosOptions qos_;
+  LookOptions look_;
+};
+
+class TopicDelay final : public Verb {
+ public:
+  void declare(CLI::App& app) override {
+    app.add_option("topic", topic_, "name of the topic; its messages have a header")->required();
+    app.add_option("-w,--window", window_, "the last so many messages count")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    qos_.declare(app, "subscribe", "sensor_data");
+    look_.declare(app);
+  }
+
+  int run() override {
+    GraphSession session;
+    std::vector<Measured> measured;
+    auto one = measure(session, full_name(topic_), qos_);
+    if (!one) {
+      return 0;
+    }
+    const MessageField* const header = one->type->find("header");
+    if (header == nullptr || header->type.message == nullptr || header->type.message->name != "std_msgs/msg/Header") {
+      throw CommandError(fmt::format("messages of type {} have no header", one->type->name));
+    }
+    const FieldPath stamp(one->type, LocatedText("header.stamp"));
+    measured.push_back(std::move(*one));
+    RateStatistics statistics(window_);
+    bool any = false;
+    run_until_stopped(
+        session, measured,
+        [&](const Measured& topic, const RawSubscription::Message& message) {
+          const rmw_serialized_message_t& bytes = message.bytes.get_rcl_serialized_message();
+          const MessageValue value = from_cdr(*topic.type, bytes.buffer, bytes.buffer_length);
+          const MessageValue::List& time = stamp.find(value)->list();
+          const double sent = static_cast<double>(std::get<std::int64_t>(time[0].data)) +
+                              1e-9 * static_cast<double>(std::get<std::int64_t>(time[1].data));
+          statistics.add(now_seconds(session) - sent);
+          any = true;
+        },
+        [&] {
+          if (const auto summary = statistics.take_summary()) {
+            put(delay_text(*summary));
+          } else if (any) {
+            put("no new messages\n");
+          }
+        });
+    return 0;
+  }
+
+  std::vector<std::string> complete(const std::vector<std::string>& words) override {
+    return words.empty() ? topic_names() : std::vector<std::string>();
+  }
+
+ private:
+  std::string topic_;
+  std::size_t window_ = 100;
+  QosOptions qos_;
+  LookOptions look_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_topic_hz() {
+  return std::make_unique<TopicHz>();
+}
+std::unique_ptr<Verb> make_topic_bw() {
+  return std::make_unique<TopicBw>();
+}
+std::unique_ptr<Verb> make_topic_delay() {
+  return std::make_unique<TopicDelay>();
+}
+
+}  // namespace launch

@@ -1,0 +1,425 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/decode/reader/direct_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <system_error>
+#include <tuple>
+
+#include "tracing/decode/ctf/event_layout.hpp"
+#include "tracing/decode/ctf/metadata_text.hpp"
+#include "tracing/decode/ctf/packet.hpp"
+#include "tracing/decode/ctf/stream_cursor.hpp"
+#include "tracing/decode/ctf/trace_class.hpp"
+#include "tracing/decode/reader/trace_read_error.hpp"
+
+namespace tracing {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// A context of every event of a stream.
+struct Context {
+  std::size_t index = 0;                // in the structure
+  std::optional<std::uint32_t> offset;  // bytes from its beginning, for a usual type with a fixed place
+};
+
+// The parts that all events of one stream class share.
+struct StreamClass {
+  StreamClass(const ctf::TraceClass& trace, const ctf::StreamDeclaration& stream)
+      : layout(trace, stream), vpid(context("vpid")), vtid(context("vtid")), procname(context("procname")) {}
+
+  std::optional<Context> context(std::string_view name) const {
+    const ctf::StructureDecoder& contexts = layout.event_context();
+    const std::optional<std::size_t> index = contexts.index_of(name);
+    if (!index) {
+      return std::nullopt;
+    }
+    Context context{*index, std::nullopt};
+    const ctf::FieldClass& type = *contexts.type()->members[*index].type;
+    const bool is_usual = type.access == ctf::NumberAccess::kSigned32 || type.is_characters();
+    if (contexts.fixed_size() && is_usual) {
+      context.offset = contexts.fixed_places()[*index].offset;
+    }
+    return context;
+  }
+
+  ctf::StreamLayout layout;
+  std::optional<Context> vpid;
+  std::optional<Context> vtid;
+  std::optional<Context> procname;
+};
+
+// Both functions write the value in its place: returning an optional takes longer than reading the value.
+void read_number(const ctf::Record& contexts, const Context& context, std::optional<std::int64_t>& value) {
+  if (!context.offset || contexts.base == nullptr) {
+    value = contexts[context.index].integer();
+    return;
+  }
+  std::int32_t number = 0;
+  std::memcpy(&number, contexts.base + *context.offset, sizeof number);
+  value.emplace(number);
+}
+
+void read_text(const ctf::Record& contexts, const Context& context, std::optional<std::string_view>& value) {
+  if (!context.offset || contexts.base == nullptr) {
+    value = contexts[context.index].string();
+    return;
+  }
+  const auto* const bytes = reinterpret_cast<const char*>(contexts.base + *context.offset);
+  value.emplace(bytes, strnlen(bytes, contexts.places[context.index].length));
+}
+
+// Sorts the packets of one stream, from all its files, by time. A packet that is in several snapshots counts once.
+void put_in_order(std::vector<ctf::Packet>& packets) {
+  const auto key = [](const ctf::Packet& packet) {
+    return std::tuple(packet.time_begin, packet.sequence_number, packet.time_end, packet.content_bits);
+  };
+  std::stable_sort(packets.begin(), packets.end(),
+                   [&](const ctf::Packet& a, const ctf::Packet& b) { return key(a) < key(b); });
+  const auto same = [&](const ctf::Packet& a, const ctf::Packet& b) {
+    return a.sequence_number && a.file != b.file && key(a) == key(b);
+  };
+  packets.erase(std::unique(packets.begin(), packets.end(), same), packets.end());
+}
+
+// The stream files of a trace, in the order of their names. There is an error when another program has removed the
+// directory.
+std::vector<fs::path> stream_files(const fs::path& directory, std::error_code& error) {
+  std::vector<fs::path> files;
+  fs::directory_iterator entry(directory, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    const std::string name = entry->path().filename();
+    std::error_code gone;
+    if (entry->is_regular_file(gone) && name != "metadata" && !name.starts_with('.')) {
+      files.push_back(entry->path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// The metadata of a trace that is still being written may end anywhere. What follows the last whole block is left out.
+ctf::TraceClass parse_growing_metadata(const std::string& text) {
+  constexpr std::string_view kEndOfBlock = "\n};";
+  try {
+    return ctf::parse_metadata(text);
+  } catch (const ctf::UnsupportedTrace&) {
+    const std::size_t end = text.rfind(kEndOfBlock);
+    return end == std::string::npos ? ctf::TraceClass() : ctf::parse_metadata(text.substr(0, end + kEndOfBlock.size()));
+  }
+}
+
+// libbabeltrace2 does not come to an end with such metadata.
+ctf::TraceClass parse_cut_metadata(const fs::path& file, const std::string& text) {
+  ctf::TraceClass declarations;
+  try {
+    declarations = parse_growing_metadata(text);
+  } catch (const ctf::UnsupportedTrace&) {
+  }
+  if (declarations.streams.empty()) {
+    throw TraceReadError(fmt::format("'{}' is damaged or ends early, before it describes an event", file.string()), "");
+  }
+  return declarations;
+}
+
+void add_names(const ctf::FieldClassPtr& structure, std::vector<std::string>& names) {
+  if (!structure) {
+    return;
+  }
+  for (const ctf::FieldMember& member : structure->members) {
+    names.push_back(member.name);
+  }
+}
+
+Recording recording_of_trace(const ctf::TraceClass& trace) {
+  return recording_of({.hostname = trace.environment_text("hostname"),
+                       .domain = trace.environment_text("domain"),
+                       .trace_name = trace.environment_text("trace_name"),
+                       .trace_creation_datetime = trace.environment_text("trace_creation_datetime"),
+                       .clock_uuid = trace.clocks.empty() ? std::string() : trace.clocks.begin()->second.uuid,
+                       .trace_uuid = trace.uuid});
+}
+
+// The path that messages and losses show.
+std::string shown_path(const fs::path& file) {
+  std::error_code gone;
+  const fs::path canonical = fs::canonical(file, gone);
+  return gone ? file.string() : canonical.string();
+}
+
+}  // namespace
+
+// Directories with the same identity, such as the chunks of a rotated session or several snapshots.
+struct DirectReader::Trace {
+  ctf::TraceClass declarations;
+  Recording recording;
+  std::size_t number = 0;
+  bool is_open = false;
+  std::map<std::uint64_t, std::unique_ptr<StreamClass>> stream_classes;
+  std::vector<EventClass> event_classes;  // by the number of the declaration
+  std::vector<std::unique_ptr<ctf::StreamFile>> files;
+};
+
+// A stream that is being read.
+struct DirectReader::OpenStream {
+  OpenStream(Trace& of, const StreamClass& is, Stream as, std::vector<ctf::Packet> packets)
+      : trace(of), stream_class(is), description(std::move(as)), cursor(is.layout, std::move(packets)) {}
+
+  bool is_later_than(const OpenStream& other) const {
+    const std::int64_t mine = cursor.time_ns();
+    const std::int64_t its = other.cursor.time_ns();
+    return mine != its ? mine > its : index > other.index;
+  }
+  TraceItem give();
+
+  Trace& trace;
+  const StreamClass& stream_class;
+  Stream description;
+  ctf::StreamCursor cursor;
+  ctf::StreamCursor::Item item = ctf::StreamCursor::Item::kEnd;
+  std::size_t index = 0;  // decides the order of equal times
+
+ private:
+  Event event_;  // its records always have the same addresses
+  Loss loss_;
+};
+
+TraceItem DirectReader::OpenStream::give() {
+  if (item == ctf::StreamCursor::Item::kEvent) {
+    event_.event_class = &trace.event_classes[cursor.event().index];
+    event_.timestamp_ns = cursor.time_ns();
+    event_.cpu_id = cursor.packet().cpu_id;
+    const ctf::Record& contexts = cursor.stream_context();
+    if (stream_class.vpid) {
+      read_number(contexts, *stream_class.vpid, event_.vpid);
+    }
+    if (stream_class.vtid) {
+      read_number(contexts, *stream_class.vtid, event_.vtid);
+    }
+    if (stream_class.procname) {
+      read_text(contexts, *stream_class.procname, event_.procname);
+    }
+    event_.record = &cursor.payload();
+    event_.stream_context = &contexts;
+    event_.event_context = &cursor.event_context();
+    return {&event_, nullptr};
+  }
+  loss_.kind = item == ctf::StreamCursor::Item::kDiscardedEvents ? Loss::Kind::kEvents : Loss::Kind::kPackets;
+  loss_.stream = &description;
+  loss_.begin_ns = cursor.time_ns();
+  loss_.end_ns = cursor.loss_end_ns();
+  loss_.count = cursor.lost();
+  return {nullptr, &loss_};
+}
+
+DirectReader::DirectReader(const fs::path& directory, const std::vector<fs::path>& traces,
+                           const std::vector<fs::path>& open)
+    : directory_(directory) {
+  std::map<std::string, std::size_t> by_identity;
+  std::vector<std::size_t> length;  // of the metadata that each trace uses
+  for (const fs::path& path : traces) {
+    const auto [text, is_cut] = ctf::read_metadata_text(path / "metadata");
+    const bool is_open = std::find(open.begin(), open.end(), path) != open.end();
+    ctf::TraceClass declarations = is_open  ? parse_growing_metadata(text)
+                                   : is_cut ? parse_cut_metadata(path / "metadata", text)
+                                            : ctf::parse_metadata(text);
+    if (is_cut && !is_open) {
+      note(fmt::format("'{}' is damaged or ends early: it does not describe all events", (path / "metadata").string()));
+    }
+    const std::string identity = declarations.uuid.empty() ? path.string() : declarations.uuid;
+    const auto [known, is_new] = by_identity.try_emplace(identity, traces_.size());
+    if (is_new) {
+      traces_.push_back(std::make_unique<Trace>());
+      traces_.back()->number = descriptions_.size();
+      descriptions_.emplace_back();
+      length.push_back(0);
+    }
+    Trace& trace = *traces_[known->second];
+    descriptions_[known->second].directories.push_back(path);
+    if (is_open) {
+      trace.is_open = true;
+    }
+    // The metadata of a session only grow, so the longest text is the newest.
+    if (text.size() >= length[known->second]) {
+      trace.declarations = std::move(declarations);
+      length[known->second] = text.size();
+    }
+  }
+
+  std::size_t next_class = 0;
+  for (const auto& each : traces_) {
+    Trace& trace = *each;
+    trace.recording = recording_of_trace(trace.declarations);
+    descriptions_[trace.number].uuid = trace.declarations.uuid;
+    descriptions_[trace.number].environment = trace.declarations.environment;
+    for (const auto& [id, stream] : trace.declarations.streams) {
+      trace.stream_classes[id] = std::make_unique<StreamClass>(trace.declarations, stream);
+    }
+    for (const ctf::EventDeclaration& event : trace.declarations.events) {
+      EventClass& event_class = trace.event_classes.emplace_back();
+      event_class.name = event.name;
+      event_class.id = next_class++;
+      event_class.trace = trace.number;
+      event_class.recording = &trace.recording;
+      const auto stream = trace.declarations.streams.find(event.stream_id);
+      if (stream != trace.declarations.streams.end()) {
+        add_names(stream->second.event_context, event_class.contexts);
+      }
+      event_class.stream_contexts = event_class.contexts.size();
+      add_names(event.context, event_class.contexts);
+      add_names(event.payload, event_class.fields);
+    }
+  }
+}
+
+DirectReader::~DirectReader() = default;
+
+void DirectReader::note(const std::string& damage) {
+  constexpr std::size_t kMost = 1000;  // lines; a large file may have millions of damaged packets
+  if (damage_.size() < kMost) {
+    damage_.push_back(damage);
+  }
+}
+
+void DirectReader::open_trace(Trace& trace) {
+  struct Found {
+    std::string name;
+    std::vector<ctf::Packet> packets;
+  };
+  std::map<std::tuple<std::uint64_t, std::optional<std::uint64_t>, std::string>, Found> found;
+  for (const fs::path& path : descriptions_[trace.number].directories) {
+    std::error_code gone;
+    for (const fs::path& file : stream_files(path, gone)) {
+      ctf::PacketList list;
+      try {
+        trace.files.push_back(std::make_unique<ctf::StreamFile>(file));
+        list = find_packets(trace.declarations, *trace.files.back());
+      } catch (const std::system_error& error) {
+        note(fmt::format("'{}': {}", file.string(), error.code().message()));
+      }
+      if (trace.is_open && list.is_short) {
+        // The tracer is about to write the rest of the packet.
+        if (list.ends_early) {
+          list.packets.pop_back();
+        }
+      } else if (trace.is_open && list.is_undescribed) {
+        lacks_descriptions_ = true;
+      } else if (!list.problem.empty()) {
+        note(fmt::format("'{}', {}", file.string(), list.problem));
+      }
+      for (ctf::Packet& packet : list.packets) {
+        // A stream without a number of its own is one file.
+        const std::string name = packet.stream_instance_id ? std::string() : file.string();
+        Found& stream = found[{packet.stream_id, packet.stream_instance_id, name}];
+        if (stream.name.empty()) {
+          stream.name = shown_path(file);
+        }
+        stream.packets.push_back(std::move(packet));
+      }
+    }
+    if (gone) {
+      note(fmt::format("'{}': {}", path.string(), gone.message()));
+    }
+  }
+  for (auto& [key, stream] : found) {
+    put_in_order(stream.packets);
+    Stream description{stream.name, trace.number, trace.declarations.environment_number("vpid")};
+    streams_.push_back(std::make_unique<OpenStream>(trace, *trace.stream_classes.at(std::get<0>(key)),
+                                                    std::move(description), std::move(stream.packets)));
+    streams_.back()->index = streams_.size() - 1;
+  }
+}
+
+// Moves a stream to its next item. Where a packet is damaged, notes the damage and goes on behind it.
+void DirectReader::advance(OpenStream& stream) {
+  for (;;) {
+    try {
+      stream.item = stream.cursor.next();
+      return;
+    } catch (const ctf::DamagedPacket& damage) {
+      if (stream.trace.is_open && dynamic_cast<const ctf::UndescribedPacket*>(&damage) != nullptr) {
+        lacks_descriptions_ = true;
+        continue;
+      }
+      const ctf::Packet& packet = stream.cursor.packet();
+      note(fmt::format("'{}', the packet at byte {}: {}", stream.description.name, packet.offset, damage.what()));
+    }
+  }
+}
+
+namespace {
+
+constexpr auto kLaterFirst = [](const auto* a, const auto* b) { return a->is_later_than(*b); };
+
+}  // namespace
+
+// Before the first item.
+void DirectReader::open_streams() {
+  is_begun_ = true;
+  for (const auto& trace : traces_) {
+    open_trace(*trace);
+  }
+  for (const auto& stream : streams_) {
+    advance(*stream);
+    if (stream->item != ctf::StreamCursor::Item::kEnd) {
+      later_.push_back(stream.get());
+    }
+  }
+  std::make_heap(later_.begin(), later_.end(), kLaterFirst);
+}
+
+// Moves behind the item that was given. Returns whether there is another one.
+bool DirectReader::advance_to_earliest() {
+  if (!is_begun_) {
+    open_streams();
+  }
+  if (earliest_ != nullptr) {
+    advance(*earliest_);
+    if (earliest_->item == ctf::StreamCursor::Item::kEnd) {
+      earliest_ = nullptr;
+    } else if (later_.empty() || !earliest_->is_later_than(*later_.front())) {
+      return true;
+    } else {
+      later_.push_back(earliest_);
+      std::push_heap(later_.begin(), later_.end(), kLaterFirst);
+      earliest_ = nullptr;
+    }
+  }
+  if (later_.empty()) {
+    return false;
+  }
+  std::pop_heap(later_.begin(), later_.end(), kLaterFirst);
+  earliest_ = later_.back();
+  later_.pop_back();
+  return true;
+}
+
+TraceItem DirectReader::next() {
+  return advance_to_earliest() ? earliest_->give() : TraceItem();
+}
+
+void DirectReader::read(TraceSink& sink) {
+  while (advance_to_earliest()) {
+    const TraceItem item = earliest_->give();
+    if (item.event != nullptr) {
+      sink.on_event(*item.event);
+    } else {
+      sink.on_loss(*item.loss);
+    }
+  }
+}
+
+void DirectReader::throw_damage() const {
+  if (damage_.empty()) {
+    return;
+  }
+  throw TraceReadError(fmt::format("the trace '{}' is damaged or ends early: {}", directory_.string(), damage_.front()),
+                       "what can be read beside the damage was read");
+}
+
+}  // namespace tracing

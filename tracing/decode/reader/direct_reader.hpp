@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads traces with our own decoder (tracing/decode/ctf). Private to the reader.
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tracing/decode/reader/trace_sink.hpp"
+
+namespace tracing {
+
+class DirectReader {
+ public:
+  // `traces` are the directories with metadata below `directory`; `open` are those among them that are being written.
+  // Throws ctf::UnsupportedTrace when another reader must read them, TraceReadError when no reader can.
+  DirectReader(const std::filesystem::path& directory, const std::vector<std::filesystem::path>& traces,
+               const std::vector<std::filesystem::path>& open);
+  ~DirectReader();
+
+  // Gives all items, and throws nothing of its own.
+  void read(TraceSink& sink);
+  // As in TraceReader.
+  TraceItem next();
+  void throw_damage() const;
+  const std::vector<std::string>& damage() const { return damage_; }
+  bool lacks_descriptions() const { return lacks_descriptions_; }
+  const std::deque<TraceDescription>& traces() const { return descriptions_; }
+
+ private:
+  struct Trace;
+  struct OpenStream;
+
+  void open_streams();
+  void open_trace(Trace& trace);
+  bool advance_to_earliest();
+  void advance(OpenStream& stream);
+  void note(const std::string& damage);
+
+  std::filesystem::path directory_;
+  std::deque<TraceDescription> descriptions_;
+  std::vector<std::unique_ptr<Trace>> traces_;  // as descriptions_
+  bool is_begun_ = false;
+  std::vector<std::unique_ptr<OpenStream>> streams_;
+  OpenStream* earliest_ = nullptr;  // the stream whose item is given
+  std::vector<OpenStream*> later_;  // a heap of the others with something left; the first one has the next item
+  std::vector<std::string> damage_;
+  bool lacks_descriptions_ = false;
+};
+
+}  // namespace tracing

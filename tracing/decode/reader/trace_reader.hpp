@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads the CTF traces below a directory and gives their events in the order of time.
+//
+// Several traces below the directory (userspace and kernel, the two halves of a dual session, several snapshots) are
+// merged into one sequence. A decoder of our own reads what LTTng writes; libbabeltrace2 reads everything else.
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tracing/decode/reader/trace_read_error.hpp"
+#include "tracing/decode/reader/trace_sink.hpp"
+
+namespace tracing {
+
+class TraceReader {
+ public:
+  enum class Decoder {
+    kAny,         // our own decoder, or libbabeltrace2 if our own does not know something in the trace
+    kDirect,      // our own decoder; TraceReadError if it does not know something
+    kBabeltrace,  // libbabeltrace2
+  };
+
+  // Finds the traces. Throws TraceReadError when there is none.
+  explicit TraceReader(const std::filesystem::path& directory, Decoder decoder = Decoder::kAny);
+  // Several directories, merged as one.
+  explicit TraceReader(const std::vector<std::filesystem::path>& directories, Decoder decoder = Decoder::kAny);
+  ~TraceReader();
+  TraceReader(const TraceReader&) = delete;
+  TraceReader& operator=(const TraceReader&) = delete;
+
+  // Reads everything; to be called once. Throws TraceReadError on damaged data, after the sink has got all events
+  // before the damage. With our own decoder it has also got the events of the other packets and streams.
+  void read(TraceSink& sink);
+
+  // The same, item by item. An item is valid until the next call. The end comes even after damage: throw_damage() then
+  // throws what read() would throw.
+  TraceItem next();
+  void throw_damage() const;
+
+  // What could not be read so far, a line each.
+  const std::vector<std::string>& damage() const;
+  // Directories with files that a program was writing when the reading began. Such a trace ends with the last packet
+  // that was complete.
+  const std::vector<std::filesystem::path>& open_directories() const;
+  // A packet of such a trace, and with it what follows in its file, was left out because the metadata do not describe
+  // its events yet. LTTng writes the descriptions when a traced program ends or the session is stopped.
+  bool lacks_descriptions() const;
+  // With libbabeltrace2 only the traces that have given an item so far. The addresses stay.
+  const std::deque<TraceDescription>& traces() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace tracing

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/model/analysis/overview_counter.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace tracing {
+
+std::uint64_t TraceOverview::lost_events() const {
+  std::uint64_t sum = 0;
+  for (const LossResult& loss : losses) {
+    sum += loss.events;
+  }
+  return sum;
+}
+
+std::uint64_t TraceOverview::lost_packets() const {
+  std::uint64_t sum = 0;
+  for (const LossResult& loss : losses) {
+    sum += loss.packets;
+  }
+  return sum;
+}
+
+bool TraceOverview::lost_uncounted() const {
+  return std::any_of(losses.begin(), losses.end(), [](const LossResult& loss) { return loss.uncounted; });
+}
+
+void OverviewCounter::count(const Event& event, ProcessId process) {
+  const EventClass& event_class = *event.event_class;
+  if (event_class.id >= classes_.size()) {
+    classes_.resize(event_class.id + 1);
+  }
+  CountedClass& counted = classes_[event_class.id];
+  if (counted.name.empty()) {
+    counted.name = event_class.name;
+    counted.trace = event_class.trace;
+    counted.of_launcher = event_class.name.starts_with("launch:");
+  }
+  // The launcher is no part of the traced system.
+  if (counted.of_launcher) {
+    ++counted.by_launcher;
+    return;
+  }
+  ++events_;
+  if (!begin_ns_) {
+    begin_ns_ = event.timestamp_ns;
+  }
+  end_ns_ = event.timestamp_ns;
+  if (process >= counted.by_process.size()) {
+    counted.by_process.resize(process + 1);
+  }
+  ++counted.by_process[process];
+}
+
+void OverviewCounter::on_loss(const Loss& loss) {
+  CountedLoss& counted = losses_[loss.stream->name];
+  counted.result.stream = loss.stream->name;
+  counted.trace = loss.stream->trace;
+  counted.vpid = loss.stream->vpid;
+  if (!loss.count) {
+    counted.result.uncounted = true;
+  } else if (loss.kind == Loss::Kind::kEvents) {
+    counted.result.events += *loss.count;
+  } else {
+    counted.result.packets += *loss.count;
+  }
+  if (loss.begin_ns && (!counted.result.begin_ns || *loss.begin_ns < *counted.result.begin_ns)) {
+    counted.result.begin_ns = loss.begin_ns;
+  }
+  if (loss.end_ns && (!counted.result.end_ns || *loss.end_ns > *counted.result.end_ns)) {
+    counted.result.end_ns = loss.end_ns;
+  }
+}
+
+// Buffers per process show which process lost events. Buffers per user are shared: any process of the trace may have
+// lost events in them.
+std::vector<ProcessId> OverviewCounter::processes_that_lost(const CountedLoss& loss) const {
+  std::vector<ProcessId> in_trace;
+  std::vector<ProcessId> with_the_id;  // a process whose events were all lost has none in the trace
+  for (const ProcessId process : order()) {
+    const bool has_the_id = !loss.vpid || processes_.processes()[process].vpid == loss.vpid;
+    if (!has_the_id) {
+      continue;
+    }
+    with_the_id.push_back(process);
+    const bool has_events = std::any_of(classes_.begin(), classes_.end(), [&](const CountedClass& counted) {
+      return counted.trace == loss.trace && process < counted.by_process.size() && counted.by_process[process] > 0;
+    });
+    if (has_events) {
+      in_trace.push_back(process);
+    }
+  }
+  return in_trace.empty() && loss.vpid ? with_the_id : in_trace;
+}
+
+// The processes that have events, in the order of the overview.
+std::vector<ProcessId> OverviewCounter::order() const {
+  std::vector<ProcessId> order;
+  for (ProcessId process = 0; process < processes_.processes().size(); ++process) {
+    const bool has_events = std::any_of(classes_.begin(), classes_.end(), [&](const CountedClass& counted) {
+      return process < counted.by_process.size() && counted.by_process[process] > 0;
+    });
+    if (has_events) {
+      order.push_back(process);
+    }
+  }
+  std::stable_sort(order.begin(), order.end(), [this](ProcessId left, ProcessId right) {
+    const ProcessObject& a = processes_.processes()[left];
+    const ProcessObject& b = processes_.processes()[right];
+    return std::tie(a.host, a.vpid) < std::tie(b.host, b.vpid);
+  });
+  return order;
+}
+
+std::vector<std::optional<ProcessIndex>> OverviewCounter::places() const {
+  std::vector<std::optional<ProcessIndex>> places(processes_.processes().size());
+  const std::vector<ProcessId> ordered = order();
+  for (ProcessIndex place = 0; place < ordered.size(); ++place) {
+    places[ordered[place]] = place;
+  }
+  return places;
+}
+
+TraceOverview OverviewCounter::overview() const {
+  TraceOverview result;
+  result.events = events_;
+  if (begin_ns_) {
+    result.begin_ns = begin_ns_;
+    result.end_ns = end_ns_;
+  }
+  for (const ProcessId process : order()) {
+    const ProcessObject& known = processes_.processes()[process];
+    result.processes.push_back({known.vpid, known.name, 0, false, known.host});
+  }
+  const std::vector<std::optional<ProcessIndex>> place = places();
+
+  std::map<std::string, EventCount> counts;  // several traces may have classes of one name
+  for (const CountedClass& counted : classes_) {
+    if (counted.name.empty()) {
+      continue;
+    }
+    EventCount& count = counts[counted.name];
+    count.name = counted.name;
+    count.total += counted.by_launcher;
+    count.by_process.resize(result.processes.size());
+    for (ProcessId process = 0; process < counted.by_process.size(); ++process) {
+      if (counted.by_process[process] == 0) {
+        continue;
+      }
+      count.by_process[*place[process]] += counted.by_process[process];
+      count.total += counted.by_process[process];
+      result.processes[*place[process]].events += counted.by_process[process];
+    }
+  }
+  for (auto& [name, count] : counts) {
+    result.event_counts.push_back(std::move(count));
+  }
+
+  for (const auto& [name, counted] : losses_) {
+    LossResult loss = counted.result;
+    for (const ProcessId process : processes_that_lost(counted)) {
+      loss.processes.push_back(*place[process]);
+    }
+    std::sort(loss.processes.begin(), loss.processes.end());
+    for (const std::size_t process : loss.processes) {
+      result.processes[process].doubtful = true;
+    }
+    result.losses.push_back(std::move(loss));
+  }
+  return result;
+}
+
+}  // namespace tracing

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Counts the events of a trace by name and process, and adds up its losses.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "tracing/decode/reader/trace_reader.hpp"
+#include "tracing/model/analysis/results.hpp"
+#include "tracing/model/objects/process_table.hpp"
+
+namespace tracing {
+
+class OverviewCounter : public TraceSink {
+ public:
+  void on_event(const Event& event) override { count(event, processes_.of(event)); }
+  void on_loss(const Loss& loss) override;
+
+  TraceOverview overview() const;
+
+  // For one that also needs the process of each event: counts the event and returns its process.
+  ProcessId count(const Event& event) {
+    const ProcessId process = processes_.of(event);
+    count(event, process);
+    return process;
+  }
+  const ProcessTable& processes() const { return processes_; }
+  // Where each process is in the processes of the overview; nullopt when it is not there.
+  std::vector<std::optional<ProcessIndex>> places() const;
+
+ private:
+  struct CountedClass {
+    std::string name;
+    bool of_launcher = false;
+    std::uint64_t by_launcher = 0;
+    std::size_t trace = 0;
+    std::vector<std::uint64_t> by_process;  // in the order of processes_
+  };
+  struct CountedLoss {
+    LossResult result;
+    std::size_t trace = 0;
+    std::optional<std::int64_t> vpid;
+  };
+
+  void count(const Event& event, ProcessId process);
+  std::vector<ProcessId> order() const;
+  std::vector<ProcessId> processes_that_lost(const CountedLoss& loss) const;
+
+  std::uint64_t events_ = 0;
+  std::optional<std::int64_t> begin_ns_;
+  std::int64_t end_ns_ = 0;
+  ProcessTable processes_;
+  std::vector<CountedClass> classes_;          // by EventClass::id
+  std::map<std::string, CountedLoss> losses_;  // by stream
+};
+
+}  // namespace tracing

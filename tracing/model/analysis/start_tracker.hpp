@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// How long processes take from their start to a node and to the first wait for work, and what the whole system waited
+// for. The events of the launcher and of the processes give the times.
+//
+// A process is "ready" when one of its executors waits or looks for work for the first time: everything that the
+// program makes before it spins exists then. ROS 2 has no event for this, and the processes record nothing more for it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "tracing/decode/reader/event.hpp"
+#include "tracing/model/analysis/critical_start.hpp"
+#include "tracing/model/analysis/results.hpp"
+#include "tracing/model/execution/first_activity.hpp"
+#include "tracing/model/objects/process_table.hpp"
+
+namespace tracing {
+
+class StartTracker {
+ public:
+  void on_event(const Event& event, ProcessId process);
+  // Fills `starts`, in the order of the launcher's events, and `startup`. `places`: where each process is in the
+  // results.
+  void finish(const ProcessTable& processes, const std::vector<std::optional<ProcessIndex>>& places,
+              const FirstActivity& first, TraceResults& results) const;
+
+ private:
+  // Those of the launcher come first.
+  enum class Kind : std::uint8_t { kExec, kSpawn, kCondition, kStep, kLaunch, kInit, kNode, kExecutor, kOther };
+  struct Process {
+    std::optional<std::int64_t> init_ns;
+    std::optional<std::int64_t> node_ns;
+    std::optional<std::int64_t> executor_ns;
+    bool late = false;  // the trace began after the process
+  };
+  struct Start {
+    StartResult result;
+    ProcessId launcher = kNoProcess;
+    std::string name;  // as the launch file calls it: "talker"
+  };
+
+  Kind kind_of(const Event& event);
+  void on_launcher_event(const Event& event, ProcessId launcher, Kind kind);
+  StartResult result_of(const Start& start, const ProcessTable& processes,
+                        const std::vector<std::optional<ProcessIndex>>& places, const FirstActivity& first) const;
+
+  std::vector<std::optional<Kind>> kinds_;  // by EventClass::id, as far as they were needed
+  // Times of the launcher's events are those of CLOCK_MONOTONIC until the end.
+  std::vector<Start> starts_;
+  std::vector<LauncherStep> steps_;
+  std::vector<StartCondition> conditions_;
+  std::string spawned_;  // the process that the launcher is about to start
+  std::optional<std::int64_t> spawn_ns_;
+  std::unordered_map<ProcessId, Process> processes_;
+  // How far zero of CLOCK_MONOTONIC, the field `time` of the launcher's events, is behind the epoch, at most.
+  std::optional<std::int64_t> monotonic_zero_ns_;
+};
+
+}  // namespace tracing

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/model/analysis/trace_analysis.hpp"
+
+namespace tracing {
+
+void TraceAnalysis::on_event(const Event& event) {
+  const ProcessId process = overview_.count(event);
+  ros2_.learn(overview_.processes());
+  starts_.on_event(event, process);
+  const Origin origin{event.timestamp_ns, process, event.vtid.value_or(0)};
+  if (const ros2::AnyEvent* decoded = decoder_.decode(event)) {
+    if (!event.vpid || !event.vtid) {
+      lacks_thread_context_ = true;
+    }
+    ros2_.on_event(origin, *decoded);
+  } else if (const std::optional<ros2::ObjectEnd> end = ends_.decode(event)) {
+    ros2_.on_end(origin, *end);
+  } else if (const std::optional<ros2::ExecutionEvent> execution = executions_.decode(event)) {
+    ros2_.on_execution(origin, *execution);
+  } else if (const std::optional<ros2::LifecycleState> state = lifecycle_states_.decode(event)) {
+    ros2_.on_lifecycle_state(origin, state->state_machine, ros2::LifecycleState::label(event));
+  } else if (const std::optional<ros2::EndpointQosEvent> endpoint = endpoint_qos_.decode(event)) {
+    ros2_.on_endpoint_qos(origin, *endpoint, ros2::EndpointQosEvent::qos(event));
+  } else if (const std::optional<std::uint64_t> bytes = allocations_.decode(event)) {
+    ros2_.on_allocation(origin, *bytes);
+  } else {
+    ros2_.on_kernel_event(event, process);
+  }
+}
+
+void TraceAnalysis::on_loss(const Loss& loss) {
+  overview_.on_loss(loss);
+}
+
+TraceResults TraceAnalysis::finish() {
+  TraceResults results;
+  results.overview = overview_.overview();
+  const std::vector<std::optional<ProcessIndex>> places = overview_.places();
+  results.ros2 = ros2_.finish(places, results.overview.processes);
+  starts_.finish(overview_.processes(), places, ros2_.first_activity(), results);
+  results.ros2.lacks_thread_context = lacks_thread_context_;
+  results.warnings = warnings_;
+  return results;
+}
+
+}  // namespace tracing

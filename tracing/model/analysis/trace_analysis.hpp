@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole analysis of a trace, as the sink of one reading.
+//
+//   TraceAnalysis analysis;
+//   TraceReader(directory).read(analysis);
+//   const TraceResults results = analysis.finish();
+//
+// After a TraceReadError finish() still gives the results of the events before the damage.
+#pragma once
+
+#include <utility>
+
+#include "tracing/decode/reader/endpoint_qos.hpp"
+#include "tracing/decode/reader/lifecycle_state.hpp"
+#include "tracing/decode/reader/ros2_decoder.hpp"
+#include "tracing/decode/reader/trace_reader.hpp"
+#include "tracing/model/analysis/overview_counter.hpp"
+#include "tracing/model/analysis/results.hpp"
+#include "tracing/model/analysis/ros2_analysis.hpp"
+#include "tracing/model/analysis/start_tracker.hpp"
+#include "tracing/model/execution/allocation_decoder.hpp"
+
+namespace tracing {
+
+class TraceAnalysis : public TraceSink {
+ public:
+  // Tells `sink`, unless it is null, what happened while the trace is read. The sink must outlive the analysis.
+  // `chains` are those that the user has named.
+  explicit TraceAnalysis(ExecutionSink* sink = nullptr, std::vector<ChainDefinition> chains = {})
+      : ros2_(sink, std::move(chains)) {}
+  void on_event(const Event& event) override;
+  void on_loss(const Loss& loss) override;
+
+  // To be called once, at the end. Tells the sink what was not finished.
+  TraceResults finish();
+
+  // So far: Ros2Analysis::missed_periods() and dropped_messages().
+  std::vector<std::uint64_t> missed_periods() const { return ros2_.missed_periods(); }
+  std::vector<std::uint64_t> dropped_messages() const { return ros2_.dropped_messages(); }
+
+  // What the ids of the sink refer to.
+  const ObjectModel& objects() const { return ros2_.model(); }
+  const std::vector<ProcessObject>& processes() const { return overview_.processes().processes(); }
+  // Where each process is in TraceResults::overview.processes; nullopt when it is not there.
+  std::vector<std::optional<ProcessIndex>> places() const { return overview_.places(); }
+
+ private:
+  OverviewCounter overview_;
+  StartTracker starts_;
+  Ros2Analysis ros2_;
+  std::vector<std::string> warnings_;
+  ros2::Decoder decoder_{[this](const std::string& problem) { warnings_.push_back(problem); }};
+  ros2::ObjectEndDecoder ends_;
+  ros2::ExecutionEventDecoder executions_;
+  ros2::LifecycleStateDecoder lifecycle_states_;
+  ros2::EndpointQosDecoder endpoint_qos_;
+  AllocationDecoder allocations_;
+  bool lacks_thread_context_ = false;
+};
+
+}  // namespace tracing

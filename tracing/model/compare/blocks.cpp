@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/model/compare/blocks.hpp"
+
+#include <algorithm>
+
+#include "tracing/model/compare/rank_test.hpp"
+
+namespace tracing::compare {
+
+namespace {
+
+constexpr std::size_t kMostBlocks = 50;
+constexpr double kMostResemblance = 0.3;
+
+std::vector<double> values_of_blocks(const std::vector<std::int64_t>& samples, double share, std::size_t length) {
+  std::vector<double> values;
+  std::vector<double> block;
+  for (std::size_t begin = 0; begin + length <= samples.size(); begin += length) {
+    const auto first = samples.begin() + static_cast<std::ptrdiff_t>(begin);
+    block.assign(first, first + static_cast<std::ptrdiff_t>(length));
+    values.push_back(quantile(block, share));
+  }
+  return values;
+}
+
+// How far the tenths of a run are apart, without the highest and the lowest one. If a run drifts, or something disturbs
+// it for a while, another run may differ from it by as much.
+double spread_of_tenths(const std::vector<std::int64_t>& samples, double share) {
+  std::vector<double> tenths = values_of_blocks(samples, share, samples.size() / 10);
+  std::sort(tenths.begin(), tenths.end());
+  return tenths[tenths.size() - 2] - tenths[1];
+}
+
+}  // namespace
+
+std::optional<BlockPair> cut_into_blocks(const std::vector<std::int64_t>& before,
+                                         const std::vector<std::int64_t>& after, double share,
+                                         std::size_t least_length) {
+  const std::size_t fewer = std::min(before.size(), after.size());
+  if (fewer < kLeastBlocks * least_length) {
+    return std::nullopt;
+  }
+  std::size_t length = std::max(least_length, (fewer + kMostBlocks - 1) / kMostBlocks);
+  BlockPair pair;
+  while (true) {
+    pair.before = values_of_blocks(before, share, length);
+    pair.after = values_of_blocks(after, share, length);
+    const double resemblance = std::max(rank_autocorrelation(pair.before), rank_autocorrelation(pair.after));
+    if (resemblance <= kMostResemblance || fewer < kLeastBlocks * length * 2) {
+      break;
+    }
+    length *= 2;
+  }
+  pair.own_spread = std::max(spread_of_tenths(before, share), spread_of_tenths(after, share));
+  return pair;
+}
+
+}  // namespace tracing::compare

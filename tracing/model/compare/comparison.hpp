@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which callbacks, hops, chains and calls differ between two runs, or between a run and a baseline.
+//
+// docs/comparing_runs.md explains the method. In short: samples of one run resemble their neighbours, so that a test
+// which took them as independent would find differences everywhere. Each run is therefore cut into blocks, and the
+// values of the blocks (median, 90th percentile) are compared by a rank test. A difference counts if it is larger than
+// the least one that the user cares for, than what the runs differ within themselves, and than what other quantities of
+// the sort differ between the runs. Probabilities are corrected for the number of tests. If a side has several runs, a
+// difference must hold between every two of them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tracing/model/compare/rank_test.hpp"
+#include "tracing/model/compare/run_summary.hpp"
+
+namespace tracing::compare {
+
+struct CompareOptions {
+  double confidence = 0.99;         // that none of the changes is there by chance; more than 0.5, less than 1
+  double least_ratio = 0.1;         // smaller changes do not count: as a part of the value before,
+  std::int64_t least_ns = 100'000;  // and in nanoseconds; the larger one of both applies
+};
+
+enum class Statistic { kMedian, kP90 };
+
+// "median", "p90"
+const char* statistic_name(Statistic statistic);
+
+struct Change {
+  Kind kind = Kind::kCallback;
+  std::string subject;
+  std::string quantity;
+  Statistic statistic = Statistic::kMedian;
+  double before_ns = 0;
+  double after_ns = 0;
+  Shift shift;             // of the values of blocks, nanoseconds
+  double probability = 1;  // corrected
+  bool doubtful = false;   // events may be missing on either side
+  // Of a chain: the callbacks in it whose durations have changed in the same direction.
+  std::vector<std::string> changed_steps;
+
+  bool is_slower() const { return shift.estimate > 0; }
+};
+
+// A subject that only one side has.
+struct Lone {
+  Kind kind = Kind::kCallback;
+  std::string subject;
+  bool operator==(const Lone&) const = default;
+};
+
+// The median durations of all callbacks together, which also differ when the machine was slower.
+struct Overall {
+  std::size_t callbacks = 0;
+  std::size_t slower = 0;  // so many of them take longer
+  double ratio = 0;        // of the callback in the middle: the shift as a part of the duration before
+};
+
+struct Comparison {
+  std::vector<Change> changes;     // by kind, subject, quantity
+  std::optional<Overall> overall;  // nullopt: no change of all callbacks together holds
+  std::vector<Lone> gone;          // every run before has it, no run after
+  std::vector<Lone> added;
+  std::size_t compared = 0;  // subjects that both sides have
+  std::size_t tests = 0;
+  std::size_t too_few_samples = 0;  // quantities that both sides have, but not often enough
+};
+
+// Each side has at least one run. Results are in the order of kind, subject and quantity.
+Comparison compare(const Runs& before, const Runs& after, const CompareOptions& options);
+
+}  // namespace tracing::compare

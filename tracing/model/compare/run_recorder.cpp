@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/model/compare/run_recorder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "tracing/model/compare/subject_names.hpp"
+#include "tracing/model/messages/hop_times.hpp"
+
+namespace tracing::compare {
+
+namespace {
+
+template <class Record>
+Record& at(std::vector<Record>& records, std::size_t id) {
+  if (id >= records.size()) {
+    records.resize(id + 1);
+  }
+  return records[id];
+}
+
+// Adds what was measured to the run, and knows which processes are doubtful.
+class Writer {
+ public:
+  Writer(const TraceAnalysis& analysis, const TraceResults& results, RunSummary& run)
+      : objects_(analysis.objects()), places_(analysis.places()), results_(results), run_(run) {}
+
+  bool is_doubtful(ProcessId process) const {
+    if (process >= places_.size() || !places_[process]) {
+      return false;
+    }
+    return results_.overview.processes[*places_[process]].doubtful;
+  }
+  bool is_node_doubtful(ObjectId node) const {
+    return node != kNoObject && is_doubtful(objects_.nodes()[node].process);
+  }
+  Measurement* add(Kind kind, const std::string& subject, const char* quantity, const KeptSamples& samples,
+                   bool doubtful) {
+    if (samples.count() == 0) {
+      return nullptr;
+    }
+    const int number = ++seen_[{kind, subject, quantity}];
+    const std::string name = number == 1 ? subject : fmt::format("{} #{}", subject, number);
+    run_.measurements.push_back({kind, name, quantity, {}, samples.count(), samples.values(), doubtful});
+    return &run_.measurements.back();
+  }
+
+ private:
+  const ObjectModel& objects_;
+  const std::vector<std::optional<ProcessIndex>> places_;
+  const TraceResults& results_;
+  RunSummary& run_;
+  std::map<std::tuple<Kind, std::string, std::string>, int> seen_;
+};
+
+}  // namespace
+
+void RunRecorder::Chains::on_response(PathId path, std::int64_t response_ns) {
+  at(responses, path).add(response_ns);
+}
+
+void RunRecorder::on_callback_begin(const CallbackInstance& instance) {
+  chains_.on_callback_begin(instance);
+  Callback& callback = at(callbacks_, instance.callback);
+  if (callback.last_begin_ns != 0) {
+    callback.intervals.add(instance.begin_ns - callback.last_begin_ns);
+  }
+  callback.last_begin_ns = instance.begin_ns;
+}
+
+void RunRecorder::on_callback(const CallbackInstance& instance) {
+  chains_.on_callback(instance);
+  if (instance.finished) {
+    at(callbacks_, instance.callback).durations.add(instance.end_ns - instance.begin_ns);
+  }
+}
+
+void RunRecorder::on_message(const MessageFlow& message) {
+  chains_.on_message(message);
+  if (message.publication.number == 0 || message.callback == kNoObject) {
+    return;
+  }
+  const HopTimes times = hop_times(message);
+  Hop& hop = at(hops_, message.subscription);
+  hop.latency.add(times.latency_ns);
+  if (times.transport_ns) {
+    hop.transport.add(*times.transport_ns);
+  }
+  if (times.executor_ns) {
+    hop.executor.add(*times.executor_ns);
+  }
+}
+
+void RunRecorder::on_call(const ServiceCall& call) {
+  if (call.client == kNoObject) {
+    return;
+  }
+  calls_[{call.client, call.service}].add(call.received_ns - call.sent_ns);
+}
+
+RunSummary RunRecorder::finish(const TraceAnalysis& analysis, const TraceResults& results) {
+  const ObjectModel& objects = analysis.objects();
+  const SubjectNames names(analysis);
+  RunSummary run;
+  run.events = results.overview.events;
+  run.begin_ns = results.overview.begin_ns.value_or(0);
+  run.duration_ns = results.overview.end_ns.value_or(0) - run.begin_ns;
+  Writer writer(analysis, results, run);
+  for (ObjectId id = 0; id < callbacks_.size(); ++id) {
+    const bool doubtful = writer.is_doubtful(objects.callbacks()[id].process);
+    writer.add(Kind::kCallback, names.callback(id), "duration", callbacks_[id].durations, doubtful);
+    writer.add(Kind::kCallback, names.callback(id), "interval", callbacks_[id].intervals, doubtful);
+  }
+  for (ObjectId id = 0; id < hops_.size(); ++id) {
+    const bool doubtful = writer.is_node_doubtful(objects.subscriptions()[id].node);
+    writer.add(Kind::kHop, names.subscription(id), "latency", hops_[id].latency, doubtful);
+    writer.add(Kind::kHop, names.subscription(id), "on the way", hops_[id].transport, doubtful);
+    writer.add(Kind::kHop, names.subscription(id), "waiting for the executor", hops_[id].executor, doubtful);
+  }
+  for (const auto& [pair, samples] : calls_) {
+    const auto& [client, service] = pair;
+    const bool doubtful = writer.is_node_doubtful(objects.clients()[client].node);
+    writer.add(Kind::kCall, names.call(client, service), "round trip", samples, doubtful);
+  }
+  for (PathId path = 0; path < chains_.responses.size(); ++path) {
+    const ChainRecord& last = chains_.paths()[path];
+    if (last.goes_on || last.length < 2) {
+      continue;
+    }
+    std::vector<std::string> steps;
+    std::string subject;
+    bool doubtful = false;
+    for (PathId at = path; at != kNoPath; at = chains_.paths()[at].parent) {
+      const ObjectId callback = chains_.paths()[at].callback;
+      subject = names.step(callback) + (subject.empty() ? "" : " -> ") + subject;
+      steps.insert(steps.begin(), names.callback(callback));
+      doubtful = doubtful || writer.is_doubtful(objects.callbacks()[callback].process);
+    }
+    Measurement* const chain = writer.add(Kind::kChain, subject, "response", chains_.responses[path], doubtful);
+    if (chain != nullptr) {
+      chain->steps = std::move(steps);
+    }
+  }
+  const auto key = [](const Measurement& one) { return std::tie(one.kind, one.subject, one.quantity); };
+  std::stable_sort(run.measurements.begin(), run.measurements.end(),
+                   [&](const Measurement& a, const Measurement& b) { return key(a) < key(b); });
+  return run;
+}
+
+}  // namespace tracing::compare

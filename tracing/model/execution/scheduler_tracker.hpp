@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// What threads did on the machine, from the kernel's events sched_switch, sched_wakeup and sched_waking.
+//
+// A thread is recognised by the context vtid of its first sched_switch, so what it did before is not told.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "tracing/decode/reader/event.hpp"
+#include "tracing/model/execution/execution_sink.hpp"
+
+namespace tracing {
+
+class SchedulerTracker {
+ public:
+  explicit SchedulerTracker(ExecutionSink& sink) : sink_(sink) {}
+
+  // Returns whether it is one of these events. `process`: that of the event.
+  bool on_event(const Event& event, ProcessId process);
+
+ private:
+  enum class Kind : std::uint8_t { kOther, kSwitch, kWakeup };
+  struct Plan {
+    Kind kind = Kind::kOther;
+    std::size_t previous_tid = 0;  // indices of fields
+    std::size_t previous_state = 0;
+    std::size_t previous_name = 0;
+    std::size_t next_tid = 0;
+    std::size_t tid = 0;
+  };
+  struct KernelThread {
+    std::optional<ThreadId> id;  // nullopt until it was switched off once
+    ThreadInterval::State state = ThreadInterval::State::kBlocked;
+    std::int64_t since_ns = 0;  // 0: not known yet
+    std::int64_t cpu = 0;
+  };
+
+  static Plan plan_of(const EventClass& event_class);
+  KernelThread& thread(std::int64_t tid) { return threads_[tid]; }
+  void change(KernelThread& thread, ThreadInterval::State state, std::int64_t time_ns, std::string_view other_name,
+              std::int64_t other_tid);
+  void on_switch(const Event& event, const Plan& plan, ProcessId process);
+
+  ExecutionSink& sink_;
+  std::vector<std::optional<Plan>> plans_;                  // by EventClass::id
+  std::unordered_map<std::int64_t, KernelThread> threads_;  // by the kernel's number
+};
+
+}  // namespace tracing

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds the chains of callbacks that messages cause, and measures them from end to end.
+//
+// A chain begins with a callback that no message in the trace caused, such as that of a timer, and goes on with what
+// its messages cause. What a callback publishes is caused by the message that it got; what a node publishes from
+// messages that it has cached is caused by the last one of each subscription, where user code has declared it.
+//
+// A chain that the user has named (ChainDefinition) also begins with a callback that a message caused, if this callback
+// belongs to the first node of the definition, and ends in the middle of longer chains.
+//
+// All times are those of CARET: an input is a begin of the first callback, an output an end of the last one.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "tracing/model/chains/chain_definition.hpp"
+#include "tracing/model/execution/duration_statistics.hpp"
+#include "tracing/model/execution/execution_sink.hpp"
+#include "tracing/model/execution/thread_map.hpp"
+
+namespace tracing {
+
+using PathId = std::uint32_t;  // index in ChainTracker::paths()
+inline constexpr PathId kNoPath = 0xffffffff;
+
+// A path of callbacks as a definition describes it.
+struct NamedPath {
+  std::size_t definition = 0;     // index in ChainTracker::definitions()
+  std::uint64_t over_budget = 0;  // responses that took longer than the budget
+};
+
+// A callback at the end of a path of callbacks, and the measurements of all that came along this path.
+struct ChainRecord {
+  PathId parent = kNoPath;     // kNoPath: it begins here
+  ObjectId topic = kNoObject;  // between the parent and this callback
+  ObjectId callback = kNoObject;
+  std::uint32_t length = 1;  // callbacks
+  bool goes_on = false;      // a message of the callback reached another callback
+  bool is_cut = false;       // the callback is part of the path already: a loop, which is not followed
+  // The path began at least once with a callback that no message caused. False: it begins there by definition alone.
+  bool is_natural = false;
+  std::vector<NamedPath> named = {};
+
+  DurationStatistics until_publish;  // from the parent's begin to its publication
+  DurationStatistics transfer;       // from there to the begin of this callback
+  DurationStatistics executor;       // part of transfer: the wait for the executor
+  DurationStatistics take;           // part of transfer: from rmw_take on
+  DurationStatistics last_callback;  // from the begin to the end of this callback
+  DurationStatistics response;       // from an input to the first output that it causes ("best")
+  // From the input of the output before to an output: how long something may take that just missed an input
+  // ("worst-with-external-latency").
+  DurationStatistics reaction;
+  DurationStatistics age;             // from an input to the last output that it causes
+  std::int64_t longest_begin_ns = 0;  // of the longest response
+  std::int64_t longest_end_ns = 0;
+
+ private:
+  friend class ChainTracker;
+  bool is_compared = false;        // with the definitions
+  std::int64_t last_input_ns = 0;  // of the last output
+  std::int64_t last_output_ns = 0;
+};
+
+class ChainTracker : public ExecutionSink {
+ public:
+  // At most this many paths, trails of one message, and publications whose trails are remembered.
+  static constexpr std::size_t kPaths = 1'000;
+  static constexpr std::size_t kTrails = 8;
+  static constexpr std::size_t kRemembered = 1 << 16;
+
+  // Gives chains names. To be called before anything happens; the model must outlive this object.
+  void define(const ObjectModel& model, std::vector<ChainDefinition> definitions) {
+    model_ = &model;
+    definitions_ = std::move(definitions);
+  }
+  const std::vector<ChainDefinition>& definitions() const { return definitions_; }
+
+  void on_callback_begin(const CallbackInstance& instance) override;
+  void on_callback(const CallbackInstance& instance) override;
+  void on_publication(const Publication& publication) override;
+  void on_message(const MessageFlow& message) override;
+  void on_message_link(const MessageLink& link) override;
+  void finish();
+
+  const std::vector<ChainRecord>& paths() const { return paths_; }
+  bool is_full() const { return is_full_; }  // there were more paths
+
+ protected:
+  // Called for each response that a path gets, in the order of their ends.
+  virtual void on_response(PathId, std::int64_t /*response_ns*/) {}
+
+ private:
+  // One cause of something, back to the begin of its chain.
+  struct Trail {
+    PathId path = kNoPath;
+    std::int64_t input_ns = 0;
+    std::int64_t callback_ns = 0;  // begin of the callback at the end of the path
+  };
+  // At most kTrails; more are left out.
+  class Trails {
+   public:
+    void push_back(const Trail& trail) {
+      if (size_ < kTrails) {
+        trails_[size_++] = trail;
+      }
+    }
+    bool empty() const { return size_ == 0; }
+    std::size_t size() const { return size_; }
+    const Trail* begin() const { return trails_.data(); }
+    const Trail* end() const { return trails_.data() + size_; }
+
+   private:
+    std::array<Trail, kTrails> trails_;
+    std::size_t size_ = 0;
+  };
+  struct Active {
+    ObjectId callback = kNoObject;
+    std::int64_t begin_ns = 0;
+    Trails trails;
+  };
+  struct Sent {
+    std::uint64_t number = 0;
+    std::int64_t published_ns = 0;
+    Trails trails;
+  };
+
+  PathId path_of(PathId parent, ObjectId topic, ObjectId callback);
+  // The begin of a chain whose cause is not known.
+  void begin_chain(Trails& trails, ObjectId callback, std::int64_t begin_ns);
+  std::string node_of(ObjectId callback) const;
+  bool begins_named_chain(ObjectId callback);
+  void compare_with_definitions(PathId path);
+  bool is_in_path(PathId path, ObjectId callback) const;
+  void end(const Trail& trail, std::int64_t end_ns);
+
+  const ObjectModel* model_ = nullptr;
+  std::vector<ChainDefinition> definitions_;
+  enum class Begins : std::uint8_t { kUnknown, kNo, kYes };
+  std::vector<Begins> begins_;  // by callback: whether a named chain begins there
+  std::vector<ChainRecord> paths_;
+  std::map<std::tuple<PathId, ObjectId, ObjectId>, PathId> index_;
+  bool is_full_ = false;
+  ThreadMap<std::vector<Active>> active_;            // innermost last
+  std::vector<Sent> sent_;                           // by number, modulo its size
+  std::map<ObjectId, std::vector<ObjectId>> links_;  // publisher to subscriptions
+  std::map<ObjectId, Trails> latest_;                // by subscription of a link
+};
+
+}  // namespace tracing

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/model/messages/delivery_statistics.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "tracing/model/messages/hop_times.hpp"
+
+namespace tracing {
+
+namespace {
+
+// More than any history holds, so that what became of a message is known.
+constexpr std::size_t kRemembered = 4'096;
+
+template <class Record>
+Record& at(std::vector<Record>& records, ObjectId id) {
+  if (id >= records.size()) {
+    records.resize(id + 1);
+  }
+  return records[id];
+}
+
+// How many messages the history of the reader holds.
+std::uint64_t queue_depth(const EndpointObject& subscription) {
+  const std::uint64_t depth = subscription.qos ? subscription.qos->history_depth : subscription.queue_depth;
+  if (subscription.qos && depth == 0) {
+    return std::numeric_limits<std::uint64_t>::max();
+  }
+  return std::max<std::uint64_t>(depth, 1);
+}
+
+}  // namespace
+
+void DeliveryStatistics::on_publication(const Publication& publication) {
+  PublisherRecord& record = at(publishers_, publication.publisher);
+  // A message goes through the middleware, too, if there are subscriptions elsewhere; it counts once here.
+  if (publication.intra_process || record.intra_process == 0) {
+    if (record.published + record.intra_process > 0) {
+      record.intervals.add(publication.published_ns - record.last_ns);
+    } else {
+      record.first_ns = publication.published_ns;
+    }
+    record.last_ns = publication.published_ns;
+  }
+  if (publication.intra_process) {
+    ++record.intra_process;
+    return;
+  }
+  ++record.published;
+  Publisher& publisher = at(sent_, publication.publisher);
+  ++publisher.count;
+  publisher.newest.push_back({publication.number, ++at(topic_counts_, publication.topic)});
+  if (publisher.newest.size() > kRemembered) {
+    publisher.newest.pop_front();
+  }
+}
+
+// Messages of one publisher arrive in their order: those between the last one and this one will not come.
+void DeliveryStatistics::find_gaps(const MessageFlow& message) {
+  Publisher& publisher = at(sent_, message.publication.publisher);
+  // Usually it is the last one or one of the last.
+  constexpr std::size_t kLast = 8;
+  const auto& newest = publisher.newest;
+  const auto is_before = [](const Sent& candidate, std::uint64_t number) { return candidate.number < number; };
+  const bool is_late = newest.size() > kLast && (newest.end() - kLast)->number <= message.publication.number;
+  const auto sent = std::lower_bound(is_late ? newest.end() - kLast : newest.begin(), newest.end(),
+                                     message.publication.number, is_before);
+  if (sent == publisher.newest.end() || sent->number != message.publication.number) {
+    return;
+  }
+  const auto index = static_cast<std::uint64_t>(sent - publisher.newest.begin());
+  const std::uint64_t place = publisher.count - publisher.newest.size() + 1 + index;
+  DeliveryRecord& record = at(subscriptions_, message.subscription);
+  const auto [last, is_first] = last_place_.try_emplace({message.subscription, message.publication.publisher}, place);
+  if (is_first) {
+    record.before_first += place - 1;
+    return;
+  }
+  if (place <= last->second) {
+    return;
+  }
+  const std::uint64_t depth = queue_depth(model_.subscriptions()[message.subscription]);
+  const std::uint64_t topic_count = at(topic_counts_, message.publication.topic);
+  std::uint64_t lost = 0;
+  for (std::uint64_t missing = last->second + 1; missing < place; ++missing) {
+    const std::uint64_t back = place - missing;
+    // It was older than the history of the reader is long when the reader was asked.
+    const bool overwritten =
+        back > index || topic_count - (sent - static_cast<std::ptrdiff_t>(back))->topic_count >= depth;
+    if (overwritten) {
+      ++record.overwritten;
+    }
+    if (!overwritten) {
+      ++lost;
+    }
+  }
+  count_lost(record, message, lost);
+  last->second = place;
+}
+
+void DeliveryStatistics::count_lost(DeliveryRecord& record, const MessageFlow& message, std::uint64_t count) const {
+  record.lost += count;
+  const std::optional<ros2::EndpointQos>& publisher = model_.publishers()[message.publication.publisher].qos;
+  const std::optional<ros2::EndpointQos>& subscription = model_.subscriptions()[message.subscription].qos;
+  if (!publisher || !subscription || subscription->is_filtered) {
+    return;
+  }
+  (publisher->reliable && subscription->reliable ? record.lost_by_publisher : record.lost_in_transport) += count;
+}
+
+void DeliveryStatistics::on_message(const MessageFlow& message) {
+  const Publication& publication = message.publication;
+  const bool is_known = publication.number != 0;
+  DeliveryRecord& record = at(subscriptions_, message.subscription);
+  ++record.received;
+  if (publication.intra_process) {
+    ++record.intra_process;
+  }
+  ++(message.callback == kNoObject ? record.not_executed : record.delivered);
+  if (!is_known) {
+    return;
+  }
+  if (!publication.intra_process) {
+    find_gaps(message);
+  }
+  if (message.callback == kNoObject) {
+    return;
+  }
+
+  const HopTimes times = hop_times(message);
+  if (times.rcl_ns) {
+    record.rcl.add(*times.rcl_ns);
+  }
+  if (times.rclcpp_ns) {
+    record.rclcpp.add(*times.rclcpp_ns);
+  }
+  record.latency.add(times.latency_ns);
+  record.take.add(times.take_ns);
+  if (times.transport_ns) {
+    record.transport.add(*times.transport_ns);
+  }
+  if (times.executor_ns) {
+    record.executor.add(*times.executor_ns);
+  }
+}
+
+void DeliveryStatistics::finish() {
+  for (const auto& [pair, place] : last_place_) {
+    const auto& [subscription, publisher] = pair;
+    subscriptions_[subscription].after_last += sent_[publisher].count - place;
+  }
+  last_place_.clear();
+}
+
+}  // namespace tracing

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/model/objects/process_table.hpp"
+
+#include <algorithm>
+
+#include "tracing/model/objects/context_address.hpp"
+
+namespace tracing {
+namespace {
+
+constexpr std::string_view kContextInit = "ros2:rcl_init";
+constexpr std::int64_t kFirstPidNamespace = 0xEFFFFFFC;  // PROC_PID_INIT_INO of the kernel
+
+}  // namespace
+
+std::size_t ProcessTable::HashKey::operator()(const Key& key) const {
+  const auto vpid = static_cast<std::uint64_t>(key.vpid.value_or(-1));
+  const auto place = static_cast<std::uint64_t>(key.place) << 40 ^ static_cast<std::uint64_t>(key.pid_ns) << 20;
+  const std::uint64_t mixed = (vpid ^ place) * 0x9e3779b97f4a7c15;
+  return mixed ^ (mixed >> 32);
+}
+
+std::uint32_t ProcessTable::space_of(const Recording& recording) {
+  const auto same =
+      std::find_if(spaces_.begin(), spaces_.end(), [&](const Space& space) { return space.recording == recording; });
+  if (same != spaces_.end()) {
+    return static_cast<std::uint32_t>(same - spaces_.begin());
+  }
+  const auto machine = std::find_if(spaces_.begin(), spaces_.end(), [&](const Space& space) {
+    return space.recording.host == recording.host && space.recording.machine == recording.machine;
+  });
+  spaces_.push_back({recording, machine == spaces_.end() ? machines_++ : machine->machine});
+  return static_cast<std::uint32_t>(spaces_.size() - 1);
+}
+
+const ProcessTable::ClassFacts& ProcessTable::facts_of(const EventClass& event_class) {
+  if (event_class.id >= facts_.size()) {
+    facts_.resize(event_class.id + 1);
+  }
+  std::optional<ClassFacts>& known = facts_[event_class.id];
+  if (known) {
+    return *known;
+  }
+  static const Recording kUnknown;
+  known = ClassFacts{
+      .space = space_of(event_class.recording == nullptr ? kUnknown : *event_class.recording),
+      .pid_ns = event_class.index_of_context("pid_ns"),
+      .context_address = event_class.name == kContextInit ? event_class.index_of("context_handle") : std::nullopt};
+  return *known;
+}
+
+ProcessId ProcessTable::add(const Key& key, ProcessId earlier) {
+  processes_.push_back({.vpid = key.vpid, .name = "", .host = spaces_[key.place].recording.host, .earlier = earlier});
+  keys_.push_back(key);
+  return static_cast<ProcessId>(processes_.size() - 1);
+}
+
+ProcessId ProcessTable::find(const Key& key) {
+  const auto [found, is_new] = by_space_.try_emplace(key, kNoProcess);
+  if (!is_new) {
+    return found->second;
+  }
+  const Space& space = spaces_[key.place];
+  // The kernel's numbers are those of the first namespace, where it tells none.
+  const std::int64_t pid_ns = key.pid_ns == kFirstPidNamespace ? 0 : key.pid_ns;
+  const auto [on_machine, first] = by_machine_.try_emplace({space.machine, key.vpid, pid_ns}, kNoProcess);
+  if (!first && key.vpid) {
+    // Only the kernel's events belong to a process of another session. They may have come first.
+    const bool by_kernel_so_far = spaces_[keys_[on_machine->second].place].recording.of_kernel;
+    if (space.recording.of_kernel || by_kernel_so_far) {
+      found->second = on_machine->second;
+      if (by_kernel_so_far) {
+        keys_[found->second] = key;
+      }
+      return found->second;
+    }
+  }
+  found->second = add(key, kNoProcess);
+  if (first) {
+    on_machine->second = found->second;
+  }
+  return found->second;
+}
+
+ProcessId ProcessTable::of_context(ProcessId known, const Key& key, const Event& event, std::uint64_t address) {
+  const std::vector<std::uint64_t>& contexts = contexts_[known];
+  const auto is_apart = [address](std::uint64_t other) { return are_of_two_processes(address, other); };
+  // A state dump repeats it, also if another process has the id meanwhile.
+  bool is_same = false;
+  for (ProcessId one = known; one != kNoProcess && !is_same; one = processes_[one].earlier) {
+    const std::vector<std::uint64_t>& seen = contexts_[one];
+    is_same = std::find(seen.begin(), seen.end(), address) != seen.end();
+  }
+  const bool is_other_program = event.vtid == event.vpid && event.procname && processes_[known].named_by_main_thread &&
+                                processes_[known].name != *event.procname;
+  const bool is_new =
+      !contexts.empty() && !is_same && (is_other_program || std::any_of(contexts.begin(), contexts.end(), is_apart));
+  ProcessId process = known;
+  if (is_new) {
+    process = add(key, known);
+    by_space_[key] = process;
+    for (auto& [other, of_kernel] : by_space_) {
+      if (of_kernel == known && spaces_[other.place].recording.of_kernel) {
+        of_kernel = process;
+      }
+    }
+    for (auto& [other, on_machine] : by_machine_) {
+      if (on_machine == known) {
+        on_machine = process;
+      }
+    }
+  }
+  if (!is_same) {
+    contexts_[process].push_back(address);
+  }
+  return process;
+}
+
+// procname is the name of the thread: only the main thread has the name of the process. The kernel's events begin
+// before the process executes its program, when it still has the name of the process that started it. So the last name
+// counts there, until an event of the program itself tells its name.
+void ProcessTable::learn_name(ProcessObject& process, const Event& event, bool of_kernel) {
+  if (!event.vpid || process.named_by_main_thread || !event.procname) {
+    return;
+  }
+  const bool is_main_thread = event.vtid == event.vpid;
+  process.named_by_main_thread = is_main_thread && !of_kernel;
+  if ((is_main_thread || process.name.empty()) && process.name != *event.procname) {
+    process.name = *event.procname;
+  }
+}
+
+ProcessId ProcessTable::of(const Event& event) {
+  const ClassFacts& facts = facts_of(*event.event_class);
+  Key key{.place = facts.space, .vpid = event.vpid};
+  if (facts.pid_ns) {
+    key.pid_ns = event.context(*facts.pid_ns).integer().value_or(0);
+  }
+  if (last_process_ == kNoProcess || last_key_ != key) {
+    last_process_ = find(key);
+    last_key_ = key;
+  }
+  if (facts.context_address && event.vpid) {
+    const std::optional<std::uint64_t> address = event.field(*facts.context_address).unsigned_integer();
+    if (address) {
+      last_process_ = of_context(last_process_, key, event, *address);
+    }
+  }
+  learn_name(processes_[last_process_], event, spaces_[facts.space].recording.of_kernel);
+  return last_process_;
+}
+
+std::optional<ProcessId> ProcessTable::beside(ProcessId process, std::int64_t vpid) const {
+  Key key = keys_[process];
+  key.vpid = vpid;
+  const auto found = by_space_.find(key);
+  return found == by_space_.end() ? std::nullopt : std::optional(found->second);
+}
+
+}  // namespace tracing

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// The processes of a trace. Processes of two machines, of two containers or of two sessions may have equal ids, and so
+// may two processes that ran one after the other: a process is known by the machine, the session, its namespace of
+// process ids if that was recorded (context `pid_ns`), its id, and its `rcl_init`. One with another address of the
+// context than the last one had, where no process has both, is that of a new process. Its events before are taken for
+// the last one's.
+//
+// The tracer of the kernel sees the processes of all sessions of its machine, so its events are those of a process that
+// another trace of the machine knows.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "tracing/decode/reader/event.hpp"
+
+namespace tracing {
+
+using ProcessId = std::uint32_t;  // index in ProcessTable::processes()
+inline constexpr ProcessId kNoProcess = 0xffffffff;
+
+struct ProcessObject {
+  std::optional<std::int64_t> vpid;   // nullopt: all events of a session that were recorded without the context vpid
+  std::string name;                   // procname of its main thread, else of the first thread seen; may be empty
+  std::string host;                   // the name of its machine; empty when the trace does not tell
+  bool named_by_main_thread = false;  // in an event of its own, not of the kernel
+  // The process that had its id before; kNoProcess if there was none. If both run at the same time, in two containers
+  // whose namespaces were not recorded, events of the earlier one are taken for those of the later one.
+  ProcessId earlier = kNoProcess;
+};
+
+class ProcessTable {
+ public:
+  // The process of an event. The events of one reader may come in any order.
+  ProcessId of(const Event& event);
+
+  // The process with an id as another process sees it.
+  std::optional<ProcessId> beside(ProcessId process, std::int64_t vpid) const;
+
+  const std::vector<ProcessObject>& processes() const { return processes_; }
+
+ private:
+  // Process ids are unique within a space, which is the session of a machine, and a namespace.
+  struct Space {
+    Recording recording;
+    std::uint32_t machine = 0;
+  };
+  struct Key {
+    std::uint32_t place = 0;  // of a space or of a machine
+    std::optional<std::int64_t> vpid;
+    std::int64_t pid_ns = 0;  // 0: not recorded
+    bool operator==(const Key&) const = default;
+  };
+  // What all events of a class have in common.
+  struct ClassFacts {
+    std::uint32_t space = 0;
+    std::optional<std::size_t> pid_ns;           // the place of the context
+    std::optional<std::size_t> context_address;  // the place of the field, in ros2:rcl_init
+  };
+  struct HashKey {
+    std::size_t operator()(const Key& key) const;
+  };
+
+  const ClassFacts& facts_of(const EventClass& event_class);
+  std::uint32_t space_of(const Recording& recording);
+  ProcessId find(const Key& key);
+  ProcessId add(const Key& key, ProcessId earlier);
+  // The process of an rcl_init, which may be a new one.
+  ProcessId of_context(ProcessId known, const Key& key, const Event& event, std::uint64_t address);
+  static void learn_name(ProcessObject& process, const Event& event, bool of_kernel);
+
+  std::vector<ProcessObject> processes_;
+  std::vector<Key> keys_;  // by process
+  std::vector<Space> spaces_;
+  std::uint32_t machines_ = 0;
+  std::vector<std::optional<ClassFacts>> facts_;                        // by EventClass::id
+  std::unordered_map<ProcessId, std::vector<std::uint64_t>> contexts_;  // their addresses
+  std::unordered_map<Key, ProcessId, HashKey> by_space_;
+  std::unordered_map<Key, ProcessId, HashKey> by_machine_;  // the first process with the id on a machine
+
+  Key last_key_;  // consecutive events often come from one process
+  ProcessId last_process_ = kNoProcess;
+};
+
+}  // namespace tracing

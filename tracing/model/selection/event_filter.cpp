@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/model/selection/event_filter.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <ctime>
+
+namespace tracing {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+// Reads a number such as "12.5" exactly, in nanoseconds.
+std::optional<std::int64_t> parse_seconds(std::string_view text) {
+  std::int64_t seconds = 0;
+  const char* const end = text.data() + text.size();
+  const auto [whole_end, error] = std::from_chars(text.data(), end, seconds);
+  if (error != std::errc() || seconds < 0 || seconds > INT64_MAX / kSecond - 1) {
+    return std::nullopt;
+  }
+  std::int64_t ns = seconds * kSecond;
+  if (whole_end == end) {
+    return ns;
+  }
+  if (*whole_end != '.') {
+    return std::nullopt;
+  }
+  std::int64_t unit = kSecond;
+  for (const char* digit = whole_end + 1; digit != end; ++digit) {
+    if (*digit < '0' || *digit > '9') {
+      return std::nullopt;
+    }
+    unit /= 10;
+    ns += (*digit - '0') * unit;
+  }
+  return ns;
+}
+
+}  // namespace
+
+std::optional<TimeBound> TimeBound::parse(std::string_view text) {
+  if (text.starts_with('+')) {
+    const auto ns = parse_seconds(text.substr(1));
+    return ns ? std::optional(TimeBound{*ns, true}) : std::nullopt;
+  }
+  if (const auto ns = parse_seconds(text)) {
+    return TimeBound{*ns, false};
+  }
+  std::tm date{};
+  const std::string date_text(text);
+  const char* const rest = strptime(date_text.c_str(), "%Y-%m-%dT%H:%M:%S", &date);
+  if (rest == nullptr) {
+    return std::nullopt;
+  }
+  const std::string fraction = "0" + std::string(rest);
+  const auto ns = parse_seconds(fraction);
+  if (!ns || *ns >= kSecond) {
+    return std::nullopt;
+  }
+  return TimeBound{static_cast<std::int64_t>(timegm(&date)) * kSecond + *ns, false};
+}
+
+bool EventFilter::accepts_name(const EventClass& event_class) {
+  if (events.empty()) {
+    return true;
+  }
+  if (event_class.id >= names_.size()) {
+    names_.resize(event_class.id + 1, -1);
+  }
+  std::int8_t& known = names_[event_class.id];
+  if (known < 0) {
+    known = std::any_of(events.begin(), events.end(),
+                        [&](const std::string& pattern) { return matches_pattern(pattern, event_class.name); })
+                ? 1
+                : 0;
+  }
+  return known == 1;
+}
+
+bool EventFilter::accepts_process(const Event& event) const {
+  return std::any_of(processes.begin(), processes.end(), [&](const std::string& process) {
+    return (event.vpid && std::to_string(*event.vpid) == process) ||
+           (event.procname && matches_pattern(process, *event.procname));
+  });
+}
+
+std::int64_t EventFilter::absolute(const TimeBound& bound, const Event& event) {
+  if (!first_ns_) {
+    first_ns_ = event.timestamp_ns;
+  }
+  return bound.since_first ? *first_ns_ + bound.ns : bound.ns;
+}
+
+bool EventFilter::is_behind(const Event& event) {
+  return end && event.timestamp_ns >= absolute(*end, event);
+}
+
+bool EventFilter::accepts(const Event& event) {
+  if (!nodes.empty()) {
+    // It learns from all events, also from those that are not wanted.
+    if (!node_filter_) {
+      node_filter_ = std::make_unique<NodeFilter>(nodes);
+    }
+    if (!node_filter_->accepts(event)) {
+      return false;
+    }
+  }
+  if (begin && event.timestamp_ns < absolute(*begin, event)) {
+    return false;
+  }
+  if (is_behind(event)) {
+    return false;
+  }
+  if (!accepts_name(*event.event_class)) {
+    return false;
+  }
+  if (!processes.empty() && !accepts_process(event)) {
+    return false;
+  }
+  return std::all_of(expressions.begin(), expressions.end(),
+                     [&](const FieldExpression& expression) { return expression.holds(event); });
+}
+
+}  // namespace tracing

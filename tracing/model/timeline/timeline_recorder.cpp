@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/model/timeline/timeline_recorder.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include "tracing/model/timeline/instance_index.hpp"
+#include "tracing/model/timeline/objects.hpp"
+
+namespace tracing::timeline {
+
+std::size_t TimelineRecorder::HashThreadId::operator()(const ThreadId& thread) const {
+  return static_cast<std::size_t>(thread.vtid) * 0x9e3779b97f4a7c15 ^ static_cast<std::size_t>(thread.process);
+}
+
+Index TimelineRecorder::thread_of(const ThreadId& id) {
+  if (last_thread_ != kNone && id == last_thread_id_) {
+    return last_thread_;  // consecutive events often have one thread
+  }
+  const auto [found, is_new] = threads_.try_emplace(id, timeline_.threads.size());
+  if (is_new) {
+    timeline_.threads.push_back({id.process, id.vtid});
+  }
+  last_thread_id_ = id;
+  last_thread_ = found->second;
+  return last_thread_;
+}
+
+void TimelineRecorder::on_callback(const CallbackInstance& instance) {
+  timeline_.instances.push_back({.start_ns = instance.begin_ns,
+                                 .end_ns = instance.end_ns,
+                                 .callback = instance.callback,
+                                 .thread = thread_of(instance.thread),
+                                 .finished = instance.finished,
+                                 .intra_process = instance.intra_process});
+}
+
+Message TimelineRecorder::message_of(const Publication& publication) {
+  Message message;
+  message.published_ns = publication.published_ns;
+  message.called_ns = publication.published_ns;
+  if (publication.rcl_ns != 0) {
+    message.called_ns = publication.rcl_ns;
+  }
+  if (publication.rclcpp_ns != 0) {
+    message.called_ns = publication.rclcpp_ns;
+  }
+  message.topic = publication.topic;
+  message.publisher = publication.publisher;
+  message.publishing_thread = thread_of(publication.thread);
+  return message;
+}
+
+void TimelineRecorder::on_publication(const Publication& publication) {
+  timeline_.messages.push_back(message_of(publication));
+}
+
+// Without its publication a message has no place in the timeline.
+void TimelineRecorder::on_message(const MessageFlow& flow) {
+  if (flow.publication.publisher == kNoObject) {
+    return;
+  }
+  Flow told{message_of(flow.publication), flow.callback_begin_ns};
+  told.message.subscription = flow.subscription;
+  told.message.taking_thread = thread_of(flow.taking_thread);
+  told.message.taken_ns = flow.taken_ns;
+  flows_.push_back(told);
+}
+
+void TimelineRecorder::on_lifecycle_state(const LifecycleInterval& interval) {
+  if (interval.node == kNoObject) {
+    return;
+  }
+  timeline_.lifecycle.push_back({interval.node, std::string(interval.state), interval.begin_ns, interval.end_ns});
+}
+
+void TimelineRecorder::on_thread_state(const ThreadInterval& interval) {
+  const auto thread = threads_.find(interval.thread);
+  if (thread == threads_.end()) {
+    return;
+  }
+  Index other = kNone;
+  if (!interval.other_name.empty()) {
+    const auto next = static_cast<Index>(other_threads_.size());
+    const auto [known, is_new] =
+        other_threads_.try_emplace({interval.other_tid, std::string(interval.other_name)}, next);
+    if (is_new) {
+      timeline_.other_threads.push_back({interval.other_tid, std::string(interval.other_name)});
+    }
+    other = known->second;
+  }
+  timeline_.states.push_back({interval.begin_ns, interval.end_ns, thread->second, other,
+                              static_cast<std::int32_t>(interval.cpu), interval.state});
+}
+
+// Publications and flows become one list: a flow has its publication in it, so of publications only those are left that
+// nobody took.
+void TimelineRecorder::join_messages() {
+  const auto key = [](const Message& message) { return std::tie(message.published_ns, message.publisher); };
+  std::stable_sort(flows_.begin(), flows_.end(),
+                   [&](const Flow& left, const Flow& right) { return key(left.message) < key(right.message); });
+  std::stable_sort(timeline_.messages.begin(), timeline_.messages.end(),
+                   [&](const Message& left, const Message& right) { return key(left) < key(right); });
+  std::vector<Flow> joined;
+  joined.reserve(std::max(flows_.size(), timeline_.messages.size()));
+  auto flow = flows_.begin();
+  for (const Message& publication : timeline_.messages) {
+    bool taken = false;
+    while (flow != flows_.end() && key(flow->message) <= key(publication)) {
+      flow->message.repeated = taken;
+      taken = true;
+      joined.push_back(*flow++);
+    }
+    if (!taken) {
+      joined.push_back({publication, 0});
+    }
+  }
+  flows_ = std::move(joined);
+}
+
+// Finds the instances in which messages were published, and those that got them.
+void TimelineRecorder::link_messages() {
+  const InstanceIndex index(timeline_.instances, timeline_.threads.size());
+  timeline_.messages.clear();
+  timeline_.messages.reserve(flows_.size());
+  for (Flow& flow : flows_) {
+    Message& message = flow.message;
+    message.publishing_instance = index.running(message.publishing_thread, message.published_ns);
+    if (flow.callback_begin_ns != 0) {
+      message.receiving_instance = index.begun(message.taking_thread, flow.callback_begin_ns);
+      if (message.receiving_instance != kNone) {
+        timeline_.instances[message.receiving_instance].message = timeline_.messages.size();
+      }
+    }
+    timeline_.messages.push_back(message);
+  }
+  flows_ = {};
+}
+
+Timeline TimelineRecorder::finish(const TraceAnalysis& analysis, const TraceOverview& overview) {
+  timeline_.begin_ns = overview.begin_ns.value_or(0);
+  timeline_.end_ns = overview.end_ns.value_or(0);
+  // Instances and states are told at their ends.
+  std::stable_sort(timeline_.instances.begin(), timeline_.instances.end(),
+                   [](const Instance& left, const Instance& right) { return left.start_ns < right.start_ns; });
+  std::stable_sort(timeline_.states.begin(), timeline_.states.end(),
+                   [](const ThreadState& left, const ThreadState& right) { return left.begin_ns < right.begin_ns; });
+  join_messages();
+  link_messages();
+  std::stable_sort(timeline_.lifecycle.begin(), timeline_.lifecycle.end(),
+                   [](const LifecycleState& left, const LifecycleState& right) {
+                     return std::tie(left.node, left.begin_ns) < std::tie(right.node, right.begin_ns);
+                   });
+  copy_objects(analysis, timeline_);
+  return std::move(timeline_);
+}
+
+}  // namespace tracing::timeline

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// The events that a trace lacks, and the cost of recording it. A session makes this account at its end.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tracing/record/account/absence.hpp"
+#include "tracing/record/account/event_cost.hpp"
+#include "tracing/record/account/event_cuts.hpp"
+#include "tracing/record/account/process_account.hpp"
+#include "tracing/record/account/session_step.hpp"
+
+namespace tracing {
+
+// An unbroken run of losses of one processor. Times are nanoseconds after the trace's first packet began.
+struct LossRange {
+  std::string cpu;
+  std::uint64_t begin_ns = 0;
+  std::uint64_t end_ns = 0;
+  std::uint64_t events = 0;
+};
+
+// From begin_ns on the events of a processor could not be written. Times count as in LossRange.
+struct UnwrittenRange {
+  std::string cpu;
+  std::uint64_t begin_ns = 0;
+  std::uint64_t end_ns = 0;  // when the session was stopped
+};
+
+// What a channel recorded before the first packet that its trace still has.
+struct BeforeFirstPacket {
+  enum Why {
+    kOverwrittenInFiles,  // as asked: the oldest of a limited number of files is overwritten
+    kLost,                // in overwrite mode, before they were read
+    kRemoved              // the session was cleared, or an archive of it was moved away
+  };
+  Why why = kLost;
+  std::uint64_t packets = 0;
+  std::uint64_t discarded_events = 0;        // before the end of the first packet that is left
+  std::optional<std::uint64_t> events = {};  // in these packets; nothing: unknown
+  bool at_least = false;                     // some processes do not count what they fire
+
+  bool nothing() const { return packets == 0 && discarded_events == 0; }
+};
+
+enum class LossSource { kDaemon, kPackets, kTracefs };
+
+// Events of a channel that the tracer could not keep: as the session daemon counts before the session is destroyed, or
+// as the packets of the trace tell (packet_losses.hpp).
+struct ChannelLoss {
+  std::string domain;  // "ust" or "kernel"
+  std::string channel;
+  std::uint64_t discarded_events = 0;  // event-loss mode: newest events dropped while buffers were full
+  std::uint64_t lost_packets = 0;      // overwrite mode: oldest packets overwritten
+  LossSource counted_by = LossSource::kPackets;
+  std::uint64_t only_daemon_events = 0;   // of discarded_events: those that never got into the count of a packet
+  std::uint64_t only_daemon_packets = 0;  // of lost_packets
+  BeforeFirstPacket before_first = {};    // not in the two counts
+
+  bool overwrite = false;
+  std::uint64_t tracefile_size = 0;  // bytes of a file, of which there are so many; 0: no limit
+  std::uint64_t tracefile_count = 0;
+  std::uint64_t subbuffer_size = 0;  // bytes
+  std::uint64_t subbuffer_count = 0;
+  std::uint64_t bytes = 0;             // recorded
+  std::vector<LossRange> ranges = {};  // where the discarded events are missing
+  std::vector<UnwrittenRange> unwritten = {};
+  // Bytes. With so many sub-buffers of this size nothing would have been lost.
+  std::uint64_t advised_subbuffer_size = 0;
+  std::uint64_t advised_subbuffer_count = 0;
+};
+
+// How exactly the lost events are attributed to processes.
+enum class LossAttribution {
+  kExact,     // the processes lost as much as the channels
+  kEstimate,  // they lost more (another session recorded at other times) or less (other programs do not count), or
+              // packets are missing, whose events were not counted
+  kUnknown
+};
+
+struct LossAccount {
+  std::uint64_t discarded_events() const;
+  std::uint64_t lost_packets() const;
+  // Everything that was recorded is in the trace, nothing was lost, and nobody was absent.
+  bool complete() const;
+  // Something was lost although the user did not ask to overwrite or remove it.
+  bool has_losses() const;
+
+  std::vector<ChannelLoss> channels;
+  std::vector<ProcessAccount> processes = {};  // by the time of their beginning
+  LossAttribution attribution = LossAttribution::kUnknown;
+  std::uint64_t unattributed = 0;      // lost userspace events of no process in the list
+  std::optional<EventCost> cost = {};  // of an event, on this machine
+  std::vector<EventCut> cuts = {};     // dropped on purpose: no losses
+  bool cut_short = false;              // the wait for the last data was given up
+  std::vector<Absence> absences = {};
+  std::string damage = {};              // a sentence on data that is missing and was not counted, or ""
+  std::string directory = {};           // of the recording or of the snapshots; "" if it is not on this machine
+  bool of_snapshots = false;            // the session kept the newest events only, so its losses mean nothing
+  std::string unwritten_verdict = {};   // why verdict.json could not be written
+  std::vector<SessionStep> steps = {};  // of the end: "stop", "last data", "destroy", …
+};
+
+}  // namespace tracing

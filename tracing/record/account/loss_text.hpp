@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// A loss account for people.
+#pragma once
+
+#include <string>
+
+#include "tracing/record/account/loss_account.hpp"
+
+namespace tracing {
+
+// One line per channel with losses ("12 events lost in ust channel ros2"), or "no events lost".
+std::string describe_losses(const LossAccount& losses);
+
+// As one line: the estimated cost of tracing for all processes together, and for the process that it has cost most. ""
+// if the cost of an event is unknown or no event was counted.
+std::string describe_cost(const LossAccount& losses);
+
+}  // namespace tracing

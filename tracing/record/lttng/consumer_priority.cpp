@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/record/lttng/consumer_priority.hpp"
+
+#include <fmt/core.h>
+#include <sys/resource.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "base/processes/process_stat.hpp"
+
+namespace tracing {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kConsumer = "lttng-consumerd";
+constexpr const char* kSessionDaemon = "lttng-sessiond";
+
+pid_t number_of(const fs::path& path) {
+  const std::string name = path.filename();
+  pid_t number = 0;
+  std::from_chars(name.data(), name.data() + name.size(), number);
+  return number;
+}
+
+bool is_consumer_of(const fs::path& process, pid_t daemon) {
+  const launch::ProcessStat stat = launch::read_process_stat(number_of(process));
+  return stat.name == kConsumer && stat.parent == daemon;
+}
+
+// The children of a process. All processes are looked at where the kernel doesn't list them (CONFIG_PROC_CHILDREN),
+// which takes milliseconds.
+std::vector<fs::path> candidates(pid_t daemon) {
+  std::vector<fs::path> found;
+  std::error_code none;
+  bool listed = false;
+  for (const fs::directory_entry& thread : fs::directory_iterator(fmt::format("/proc/{}/task", daemon), none)) {
+    std::ifstream children(thread.path() / "children");
+    listed = listed || children.is_open();
+    for (pid_t child = 0; children >> child;) {
+      found.emplace_back(fmt::format("/proc/{}", child));
+    }
+  }
+  if (listed) {
+    return found;
+  }
+  for (const fs::directory_entry& process : fs::directory_iterator("/proc", none)) {
+    if (number_of(process.path()) > 0) {
+      found.push_back(process.path());
+    }
+  }
+  return found;
+}
+
+// The error of the first thread that keeps its priority, or 0.
+int prefer(const fs::path& process) {
+  std::error_code none;
+  // On Linux a nice value belongs to a thread.
+  for (const fs::directory_entry& thread : fs::directory_iterator(process / "task", none)) {
+    const auto id = static_cast<id_t>(number_of(thread.path()));
+    if (setpriority(PRIO_PROCESS, id, kConsumerNice) != 0 && errno != ESRCH) {
+      return errno;
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::vector<pid_t> consumers_of(pid_t daemon) {
+  std::vector<pid_t> consumers;
+  for (const fs::path& process : candidates(daemon)) {
+    if (is_consumer_of(process, daemon)) {
+      consumers.push_back(number_of(process));
+    }
+  }
+  return consumers;
+}
+
+std::string prefer_daemons(pid_t daemon) {
+  if (launch::read_process_stat(daemon).name == kSessionDaemon) {
+    prefer(fmt::format("/proc/{}", daemon));
+  }
+  for (const pid_t consumer : consumers_of(daemon)) {
+    const int error = prefer(fmt::format("/proc/{}", consumer));
+    if (error == 0) {
+      continue;
+    }
+    return fmt::format(
+        "LTTng's consumer keeps its priority ({}): on a machine that is busy all the time it may come too late, and "
+        "events are lost; it takes root, CAP_SYS_NICE, or `USER - nice {}` in /etc/security/limits.conf",
+        std::strerror(error), kConsumerNice);
+  }
+  return {};
+}
+
+}  // namespace tracing

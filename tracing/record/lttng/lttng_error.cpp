@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/record/lttng/lttng_error.hpp"
+
+#include <fmt/core.h>
+#include <lttng/lttng-error.h>
+
+#include <cstdlib>
+
+#include "tracing/record/lttng/lttng_ctl.hpp"
+#include "tracing/record/lttng/session_daemon.hpp"
+#include "tracing/record/plan/trace_error.hpp"
+
+namespace tracing {
+namespace {
+
+std::string remedy_for(int code) {
+  switch (code) {
+    case LTTNG_ERR_NO_SESSIOND:
+    case LTTNG_ERR_CONNECT_FAIL:
+      return "no LTTng session daemon runs for this user any more: its sessions are gone, their traces end where they "
+             "are";
+    case LTTNG_ERR_SESS_NOT_FOUND:
+    case LTTNG_ERR_SESSION_NOT_EXIST:
+    case LTTNG_ERR_NO_SESSION:
+      return "`launch trace list` shows the sessions that exist";
+    case LTTNG_ERR_EPERM:
+      return "run as the user who owns the session, or as a member of the group `tracing` to use root's session daemon";
+    case LTTNG_ERR_RELAYD_CONNECT_FAIL:
+    case LTTNG_ERR_RELAYD_VERSION_FAIL:
+      return "start a relay daemon there: lttng-relayd --daemonize";
+    case LTTNG_ERR_NOT_SNAPSHOT_SESSION:
+      return "create the session in snapshot mode";
+    // Its consumer was killed.
+    case LTTNG_ERR_FATAL:
+    case LTTNG_ERR_NO_USTCONSUMERD:
+      return fmt::format(
+          "restart lttng-sessiond: its consumer has ended, and it starts no other one. `kill {}` ends it with all its "
+          "sessions; the next trace starts a new one",
+          session_daemon_pid());
+    case LTTNG_ERR_UST_CONSUMER64_FAIL:
+    case LTTNG_ERR_ENABLE_CONSUMER_FAIL:
+      return "lttng-consumerd did not start: check the installation of lttng-tools";
+    default:
+      return {};
+  }
+}
+
+}  // namespace
+
+TraceError lttng_error(int code, const std::string& doing) {
+  const int positive = std::abs(code);
+  return TraceError(fmt::format("cannot {}: {}", doing, lttng_strerror(-positive)), remedy_for(positive));
+}
+
+int check_lttng(int result, const std::string& doing) {
+  if (result >= 0) {
+    return result;
+  }
+  const TraceError error = lttng_error(result, doing);
+  if (result == -LTTNG_ERR_FATAL || result == -LTTNG_ERR_NO_USTCONSUMERD) {
+    throw ConsumerEnded(error.what(), error.remedy());
+  }
+  throw TraceError(error);
+}
+
+}  // namespace tracing

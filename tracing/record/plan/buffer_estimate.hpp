@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Estimates before a launch whether the buffers will hold its events: from the number of nodes, each as busy as a busy
+// node.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "tracing/record/plan/trace_config.hpp"
+
+namespace tracing {
+
+// What a busy node fires: 200 messages a second that are received, handled and answered, ten events each.
+inline constexpr std::uint64_t kEventsPerNode = 2000;  // per second
+inline constexpr std::uint64_t kBytesPerEvent = 100;   // with the three context fields
+// How much longer than its read timer the consumer may be kept from reading, on a busy machine.
+inline constexpr double kConsumerDelay = 0.15;  // seconds
+
+// Bytes of a userspace sub-buffer, a power of two, so that `config.subbuffer_count_ust` of them for each of
+// `processors` hold the events of `nodes`. Never less than the default.
+std::uint64_t sufficient_subbuffer_size(const TraceConfig& config, std::size_t nodes, std::size_t processors);
+
+// A sentence when the userspace buffers of `config` don't hold the events of `nodes` by this estimate, else "".
+std::string buffer_warning(const TraceConfig& config, std::size_t nodes, std::size_t processors);
+
+}  // namespace tracing

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/record/session/flight_recorder.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "tracing/record/plan/trace_error.hpp"
+#include "tracing/record/session/snapshot.hpp"
+
+namespace tracing {
+namespace {
+
+namespace fs = std::filesystem;
+
+}  // namespace
+
+FlightRecorder::FlightRecorder(const TraceConfig& config, std::function<void(const TakenSnapshot&)> told)
+    : config_(config), told_(std::move(told)), thread_([this] { work(); }) {}
+
+FlightRecorder::~FlightRecorder() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  changed_.notify_one();
+  thread_.join();
+}
+
+void FlightRecorder::request(const std::string& reason) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (std::find(requested_.begin(), requested_.end(), reason) != requested_.end()) {
+      return;
+    }
+    requested_.push_back(reason);
+  }
+  changed_.notify_one();
+}
+
+void FlightRecorder::work() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return stop_ || !requested_.empty(); });
+    if (requested_.empty()) {
+      return;
+    }
+    std::vector<std::string> reasons = std::exchange(requested_, {});
+    lock.unlock();
+    told_(take(std::move(reasons)));
+    lock.lock();
+  }
+}
+
+TakenSnapshot FlightRecorder::take(std::vector<std::string> reasons) {
+  TakenSnapshot taken{.reasons = std::move(reasons), .directory = {}, .error = {}};
+  try {
+    record_snapshot(config_.lttng_session_name());
+    if (config_.over_network()) {
+      return taken;
+    }
+    std::vector<fs::path> snapshots = snapshots_in(config_.trace_directory());
+    if (snapshots.empty()) {
+      throw TraceError("LTTng has written no snapshot");
+    }
+    taken.directory = snapshots.back();
+    judge_snapshot(taken.directory, config_.lttng_session_name(), config_.event_counters, taken.reasons);
+    for (std::size_t oldest = 0; snapshots.size() - oldest > config_.snapshot_limit; ++oldest) {
+      fs::remove_all(snapshots[oldest]);
+    }
+  } catch (const std::exception& error) {
+    taken.error = error.what();
+  }
+  return taken;
+}
+
+}  // namespace tracing

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writes snapshots of a snapshot session when something has gone wrong: what happened before is in them.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tracing/record/plan/trace_config.hpp"
+
+namespace tracing {
+
+struct TakenSnapshot {
+  std::vector<std::string> reasons;  // several, when they came while the snapshot before was being taken
+  std::filesystem::path directory;   // empty when `error` is not, and over a network
+  std::string error;
+};
+
+class FlightRecorder {
+ public:
+  // The session that `config` describes must exist. `told` is called from a thread of the recorder's own.
+  FlightRecorder(const TraceConfig& config, std::function<void(const TakenSnapshot&)> told);
+  // Takes the snapshots that were requested before.
+  ~FlightRecorder();
+  FlightRecorder(const FlightRecorder&) = delete;
+  FlightRecorder& operator=(const FlightRecorder&) = delete;
+
+  // From any thread; does not block. A reason that is requested again before its snapshot begins is kept once. The
+  // snapshot holds every event that was fired before, as far as the buffers reach back. When there are more than
+  // TraceConfig::snapshot_limit, the oldest snapshot is removed.
+  void request(const std::string& reason);
+
+ private:
+  void work();
+  TakenSnapshot take(std::vector<std::string> reasons);
+
+  TraceConfig config_;
+  std::function<void(const TakenSnapshot&)> told_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<std::string> requested_;
+  bool stop_ = false;
+  std::thread thread_;
+};
+
+}  // namespace tracing

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "base/monotonic_clock.hpp"
+#include "tracing/record/account/absence.hpp"
+#include "tracing/record/account/cost_measurement.hpp"
+#include "tracing/record/account/counter_directory.hpp"
+#include "tracing/record/account/loss_account.hpp"
+#include "tracing/record/account/loss_counters.hpp"
+#include "tracing/record/account/losses_by_process.hpp"
+#include "tracing/record/account/packet_losses.hpp"
+#include "tracing/record/account/session_pauses.hpp"
+#include "tracing/record/account/session_step.hpp"
+#include "tracing/record/account/stream_packets.hpp"
+#include "tracing/record/account/unwritten_data.hpp"
+#include "tracing/record/account/verdict.hpp"
+#include "tracing/record/checks/unreachable_processes.hpp"
+#include "tracing/record/kernel/kernel_recorder.hpp"
+#include "tracing/record/lttng/consumer_priority.hpp"
+#include "tracing/record/lttng/lttng_ctl.hpp"
+#include "tracing/record/lttng/lttng_error.hpp"
+#include "tracing/record/lttng/relay_connection.hpp"
+#include "tracing/record/lttng/session_daemon.hpp"
+#include "tracing/record/plan/trace_config.hpp"
+#include "tracing/record/plan/trace_error.hpp"
+#include "tracing/record/session/event_watch.hpp"
+#include "tracing/record/session/run_watch.hpp"
+#include "tracing/record/session/session_details.hpp"
+#include "tracing/record/session/session_end.hpp"
+#include "tracing/record/session/session_listing.hpp"
+#include "tracing/record/session/session_setup.hpp"
+#include "tracing/record/session/session_store.hpp"
+#include "tracing/record/session/snapshot.hpp"
+#include "tracing/record/session/step_timer.hpp"
+#include "tracing/record/session/traceable_events.hpp"
+#include "tracing/record/session/tracer.hpp"
+
+namespace tracing {
+namespace {
+
+// A damaged trace is not complete, so its damage is looked for first.
+void judge(LossAccount& losses, LossesByProcess& by_process, const std::vector<Stream>& streams,
+           const std::string& directory, std::uint64_t stopped) {
+  explain_losses(losses, streams);
+  const std::string no_room = why_no_room(directory);
+  find_unwritten(losses, streams, stopped, !no_room.empty());
+  losses.damage = describe_damage(losses, no_room, directory);
+  by_process.look_for_absent_events(directory);
+  by_process.look_into(directory, streams);
+}
+
+// A verdict that can't be written, as on a full disk, is no reason to lose the account.
+void write(LossAccount& losses, const std::string& session_name, const std::string& directory) {
+  try {
+    write_verdict(losses, session_name, directory);
+  } catch (const TraceError& error) {
+    losses.unwritten_verdict = error.what();
+  }
+}
+
+// The launch that records a session knows its counters; other programs look for them.
+TraceConfig with_counters(TraceConfig config) {
+  if (config.event_counters.empty()) {
+    config.event_counters = CounterDirectory::of_session(config.lttng_session_name());
+  }
+  return config;
+}
+
+// For a session that ended in an error: what is in its directory is not complete.
+void write_failed_verdict(const std::string& session_name, const std::string& directory, const std::string& failure) {
+  std::error_code none;
+  if (!directory.starts_with('/') || !std::filesystem::is_directory(directory, none)) {
+    return;
+  }
+  LossAccount losses;
+  losses.damage = failure;
+  try {
+    write_verdict(losses, session_name, directory);
+  } catch (const TraceError&) {
+    // The error of the session is the one to tell.
+  }
+}
+
+// Without its session nobody else would end it.
+void end_kernel_recorder(const std::string& directory) {
+  if (!directory.starts_with('/')) {
+    return;
+  }
+  try {
+    finish_kernel_recorder(directory);
+  } catch (const TraceError&) {
+    // The error of the session is the one to tell.
+  }
+}
+
+// The streams of a recording that has been written.
+std::vector<Stream> streams_of(const LossAccount& losses, const std::string& directory,
+                               const std::function<bool()>& give_up) {
+  std::set<std::string> in_files;
+  for (const ChannelLoss& channel : losses.channels) {
+    if (channel.tracefile_size != 0) {
+      in_files.insert(channel.channel);
+    }
+  }
+  return read_streams(directory, in_files, give_up);
+}
+
+// Whether the relay daemon has gone that gets the trace of the session. Throws TraceError if it is stopped: LTTng's
+// consumer waits for its answers, and the session daemon for the consumer, for ever.
+std::optional<Absence> look_for_relay_daemon(const SessionSummary& session) {
+  if (session.snapshot || session.path.empty() || session.path.starts_with('/')) {
+    return std::nullopt;
+  }
+  RelayConnection connection(relay_ports(session.path), consumers_of(session_daemon_pid()));
+  const RelayConnection::State state = connection.look();
+  if (state == RelayConnection::State::kSilent) {
+    throw TraceError(fmt::format("the relay daemon that gets the trace of session '{}' is stopped", session.name),
+                     fmt::format("continue it with `kill -CONT` and its process id, then end the session with `launch "
+                                 "trace stop {}`",
+                                 session.name));
+  }
+  if (state != RelayConnection::State::kEnded) {
+    return std::nullopt;
+  }
+  return Absence{.text = "the relay daemon was gone before the session ended: what was recorded since then is lost",
+                 .is_loss = true};
+}
+
+class LttngTracer : public Tracer {
+ public:
+  SetupReport start(const TraceConfig& config) override { return start_session(config); }
+  std::unique_ptr<RunWatch> watch(const TraceConfig& config, std::function<void(const std::string&)> told) override {
+    return std::make_unique<RunWatch>(config, std::move(told));
+  }
+  LossAccount finish(const TraceConfig& config, const std::function<bool()>& give_up) override;
+  std::optional<LossAccount> pause(const std::string& lttng_session_name) override;
+  void resume(const std::string& lttng_session_name) override;
+  std::string record_snapshot(const std::string& lttng_session_name) override;
+  std::vector<SessionSummary> sessions() override { return list_sessions(); }
+  SessionDetails status(const std::string& lttng_session_name) override { return describe_session(lttng_session_name); }
+  TraceableEvents traceable_events() override { return list_traceable_events(); }
+  std::vector<std::string> unreachable_processes() override { return unreachable_process_warnings(); }
+  void save(const std::string& lttng_session_name, const std::string& directory) override {
+    check_daemon_not_stopped();
+    save_session(lttng_session_name, directory);
+  }
+  void load(const std::string& lttng_session_name, const std::string& directory) override {
+    ensure_session_daemon();
+    load_session(lttng_session_name, directory);
+  }
+};
+
+LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<bool()>& give_up) {
+  const std::string name = config.lttng_session_name();
+  check_daemon_not_stopped();
+  std::vector<SessionStep> steps;
+  StepTimer timer(steps);
+  const std::optional<SessionSummary> session = find_session(name);
+  // One that was paused has written its last packets before.
+  const std::uint64_t stopped = session && session->active ? static_cast<std::uint64_t>(launch::monotonic_time()) : 0;
+  const std::optional<Absence> relay_daemon_gone = session ? look_for_relay_daemon(*session) : std::nullopt;
+  LossAccount losses;
+  try {
+    losses = stop_and_account(name, give_up, timer);
+  } catch (const TraceError& error) {
+    const bool is_known = session && !session->path.empty();
+    const std::string directory = is_known ? session->path : config.over_network() ? "" : config.trace_directory();
+    end_kernel_recorder(directory);
+    if (!config.records_snapshots()) {
+      write_failed_verdict(name, directory, error.what());
+    }
+    throw;
+  }
+  LossesByProcess by_process(with_counters(config), losses);
+  if (relay_daemon_gone) {
+    losses.absences.push_back(*relay_daemon_gone);
+  }
+  timer.finished("losses");
+  std::optional<std::uint64_t> lost_by_kernel;
+  std::string kernel_failure;
+  if (session) {
+    try {
+      lost_by_kernel = finish_kernel_recorder(recorder_directory(name));
+    } catch (const TraceError& error) {
+      kernel_failure = error.what();
+      losses.absences.push_back({.text = kernel_failure, .is_loss = true});
+    }
+  }
+  if (session) {
+    losses.of_snapshots = session->snapshot;
+  }
+  losses.directory = recorder_directory(name);
+  if (!losses.directory.starts_with('/')) {
+    losses.directory.clear();
+  }
+  const bool local = session && session->path.starts_with('/');  // else it went to a relay daemon
+  std::error_code unreadable;
+  const bool rotated = local && std::filesystem::exists(session->path + "/archives", unreadable);
+  rotated ? destroy_rotated_session(name, give_up) : destroy_session(name, give_up);
+  timer.finished("destroy");
+  EventWatch::clean_up(name);  // of a launcher that was killed
+  const bool readable = local && !session->snapshot;
+  std::vector<Stream> streams;
+  if (readable) {
+    streams = streams_of(losses, session->path, give_up);
+    if (give_up && give_up()) {
+      // A part of the packets would give wrong sums and damage that is none.
+      streams.clear();
+      losses.cut_short = true;
+    } else {
+      count_in_packets(losses, streams);
+    }
+  }
+  if (lost_by_kernel && !session->snapshot) {
+    losses.channels.push_back({.domain = "kernel",
+                               .channel = kKernelRecorderChannel,
+                               .discarded_events = *lost_by_kernel,
+                               .counted_by = LossSource::kTracefs});
+  }
+  if (readable) {
+    judge(losses, by_process, streams, session->path, stopped);
+  }
+  timer.finished("losses by process");
+  const bool hurried = losses.cut_short || (give_up && give_up());
+  // The first session on a machine takes some 30 ms longer to end, because of the measurement. It disturbs no process
+  // then.
+  if (!losses.processes.empty() && !hurried) {
+    losses.cost = try_event_cost(config.context_fields_ust);
+  }
+  timer.finished("cost of events");
+  if (readable) {
+    write(losses, name, session->path);
+  }
+  timer.finished("verdict");
+  losses.steps = std::move(steps);
+  if (!kernel_failure.empty()) {
+    throw TraceError(kernel_failure);
+  }
+  return losses;
+}
+
+std::optional<LossAccount> LttngTracer::pause(const std::string& name) {
+  check_daemon_not_stopped();
+  const std::optional<SessionSummary> session = find_session(name);
+  if (session) {
+    look_for_relay_daemon(*session);
+  }
+  const auto stopped = static_cast<std::uint64_t>(launch::monotonic_time());
+  // Waits for the data, because a user who pauses wants to look at the trace.
+  note_pause(CounterDirectory::of_session(name), name);
+  check_lttng(lttng_stop_tracing_no_wait(name.c_str()), fmt::format("pause trace session '{}'", name));
+  wait_for_data(name, {});
+  pause_kernel_recorder(recorder_directory(name));
+  if (!session || !session->active || session->snapshot || !session->path.starts_with('/')) {
+    return std::nullopt;
+  }
+  // So a trace that is looked at meanwhile has a verdict. The end of the session writes another one.
+  try {
+    TraceConfig config;
+    config.session_name = name;
+    LossAccount losses = read_losses(name);
+    losses.directory = session->path;
+    LossesByProcess by_process(with_counters(config), losses);
+    const std::vector<Stream> streams = streams_of(losses, session->path, {});
+    count_in_packets(losses, streams);
+    judge(losses, by_process, streams, session->path, stopped);
+    if (!losses.processes.empty()) {
+      losses.cost = try_event_cost(config.context_fields_ust);
+    }
+    write(losses, name, session->path);
+    return losses;
+  } catch (const TraceError&) {
+    return std::nullopt;  // the session has paused all the same
+  }
+}
+
+void LttngTracer::resume(const std::string& name) {
+  check_daemon_not_stopped();
+  check_lttng(lttng_start_tracing(name.c_str()), fmt::format("resume trace session '{}'", name));
+  note_resume(CounterDirectory::of_session(name), name);
+  resume_kernel_recorder(recorder_directory(name));
+}
+
+std::string LttngTracer::record_snapshot(const std::string& name) {
+  check_daemon_not_stopped();
+  record_and_clear(name);
+  const std::optional<std::filesystem::path> directory = snapshot_directory(name);
+  if (!directory) {
+    return {};
+  }
+  const std::vector<std::filesystem::path> snapshots = snapshots_in(*directory);
+  if (snapshots.empty()) {
+    return {};
+  }
+  judge_snapshot(snapshots.back(), name, CounterDirectory::of_session(name), {"launch trace record_snapshot"});
+  return snapshots.back().string();
+}
+
+}  // namespace
+
+std::unique_ptr<Tracer> make_lttng_tracer() {
+  return std::make_unique<LttngTracer>();
+}
+
+}  // namespace tracing

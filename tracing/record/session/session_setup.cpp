@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/record/session/session_setup.hpp"
+
+#include <fmt/core.h>
+#include <sys/sysinfo.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "tracing/record/account/counter_directory.hpp"
+#include "tracing/record/checks/context_check.hpp"
+#include "tracing/record/checks/kernel_checks.hpp"
+#include "tracing/record/checks/setup_checks.hpp"
+#include "tracing/record/kernel/kernel_recorder.hpp"
+#include "tracing/record/lttng/channels.hpp"
+#include "tracing/record/lttng/consumer_priority.hpp"
+#include "tracing/record/lttng/installed_program.hpp"
+#include "tracing/record/lttng/lttng_ctl.hpp"
+#include "tracing/record/lttng/lttng_error.hpp"
+#include "tracing/record/lttng/session_daemon.hpp"
+#include "tracing/record/plan/channel_plan.hpp"
+#include "tracing/record/plan/plan_channels.hpp"
+#include "tracing/record/plan/ros_events.hpp"
+#include "tracing/record/plan/shared_memory_fit.hpp"
+#include "tracing/record/plan/trace_error.hpp"
+#include "tracing/record/session/new_session.hpp"
+#include "tracing/record/session/session_listing.hpp"
+#include "tracing/record/session/snapshot.hpp"
+#include "tracing/record/session/step_timer.hpp"
+
+namespace tracing {
+namespace {
+
+bool has_domain(const std::vector<ChannelPlan>& channels, lttng_domain_type domain) {
+  return std::any_of(channels.begin(), channels.end(),
+                     [domain](const ChannelPlan& channel) { return channel.domain == domain; });
+}
+
+// Where LTTng's kernel modules are not there but the kernel's own tracer can take their place: the kernel channels,
+// which are taken out of `channels`. Throws TraceError when neither can be used.
+std::vector<ChannelPlan> take_kernel_channels_without_modules(const TraceConfig& config,
+                                                              std::vector<ChannelPlan>& channels,
+                                                              std::vector<std::string>& warnings) {
+  std::string why;
+  try {
+    check_kernel_tracer();
+  } catch (const TraceError& error) {
+    // Relay daemons are LTTng's own.
+    if (!installed_program(kKernelRecorder) || geteuid() != 0 || config.over_network()) {
+      throw;
+    }
+    why = error.what();
+  }
+  if (why.empty()) {
+    std::string unknown = drop_unknown_kernel_names(channels, kernel_event_names(), syscall_names());
+    if (!unknown.empty()) {
+      warnings.push_back(std::move(unknown));
+    }
+    check_kernel_context_fields(channels, kernel_modules_version());
+    return {};
+  }
+  std::vector<ChannelPlan> kernel;
+  for (const ChannelPlan& channel : channels) {
+    if (channel.domain == LTTNG_DOMAIN_KERNEL) {
+      kernel.push_back(channel);
+    }
+  }
+  check_kernel_recorder_fields(kernel);
+  std::erase_if(channels, [](const ChannelPlan& channel) { return channel.domain == LTTNG_DOMAIN_KERNEL; });
+  if (channels.empty()) {
+    throw TraceError("kernel events are recorded through tracefs, and only beside userspace events",
+                     "name some in events-ust; LTTng's own kernel tracer is in lttng-modules-dkms");
+  }
+  warnings.push_back(fmt::format("{}; they are recorded through tracefs instead", why));
+  return kernel;
+}
+
+// Creates, configures and starts the session. The kernel channels `kernel` are recorded through tracefs.
+void set_up(const TraceConfig& config, const std::vector<ChannelPlan>& channels, const std::vector<ChannelPlan>& kernel,
+            SetupReport& report, StepTimer& timer) {
+  const std::string session_name = config.lttng_session_name();
+  NewSession session(config);
+  note_session(config.event_counters, session_name);
+  if (config.records_snapshots()) {
+    add_snapshot_output(config);
+  }
+  timer.finished("create session");
+  for (const ChannelPlan& channel : channels) {
+    enable_channel(session_name, channel);
+    timer.finished("channel " + channel.channel);
+    enable_events(session_name, channel);
+    timer.finished("events " + channel.channel);
+    add_contexts(session_name, channel);
+    timer.finished("context fields " + channel.channel);
+  }
+  check_lttng(lttng_start_tracing(session_name.c_str()), fmt::format("start trace session '{}'", session_name));
+  timer.finished("start");
+  if (!kernel.empty()) {
+    std::string unknown = start_kernel_recorder(
+        *installed_program(kKernelRecorder), session_name, recorder_directory(session_name), kernel,
+        config.records_snapshots() ? KernelRecording::kSnapshots : KernelRecording::kEverything,
+        consumers_of(session_daemon_pid()));
+    if (!unknown.empty()) {
+      report.warnings.push_back(std::move(unknown));
+    }
+    timer.finished("kernel recorder");
+  }
+  session.keep();
+}
+
+// A daemon without a consumer is of no use. It is ended if a launch has started it and nobody has a session there.
+bool restart_unused_daemon() {
+  constexpr std::chrono::seconds kSessionIsGone{2};
+  constexpr std::chrono::milliseconds kPause{5};
+  if (!session_daemon_is_ours()) {
+    return false;
+  }
+  const auto give_up = std::chrono::steady_clock::now() + kSessionIsGone;  // LTTng tells nobody when it is
+  while (!list_sessions().empty()) {
+    if (std::chrono::steady_clock::now() > give_up) {
+      return false;
+    }
+    std::this_thread::sleep_for(kPause);
+  }
+  restart_session_daemon();
+  return true;
+}
+
+}  // namespace
+
+SetupReport start_session(const TraceConfig& config) {
+  SetupReport report{.trace_directory = config.destination(), .steps = {}, .warnings = {}};
+  StepTimer timer(report.steps);
+
+  check_config(config);
+  std::vector<ChannelPlan> channels = plan_channels(config, report.warnings);
+  if (has_domain(channels, LTTNG_DOMAIN_UST)) {
+    fit_into_shared_memory(channels, free_shared_memory(), static_cast<std::uint64_t>(get_nprocs_conf()),
+                           report.warnings);
+  }
+  for (const ChannelPlan& channel : channels) {
+    for (const EventRule& rule : channel.events) {
+      if (std::string unknown = why_no_ros_event(rule.pattern); !unknown.empty()) {
+        report.warnings.push_back(std::move(unknown));
+      }
+    }
+  }
+  timer.finished("checks");
+
+  report.started_daemon = ensure_session_daemon();
+  timer.finished("session daemon");
+  for (std::string& warning : context_warnings(channels)) {
+    report.warnings.push_back(std::move(warning));
+  }
+  std::vector<ChannelPlan> through_tracefs;
+  if (has_domain(channels, LTTNG_DOMAIN_KERNEL)) {
+    through_tracefs = take_kernel_channels_without_modules(config, channels, report.warnings);
+    timer.finished("kernel tracer");
+  }
+
+  try {
+    set_up(config, channels, through_tracefs, report, timer);
+  } catch (const ConsumerEnded&) {
+    if (!restart_unused_daemon()) {
+      throw;
+    }
+    report.warnings.emplace_back(
+        "LTTng's consumer had been killed; the session daemon, which a launch had started, was restarted");
+    timer.finished("session daemon again");
+    set_up(config, channels, through_tracefs, report, timer);
+  }
+  report.notes = prefer_daemons(session_daemon_pid());
+  timer.finished("consumer priority");
+  return report;
+}
+
+}  // namespace tracing

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// The output of snapshot sessions, and recording one.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tracing/record/plan/trace_config.hpp"
+
+namespace tracing {
+
+// What the directories of snapshots begin with.
+inline constexpr const char* kSnapshotName = "snapshot";
+
+// Where the snapshots of `config`'s session go. Each makes a directory of its own below the trace directory.
+void add_snapshot_output(const TraceConfig& config);
+
+// The directory of the snapshots of a session; nothing if the session takes none or sends them over the network.
+std::optional<std::filesystem::path> snapshot_directory(const std::string& lttng_session_name);
+// The snapshots in it, from the oldest to the newest.
+std::vector<std::filesystem::path> snapshots_in(const std::filesystem::path& directory);
+
+// The directory of the kernel recorder of a session: beside the recorded trace or beside the snapshots. "" if there is
+// no such session, the address of the relay daemon if it sends its trace there.
+std::string recorder_directory(const std::string& lttng_session_name);
+
+// Writes the verdict of a snapshot into its directory. `counters` is where the processes of the session count their
+// events, or "". Throws TraceError.
+void judge_snapshot(const std::filesystem::path& snapshot, const std::string& lttng_session_name,
+                    const std::string& counters, const std::vector<std::string>& reasons);
+
+// Writes what the buffers of the session hold, and those of its kernel recorder. Throws TraceError.
+void record_snapshot(const std::string& lttng_session_name);
+// Records a snapshot, then empties the buffers, so that the next snapshot starts after this one.
+void record_and_clear(const std::string& lttng_session_name);
+
+}  // namespace tracing

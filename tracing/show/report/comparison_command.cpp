@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/show/report/comparison_command.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "tracing/model/compare/baseline_file.hpp"
+#include "tracing/model/compare/run_recorder.hpp"
+#include "tracing/model/findings/quantity_text.hpp"
+#include "tracing/show/export/output_file.hpp"
+
+namespace tracing {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// "12.5", and what follows it without blanks: "ms", "%", "". nullopt without a number.
+std::optional<std::pair<double, std::string>> number_and_unit(const std::string& text) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || !std::isfinite(number) || number < 0) {
+    return std::nullopt;
+  }
+  std::string unit(end, text.data() + text.size());
+  unit.erase(0, unit.find_first_not_of(' '));
+  return std::pair(number, unit);
+}
+
+compare::RunSummary read_run(const std::vector<fs::path>& directories) {
+  compare::RunRecorder recorder;
+  TraceAnalysis analysis(&recorder);
+  TraceReader reader(directories);
+  std::string error;
+  TraceResults results;
+  try {
+    reader.read(analysis);
+    results = analysis.finish();
+  } catch (const TraceReadError& failure) {
+    results = analysis.finish();
+    if (results.overview.events == 0) {
+      throw;
+    }
+    error = failure.what();
+  }
+  compare::RunSummary run = recorder.finish(analysis, results);
+  run.directory = directories.front().native();
+  if (!results.overview.losses.empty()) {
+    run.remark = loss_phrase(results.overview);
+  }
+  if (!error.empty()) {
+    run.remark += (run.remark.empty() ? "" : ", ") + error;
+  }
+  if (!run.measurements.empty()) {
+    return run;
+  }
+  throw std::runtime_error(
+      fmt::format("{} has no callback, message or call of a service, so it can't be compared", run.directory));
+}
+
+// A directory is a trace, anything else a baseline.
+compare::Runs read_side(const std::string& path) {
+  if (!fs::is_directory(path)) {
+    return compare::read_baseline(path);
+  }
+  const fs::path directory = fs::weakly_canonical(path);
+  return {directory.native(), {read_run({directory})}};
+}
+
+}  // namespace
+
+bool set_least(compare::CompareOptions& options, const std::string& text) {
+  const auto least = number_and_unit(text);
+  if (!least) {
+    return false;
+  }
+  const auto& [number, unit] = *least;
+  if (unit == "%") {
+    options.least_ratio = number / 100;
+    return true;
+  }
+  static const std::map<std::string, double> kUnits{{"ns", 1}, {"us", 1e3}, {"ms", 1e6}, {"s", 1e9}};
+  const auto found = kUnits.find(unit);
+  if (found == kUnits.end()) {
+    return false;
+  }
+  options.least_ns = std::llround(number * found->second);
+  return true;
+}
+
+std::optional<double> confidence_of(const std::string& text) {
+  const auto confidence = number_and_unit(text);
+  if (!confidence || (confidence->second != "%" && !confidence->second.empty())) {
+    return std::nullopt;
+  }
+  const double share = confidence->second == "%" ? confidence->first / 100 : confidence->first;
+  return share > 0.5 && share < 1 ? std::optional(share) : std::nullopt;
+}
+
+ComparisonOutcome compare_runs(const ComparisonArguments& arguments, const std::vector<fs::path>& directories,
+                               const ReportOptions& options) {
+  ComparisonReport report;
+  report.options = arguments.options;
+  if (!arguments.diff.empty()) {
+    report.before = read_side(arguments.diff[0]);
+    report.after = read_side(arguments.diff[1]);
+  } else {
+    report.before = compare::read_baseline(arguments.baseline);
+    report.after = {directories.front().native(), {read_run(directories)}};
+  }
+  report.comparison = compare::compare(report.before, report.after, report.options);
+  if (report.comparison.compared == 0) {
+    throw std::runtime_error(fmt::format("{} and {} have no callback, hop, chain or service in common",
+                                         report.before.source, report.after.source));
+  }
+  if (report.comparison.tests == 0) {
+    throw std::runtime_error(fmt::format(
+        "{} and {} have too few samples to compare anything: a callback or message must occur 50 times in each run",
+        report.before.source, report.after.source));
+  }
+  const std::vector<std::string> failed = failures(report, arguments.fail_on);
+  return {arguments.json ? comparison_json(report, failed) : comparison_text(report, failed, options), !failed.empty()};
+}
+
+std::string save_baseline(const ComparisonArguments& arguments, const std::vector<fs::path>& directories) {
+  const fs::path& file = arguments.save_baseline;
+  std::vector<compare::RunSummary> runs;
+  if (arguments.append && fs::exists(file)) {
+    runs = compare::read_baseline(file).runs;
+  }
+  runs.push_back(read_run(directories));
+  OutputFile output(file);
+  output.write(compare::baseline_text(runs));
+  output.finish();
+  return fmt::format("{}: {}, {}", file.native(), format_size(fs::file_size(file)), format_count(runs.size(), "run"));
+}
+
+}  // namespace tracing

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/show/report/output_files.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "tracing/model/analysis/trace_analysis.hpp"
+#include "tracing/model/findings/quantity_text.hpp"
+#include "tracing/model/timeline/time_window.hpp"
+#include "tracing/model/timeline/timeline_recorder.hpp"
+#include "tracing/show/export/analysis_model.hpp"
+#include "tracing/show/export/export.hpp"
+#include "tracing/show/export/output_file.hpp"
+#include "tracing/show/page/page.hpp"
+#include "tracing/show/report/recorded_verdict.hpp"
+
+namespace tracing {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::int64_t absolute(const std::optional<TimeBound>& bound, std::int64_t first_ns, std::int64_t otherwise) {
+  return !bound ? otherwise : bound->since_first ? first_ns + bound->ns : bound->ns;
+}
+
+// Hands each event on to those that are asked for.
+class Readers : public TraceSink {
+ public:
+  Readers(TraceAnalysis& analysis, AnalysisModelWriter* model, const OutputFiles& files)
+      : analysis_(analysis), model_(model), with_analysis_(files.needs_timeline()), processes_(files.processes) {}
+  void on_event(const Event& event) override {
+    if (!processes_.empty() && event.vpid && !processes_.contains(*event.vpid)) {
+      return;
+    }
+    if (with_analysis_) {
+      analysis_.on_event(event);
+    }
+    if (model_ != nullptr) {
+      model_->on_event(event);
+    }
+    ++events_;
+  }
+  void on_loss(const Loss& loss) override { analysis_.on_loss(loss); }
+  std::uint64_t events() const { return events_; }
+
+ private:
+  TraceAnalysis& analysis_;
+  AnalysisModelWriter* model_;
+  bool with_analysis_;
+  const std::set<std::int64_t>& processes_;
+  std::uint64_t events_ = 0;
+};
+
+std::unique_ptr<AnalysisModelWriter> model_writer(const OutputFiles& files) {
+  if (files.analysis_model.empty()) {
+    return nullptr;
+  }
+  return std::make_unique<AnalysisModelWriter>(files.analysis_model, [&files](std::int64_t first_ns) {
+    AnalysisModelWriter::Window window;
+    if (files.from) {
+      window.begin_ns = absolute(files.from, first_ns, 0);
+    }
+    if (files.to) {
+      window.end_ns = absolute(files.to, first_ns, 0);
+    }
+    return window;
+  });
+}
+
+TracedSystem read(const std::vector<fs::path>& directories, const OutputFiles& files,
+                  const std::vector<ChainDefinition>& chains) {
+  TracedSystem system;
+  system.directory = fs::weakly_canonical(directories.front());
+  timeline::TimelineRecorder recorder;
+  TraceAnalysis analysis(&recorder, chains);
+  TraceReader reader(directories);
+  system.open = reader.open_directories();
+  system.verdict = read_verdicts(directories);
+  const std::unique_ptr<AnalysisModelWriter> model = model_writer(files);
+  Readers readers(analysis, model.get(), files);
+  try {
+    reader.read(readers);
+  } catch (const TraceReadError& error) {
+    if (readers.events() == 0) {
+      throw;
+    }
+    system.error = error.what();
+  }
+  if (model) {
+    model->finish();
+  }
+  system.results = analysis.finish();
+  system.timeline = recorder.finish(analysis, system.results.overview);
+  return system;
+}
+
+void choose_window(TracedSystem& system, const OutputFiles& files) {
+  if (!files.from && !files.to) {
+    return;
+  }
+  timeline::Timeline& timeline = system.timeline;
+  const std::int64_t first_ns = timeline.begin_ns;
+  const std::int64_t begin_ns = absolute(files.from, first_ns, timeline.begin_ns);
+  timeline::keep_window(timeline, begin_ns, absolute(files.to, first_ns, timeline.end_ns + 1));
+}
+
+// Returns what is to be told beside the size.
+std::string write_page(const TracedSystem& system, const fs::path& path, std::size_t most) {
+  OutputFile file(path);
+  std::string note;
+  const timeline::Timeline& whole = system.timeline;
+  const std::int64_t end_ns = timeline::end_of_first(whole, most);
+  if (end_ns < whole.end_ns) {
+    TracedSystem part = system;
+    timeline::keep_window(part.timeline, whole.begin_ns, end_ns);
+    file.write(html_page(part));
+    note = fmt::format(", the first {} of {}", format_duration(static_cast<double>(end_ns - whole.begin_ns)),
+                       format_duration(static_cast<double>(whole.end_ns - whole.begin_ns)));
+  } else {
+    file.write(html_page(system));
+  }
+  file.finish();
+  return note;
+}
+
+}  // namespace
+
+WrittenFiles write_files(const std::vector<fs::path>& directories, const OutputFiles& files,
+                         const std::vector<ChainDefinition>& chains, std::size_t most_in_page) {
+  TracedSystem system = read(directories, files, chains);
+  choose_window(system, files);
+  WrittenFiles written;
+  written.error = system.error;
+  written.open = system.open;
+  const auto write = [&](auto function, const fs::path& file) {
+    if (file.empty()) {
+      return;
+    }
+    const std::string note = function(file);
+    std::error_code failed;
+    const std::uintmax_t size = fs::file_size(file, failed);
+    written.lines.push_back(failed ? file.string() : fmt::format("{}: {}{}", file.native(), format_size(size), note));
+  };
+  const auto whole = [&system](auto function) {
+    return [&system, function](const fs::path& file) {
+      function(system, file);
+      return std::string();
+    };
+  };
+  write([&](const fs::path& file) { return write_page(system, file, most_in_page); }, files.html);
+  write(whole(export_perfetto), files.perfetto);
+  write(whole(export_csv), files.csv);
+  write(whole(export_sqlite), files.sqlite);
+  write(whole(export_dot), files.dot);
+  write(whole(export_svg), files.svg);
+  // It was written while the trace was read.
+  write([](const fs::path&) { return std::string(); }, files.analysis_model);
+  return written;
+}
+
+}  // namespace tracing

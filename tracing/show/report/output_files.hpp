@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// The files that `launch report` writes beside its text: a page, and the formats of other tools.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tracing/decode/reader/trace_reader.hpp"
+#include "tracing/model/chains/chain_definition.hpp"
+#include "tracing/model/selection/event_filter.hpp"
+
+namespace tracing {
+
+// Empty names are not written.
+struct OutputFiles {
+  std::optional<TimeBound> from;     // only what begins from this time on
+  std::optional<TimeBound> to;       // and before this time
+  std::set<std::int64_t> processes;  // only userspace events of these; empty: of all
+
+  std::filesystem::path html;
+  std::filesystem::path perfetto;
+  std::filesystem::path csv;  // a directory
+  std::filesystem::path sqlite;
+  std::filesystem::path dot;
+  std::filesystem::path svg;
+  std::filesystem::path analysis_model;  // a directory
+
+  bool any() const { return needs_timeline() || !analysis_model.empty(); }
+  // Any but analysis_model.
+  bool needs_timeline() const {
+    return !(html.empty() && perfetto.empty() && csv.empty() && sqlite.empty() && dot.empty() && svg.empty());
+  }
+};
+
+struct WrittenFiles {
+  std::vector<std::string> lines;  // for people: "trace.html: 1.2 MB", "trace.html: 13.9 MB, the first 12.3 s of 100 s"
+  std::string error;               // why reading stopped early; the files hold what was read before it
+  std::vector<std::filesystem::path> open;  // traces that were still being written
+};
+
+// A page with more instances and messages than this would be too large for a browser; it holds the first of them.
+inline constexpr std::size_t kMostInPage = 1'500'000;
+
+// Reads the traces once, as one, and writes all files. Throws TraceReadError if the trace can't be read at all, and
+// OutputError. `chains` are those that the user has named.
+WrittenFiles write_files(const std::vector<std::filesystem::path>& directories, const OutputFiles& files,
+                         const std::vector<ChainDefinition>& chains = {}, std::size_t most_in_page = kMostInPage);
+
+}  // namespace tracing

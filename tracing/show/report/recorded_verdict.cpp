@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/show/report/recorded_verdict.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "tracing/model/findings/quantity_text.hpp"
+
+namespace tracing {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::set<fs::path> verdicts_in(const fs::path& directory) {
+  std::set<fs::path> files;
+  std::error_code error;
+  fs::recursive_directory_iterator entry(directory, fs::directory_options::skip_permission_denied, error);
+  for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+    if (entry->path().filename() == "verdict.json") {
+      files.insert(entry->path());
+    }
+  }
+  return files;
+}
+
+std::string text(const nlohmann::json& json, const char* key) {
+  return json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
+}
+
+double number(const nlohmann::json& json, const char* key) {
+  return json.contains(key) && json[key].is_number() ? json[key].get<double>() : 0;
+}
+
+void add_processes(const nlohmann::json& verdict, RecordedVerdict& result) {
+  if (!verdict.contains("processes") || !verdict["processes"].is_array()) {
+    return;
+  }
+  for (const nlohmann::json& process : verdict["processes"]) {
+    if (!process.is_object() || !process.contains("tracing") || !process["tracing"].is_object()) {
+      continue;
+    }
+    const nlohmann::json& cost = process["tracing"];
+    RecordedVerdict::ProcessCost added;
+    added.name = text(process, "name");
+    added.vpid = static_cast<std::int64_t>(number(process, "pid"));
+    added.events = static_cast<std::uint64_t>(number(process, "events"));
+    added.seconds = number(cost, "seconds");
+    added.processor_share = number(cost, "processor_share");
+    if (cost.contains("ns_per_callback")) {
+      added.ns_per_callback = number(cost, "ns_per_callback");
+    }
+    result.processes.push_back(std::move(added));
+  }
+}
+
+// What the files of limited size have overwritten, or somebody has removed.
+void add_overwritten(const nlohmann::json& verdict, RecordedVerdict& result) {
+  if (!verdict.contains("channels") || !verdict["channels"].is_array()) {
+    return;
+  }
+  for (const nlohmann::json& channel : verdict["channels"]) {
+    if (!channel.is_object() || !channel.contains("before_first_packet")) {
+      continue;
+    }
+    const nlohmann::json& before = channel["before_first_packet"];
+    if (!before.is_object()) {
+      continue;
+    }
+    const auto packets = static_cast<std::uint64_t>(number(before, "packets"));
+    const std::string why = text(before, "why");
+    if (packets == 0) {
+      continue;
+    }
+    if (why == "lost") {
+      result.lost_packets += packets;
+    } else if (why == "removed") {
+      result.overwritten.push_back(format_count(packets, "packet") + " cleared or moved away");
+    } else if (before.contains("events") && before["events"].is_number()) {
+      const bool at_least = before.contains("at_least") && before["at_least"] == true;
+      const auto events = static_cast<std::uint64_t>(number(before, "events"));
+      result.overwritten.push_back((at_least ? "at least " : "") + format_count(events, "event") +
+                                   " overwritten, as asked");
+    } else {
+      result.overwritten.push_back(format_count(packets, "packet") + " overwritten, as asked");
+    }
+  }
+}
+
+}  // namespace
+
+RecordedVerdict read_verdicts(const std::vector<fs::path>& directories) {
+  RecordedVerdict result;
+  std::set<fs::path> files;
+  for (const fs::path& directory : directories) {
+    files.merge(verdicts_in(directory));
+  }
+  for (const fs::path& file : files) {
+    std::ifstream stream(file);
+    const nlohmann::json verdict = nlohmann::json::parse(stream, nullptr, false);
+    if (!verdict.is_object()) {
+      continue;
+    }
+    if (verdict.contains("absent") && verdict["absent"].is_array()) {
+      for (const nlohmann::json& absence : verdict["absent"]) {
+        if (absence.is_string()) {
+          result.absences.push_back(absence.get<std::string>());
+        }
+      }
+    }
+    if (const std::string damage = text(verdict, "damage"); !damage.empty()) {
+      result.absences.push_back(damage);
+    }
+    if (verdict.contains("cut_short") && verdict["cut_short"] == true) {
+      result.absences.emplace_back("the last events were not waited for");
+    }
+    // A snapshot loses the older events by design.
+    if (!verdict.contains("reasons")) {
+      result.discarded_events += static_cast<std::uint64_t>(number(verdict, "discarded_events"));
+      result.lost_packets += static_cast<std::uint64_t>(number(verdict, "lost_packets"));
+      add_overwritten(verdict, result);
+    }
+    if (verdict.contains("event_cost") && verdict["event_cost"].is_object()) {
+      const double ns = number(verdict["event_cost"], "ns");
+      if (ns > 0) {
+        result.ns_per_event = std::max(ns, result.ns_per_event.value_or(0));
+      }
+    }
+    add_processes(verdict, result);
+  }
+  std::stable_sort(result.processes.begin(), result.processes.end(),
+                   [](const auto& a, const auto& b) { return a.seconds > b.seconds; });
+  return result;
+}
+
+}  // namespace tracing

@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/show/report/report_tables.hpp"
+
+#include <fmt/format.h>
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "tracing/model/analysis/derived_results.hpp"
+#include "tracing/model/findings/hosts.hpp"
+#include "tracing/model/findings/quantity_text.hpp"
+#include "tracing/model/findings/result_labels.hpp"
+#include "tracing/model/objects/callback_symbol.hpp"
+#include "tracing/show/report/screen_table.hpp"
+
+namespace tracing {
+
+namespace {
+
+bool matches(const std::string& pattern, const std::string& name) {
+  return pattern.empty() || fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+}
+
+Cell time_cell(const DurationSummary& took, std::int64_t DurationSummary::*value, Style style = Style::kPlain) {
+  return took.count == 0 ? Cell{"-"} : Cell{format_duration(static_cast<double>(took.*value)), style};
+}
+
+Cell count_cell(std::uint64_t count, Style style = Style::kPlain) {
+  return count == 0 ? Cell{"-"} : Cell{fmt::format("{}", count), style};
+}
+
+Cell rate_cell(double rate_hz) {
+  if (rate_hz == 0) {
+    return {"-"};
+  }
+  // Some messages in a burst have a rate of their own.
+  return rate_hz < 9999.5 ? Cell{fmt::format("{:.4g} Hz", rate_hz)} : Cell{fmt::format("{:.4g} kHz", rate_hz / 1000)};
+}
+
+Cell percent_cell(double part) {
+  const Style style = part > 0.9 ? Style::kBad : part > 0.6 ? Style::kWarning : Style::kPlain;
+  return {fmt::format("{:.2f} %", part * 100), style};
+}
+
+// "*" behind a result that lost events may have changed.
+std::string marked(std::string label, bool doubtful) {
+  return doubtful ? label + " *" : label;
+}
+
+void sort_by(Row& row, const DurationSummary& took) {
+  if (took.count == 0) {
+    return;
+  }
+  row.count = static_cast<double>(took.count);
+  row.total = took.mean_ns * row.count;
+  row.p50 = static_cast<double>(took.p50_ns);
+  row.p99 = static_cast<double>(took.p99_ns);
+  row.max = static_cast<double>(took.max_ns);
+}
+
+// "/scan, /points": several chains may have one name.
+std::string topics_of(const ChainResult& chain) {
+  std::string text;
+  for (const ChainResult::Step& step : chain.steps) {
+    if (!step.topic.empty()) {
+      text += (text.empty() ? "" : ", ") + step.topic;
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+bool is_chosen(const ChainResult& chain, const ReportOptions& options) {
+  const auto any = [&](const auto& fits) { return std::any_of(chain.steps.begin(), chain.steps.end(), fits); };
+  if (!options.node.empty() && !any([&](const auto& step) { return matches(options.node, step.node); })) {
+    return false;
+  }
+  if (!options.topic.empty() &&
+      !any([&](const auto& step) { return !step.topic.empty() && matches(options.topic, step.topic); })) {
+    return false;
+  }
+  if (options.chain.first.empty()) {
+    return true;
+  }
+  const auto first = std::find_if(chain.steps.begin(), chain.steps.end(),
+                                  [&](const auto& step) { return matches(options.chain.first, step.node); });
+  return std::any_of(first, chain.steps.end(),
+                     [&](const auto& step) { return matches(options.chain.second, step.node); });
+}
+
+std::string chain_table(const TraceResults& results, const ReportOptions& options) {
+  const Ros2Results& ros2 = results.ros2;
+  const Hosts hosts(results.overview);
+  const bool with_budget = std::any_of(ros2.chains.begin(), ros2.chains.end(),
+                                       [](const ChainResult& chain) { return chain.budget_ns.has_value(); });
+  std::vector<std::string> columns{"count", "p50", "p99", "max", "reaction p99", "age max"};
+  if (with_budget) {
+    columns.insert(columns.begin() + 4, {"budget", "over"});
+  }
+  ScreenTable table("Chains", columns, "");
+  for (const ChainResult& chain : ros2.chains) {
+    if (!is_chosen(chain, options)) {
+      continue;
+    }
+    Row row{.label = marked(hosts.before(chain) + chain_label(chain), chain.doubtful)};
+    row.remark = chain.name.empty() ? chain.steps.front().callback : topics_of(chain);
+    row.cells = {count_cell(chain.response.count),
+                 time_cell(chain.response, &DurationSummary::p50_ns),
+                 time_cell(chain.response, &DurationSummary::p99_ns, Style::kBold),
+                 time_cell(chain.response, &DurationSummary::max_ns),
+                 time_cell(chain.reaction, &DurationSummary::p99_ns),
+                 time_cell(chain.age, &DurationSummary::max_ns)};
+    if (with_budget) {
+      row.cells.insert(row.cells.begin() + 4, {Cell{"-"}, Cell{"-"}});
+      if (chain.budget_ns) {
+        row.cells[4] = Cell{format_duration(static_cast<double>(*chain.budget_ns))};
+        row.cells[5] = count_cell(chain.over_budget, Style::kBad);
+      }
+    }
+    sort_by(row, chain.response);
+    table.add(std::move(row));
+  }
+  return table.text(options);
+}
+
+std::string callback_table(const TraceResults& results, const ReportOptions& options) {
+  const bool with_memory =
+      std::any_of(results.ros2.callbacks.begin(), results.ros2.callbacks.end(),
+                  [](const CallbackResult& callback) { return callback.allocations.value_or(0) > 0; });
+  std::vector<std::string> columns{"rate", "count", "p50", "p99", "max", "jitter", "missed", "load"};
+  if (with_memory) {
+    columns.insert(columns.begin() + 5, "mallocs");
+  }
+  ScreenTable table("Callbacks", columns, "total");
+  const Hosts hosts(results.overview);
+  const double span =
+      results.overview.begin_ns ? static_cast<double>(*results.overview.end_ns - *results.overview.begin_ns) : 0;
+  for (const CallbackResult& callback : results.ros2.callbacks) {
+    if (!matches(options.node, callback.node)) {
+      continue;
+    }
+    const bool of_topic = callback.owner == CallbackResult::Owner::kSubscription;
+    if (!options.topic.empty() && !(of_topic && matches(options.topic, callback.owner_name))) {
+      continue;
+    }
+    Row row{.label = marked(hosts.before(callback.process) + callback_label(callback), callback.doubtful)};
+    row.remark = short_symbol(callback.symbol);
+    const DurationSummary& took = callback.durations;
+    sort_by(row, took);
+    row.rate = callback.rate_hz;
+    row.cells = {rate_cell(callback.rate_hz),
+                 count_cell(took.count),
+                 time_cell(took, &DurationSummary::p50_ns),
+                 time_cell(took, &DurationSummary::p99_ns),
+                 time_cell(took, &DurationSummary::max_ns),
+                 time_cell(callback.jitter, &DurationSummary::p99_ns),
+                 count_cell(callback.missed, Style::kWarning),
+                 span > 0 && took.count > 0 ? percent_cell(row.total / span) : Cell{"-"}};
+    if (with_memory) {
+      row.cells.insert(row.cells.begin() + 5, count_cell(callback.allocations.value_or(0)));
+    }
+    table.add(std::move(row));
+  }
+  return table.text(options);
+}
+
+std::string topic_table(const Ros2Results& ros2, const ReportOptions& options) {
+  std::map<std::string, std::uint64_t> dropped;
+  std::map<std::string, DurationSummary> slowest;  // of the subscriptions
+  for (const SubscriptionResult& subscription : ros2.subscriptions) {
+    dropped[subscription.topic] += subscription.dropped();
+    DurationSummary& known = slowest[subscription.topic];
+    if (known.count == 0 || subscription.latency.p99_ns > known.p99_ns) {
+      known = subscription.latency;
+    }
+  }
+  ScreenTable table("Topics", {"rate", "sent", "received", "dropped", "p50", "p99", "max"}, "p99");
+  for (const TopicResult& topic : ros2.topics) {
+    const std::uint64_t sent = std::max(topic.published, topic.intra_process_published);
+    const std::uint64_t received = topic.received + topic.intra_process_received;
+    if (sent + received == 0 || !matches(options.topic, topic.name)) {
+      continue;
+    }
+    if (!options.node.empty() &&
+        std::none_of(ros2.subscriptions.begin(), ros2.subscriptions.end(), [&](const SubscriptionResult& subscription) {
+          return subscription.topic == topic.name && matches(options.node, subscription.node);
+        })) {
+      continue;
+    }
+    const DurationSummary latency = slowest[topic.name].count > 0 ? slowest[topic.name] : topic.latency;
+    Row row{.label = marked(topic.name, topic.doubtful)};
+    sort_by(row, latency);
+    row.rate = topic.rate_hz;
+    row.count = static_cast<double>(sent);
+    row.cells = {rate_cell(topic.rate_hz),
+                 count_cell(sent),
+                 count_cell(received),
+                 count_cell(dropped[topic.name], Style::kBad),
+                 time_cell(latency, &DurationSummary::p50_ns),
+                 time_cell(latency, &DurationSummary::p99_ns),
+                 time_cell(latency, &DurationSummary::max_ns)};
+    table.add(std::move(row));
+  }
+  return table.text(options);
+}
+
+std::string executor_table(const TraceResults& results, const ReportOptions& options) {
+  if (!options.node.empty() || !options.topic.empty()) {
+    return "";
+  }
+  ScreenTable table("Executors", {"busy", "callbacks", "longest busy", "in"}, "total");
+  const Hosts hosts(results.overview);
+  for (const ExecutorResult& executor : results.ros2.executors) {
+    if (executor.callbacks == 0) {
+      continue;
+    }
+    Row row{.label = marked(hosts.before(executor.process) + executor_label(executor, results), executor.doubtful)};
+    row.total = executor.utilisation;
+    row.count = static_cast<double>(executor.callbacks);
+    row.max = static_cast<double>(executor.longest_busy_ns);
+    row.cells = {percent_cell(executor.utilisation), count_cell(executor.callbacks),
+                 executor.longest_busy_ns > 0 ? Cell{format_duration(row.max)} : Cell{"-"},
+                 Cell{shortened(executor.longest_callback, 40)}};
+    table.add(std::move(row));
+  }
+  return table.text(options);
+}
+
+std::string service_table(const TraceResults& results, const ReportOptions& options) {
+  if (!options.topic.empty()) {
+    return "";
+  }
+  const Hosts hosts(results.overview);
+  ScreenTable table("Services", {"calls", "unanswered", "p50", "p99", "max"}, "p99");
+  for (const CallResult& call : results.ros2.calls) {
+    if (is_of_action(call.service)) {
+      continue;
+    }
+    if (!matches(options.node, call.client) && !matches(options.node, call.server)) {
+      continue;
+    }
+    Row row{.label = fmt::format("{}, asked by {}{}", call.service, hosts.before(call.client_process),
+                                 call.client.empty() ? "?" : call.client)};
+    sort_by(row, call.round_trip);
+    row.count = static_cast<double>(call.requests);
+    row.cells = {count_cell(call.requests), count_cell(call.requests - call.responses, Style::kBad),
+                 time_cell(call.round_trip, &DurationSummary::p50_ns),
+                 time_cell(call.round_trip, &DurationSummary::p99_ns),
+                 time_cell(call.round_trip, &DurationSummary::max_ns)};
+    table.add(std::move(row));
+  }
+  return table.text(options);
+}
+
+std::string action_table(const TraceResults& results, const ReportOptions& options) {
+  if (!options.topic.empty()) {
+    return "";
+  }
+  const Hosts hosts(results.overview);
+  ScreenTable table("Actions", {"goals", "results", "cancels", "feedback", "p50", "p99", "max"}, "p99");
+  for (const ActionResult& action : results.ros2.actions) {
+    if (!matches(options.node, action.client) && !matches(options.node, action.server)) {
+      continue;
+    }
+    Row row{.label = fmt::format("{}, asked by {}{}", action.name, hosts.before(action.client_process),
+                                 action.client.empty() ? "?" : action.client)};
+    sort_by(row, action.execution);
+    row.count = static_cast<double>(action.goals);
+    row.cells = {count_cell(action.goals),
+                 count_cell(action.results),
+                 count_cell(action.cancels, Style::kWarning),
+                 count_cell(action.feedback),
+                 time_cell(action.execution, &DurationSummary::p50_ns),
+                 time_cell(action.execution, &DurationSummary::p99_ns),
+                 time_cell(action.execution, &DurationSummary::max_ns)};
+    table.add(std::move(row));
+  }
+  return table.text(options);
+}
+
+std::string lifecycle_table(const TraceResults& results, const ReportOptions& options) {
+  if (!options.topic.empty()) {
+    return "";
+  }
+  const Ros2Results& ros2 = results.ros2;
+  const Hosts hosts(results.overview);
+  const bool with_memory = std::any_of(ros2.lifecycle.begin(), ros2.lifecycle.end(),
+                                       [](const LifecycleResult& result) { return result.process_allocations > 0; });
+  std::vector<std::string> columns{"state at the end", "time in active", "changes"};
+  if (with_memory) {
+    columns.emplace_back("mallocs in active");
+  }
+  ScreenTable table("Lifecycle nodes", columns, "name");
+  struct Node {
+    std::string state;
+    std::int64_t active_ns = 0;
+    std::uint64_t changes = 0;
+    std::uint64_t allocations = 0;
+  };
+  std::map<std::pair<std::string, ProcessIndex>, Node> nodes;
+  for (const LifecycleResult& result : ros2.lifecycle) {
+    if (!matches(options.node, result.node)) {
+      continue;
+    }
+    Node& node = nodes[{result.node.empty() ? "?" : result.node, result.process}];
+    node.state = result.state;
+    if (result.state == "active") {
+      node.active_ns += result.end_ns - result.begin_ns;
+      node.allocations += result.allocations.value_or(0);
+    }
+    if (result.ended) {
+      ++node.changes;
+    }
+  }
+  for (const auto& [name, node] : nodes) {
+    Row row{.label = hosts.before(name.second) + name.first};
+    row.cells = {Cell{node.state}, Cell{format_duration(static_cast<double>(node.active_ns))},
+                 count_cell(node.changes)};
+    if (with_memory) {
+      row.cells.push_back(count_cell(node.allocations, Style::kWarning));
+    }
+    table.add(std::move(row));
+  }
+  return table.text(options);
+}
+
+}  // namespace tracing

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "tracing/model/findings/hosts.hpp"
+#include "tracing/model/findings/quantity_text.hpp"
+#include "tracing/model/findings/result_labels.hpp"
+#include "tracing/show/report/report.hpp"
+
+namespace tracing {
+
+std::string loss_phrase(const TraceOverview& overview, const RecordedVerdict& verdict) {
+  const std::uint64_t events = std::max(overview.lost_events(), verdict.discarded_events);
+  const std::uint64_t packets = std::max(overview.lost_packets(), verdict.lost_packets);
+  std::string text;
+  if (events != 0 || packets != 0) {
+    std::string counted;
+    if (events > 0) {
+      counted = format_count(events, "event");
+    }
+    if (packets > 0) {
+      counted += (events > 0 ? " and " : "") + format_count(packets, "packet");
+    }
+    text = fmt::format("{}{} lost", overview.lost_uncounted() ? "at least " : "", counted);
+  } else {
+    text = overview.losses.empty() ? "none lost" : "some events lost";
+  }
+  for (const std::string& overwritten : verdict.overwritten) {
+    text += ", " + overwritten;
+  }
+  return text;
+}
+
+namespace {
+
+constexpr std::size_t kMostNamed = 5;
+
+// "; doubtful: talker [12], listener [13]", the processes that may have lost events; "" when none has.
+std::string doubtful_phrase(const TraceOverview& overview) {
+  std::set<std::size_t> doubtful;
+  for (const LossResult& loss : overview.losses) {
+    doubtful.insert(loss.processes.begin(), loss.processes.end());
+  }
+  const Hosts hosts(overview);
+  std::string text;
+  std::size_t named = 0;
+  for (const std::size_t process : doubtful) {
+    if (named++ == kMostNamed) {
+      break;
+    }
+    text += fmt::format("{}{}{}", text.empty() ? "; doubtful: " : ", ", hosts.before(process),
+                        process_label(overview.processes.at(process)));
+  }
+  if (doubtful.size() > kMostNamed) {
+    text += fmt::format(" and {} more", doubtful.size() - kMostNamed);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string summary_line(const TraceOverview& overview, const RecordedVerdict& verdict) {
+  if (overview.events == 0 && overview.losses.empty()) {
+    return "no events";
+  }
+  return fmt::format("{}, {}, {}{}", format_count(overview.events, "event"),
+                     format_count(overview.processes.size(), "process"), loss_phrase(overview, verdict),
+                     doubtful_phrase(overview));
+}
+
+std::vector<std::string> absences_of(const Report& report) {
+  std::vector<std::string> absences = report.verdict.absences;
+  for (const std::string& chain : report.results.ros2.unseen_chains) {
+    absences.push_back(fmt::format("chain '{}': no callbacks were seen that cause one another in this order", chain));
+  }
+  return absences;
+}
+
+}  // namespace tracing
