@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "actions/ros/ros_condition.hpp"
-#include "actions/test/range_field.hpp"
+#include "actions/values/range_field.hpp"
+#include "actions/values/ros_condition.hpp"
 #include "launcher/language/fields.hpp"
 #include "launcher/visit/launch_context.hpp"
 

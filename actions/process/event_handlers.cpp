@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "actions/ros/ros_names.hpp"
+#include "actions/values/ros_names.hpp"
 #include "launcher/language/fields.hpp"
 #include "launcher/visit/launch_context.hpp"
 

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "actions/ros/ros_names.hpp"
+#include "actions/values/ros_names.hpp"
 #include "base/text/remap_name.hpp"
 
 namespace launch {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // <wait_for topic="…">: visits its actions once the ROS graph shows something.
-#include "actions/ros/ros_condition.hpp"
+#include "actions/values/ros_condition.hpp"
 
 namespace launch {
 

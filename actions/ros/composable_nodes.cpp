@@ -7,7 +7,7 @@
 #include "actions/ros/node_process.hpp"
 #include "actions/ros/parameter_file.hpp"
 #include "actions/ros/plugin_findings.hpp"
-#include "actions/ros/ros_names.hpp"
+#include "actions/values/ros_names.hpp"
 
 namespace launch {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // <lifecycle_transition node="…" transitions="configure activate"/>: changes the state of a managed node.
 #include "actions/ros/lifecycle_names.hpp"
-#include "actions/ros/ros_names.hpp"
+#include "actions/values/ros_names.hpp"
 #include "launcher/language/fields.hpp"
 #include "launcher/visit/launch_context.hpp"
 

@@ -10,7 +10,7 @@
 #include "actions/process/process_findings.hpp"
 #include "actions/ros/parameter_file.hpp"
 #include "actions/ros/parameter_file_findings.hpp"
-#include "actions/ros/ros_names.hpp"
+#include "actions/values/ros_names.hpp"
 #include "launcher/substitution/package_index.hpp"
 
 namespace launch {

@@ -8,7 +8,7 @@
 #include <functional>
 #include <span>
 
-#include "actions/ros/parameter_value.hpp"
+#include "actions/values/parameter_value.hpp"
 #include "base/diagnostics/read_source_file.hpp"
 #include "launcher/frontend/yaml_document.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "actions/ros/parameter_value.hpp"
+#include "actions/values/parameter_value.hpp"
 
 namespace launch {
 

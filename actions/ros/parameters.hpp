@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "actions/ros/parameter_value.hpp"
+#include "actions/values/parameter_value.hpp"
 #include "launcher/language/fields.hpp"
 #include "launcher/process/process_spec.hpp"
 #include "launcher/visit/launch_context.hpp"

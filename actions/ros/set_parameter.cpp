@@ -2,7 +2,7 @@
 // <set_parameter> and <set_parameters_from_file>: parameters of every later node of the scope.
 #include <filesystem>
 
-#include "actions/ros/parameter_value.hpp"
+#include "actions/values/parameter_value.hpp"
 #include "launcher/language/fields.hpp"
 #include "launcher/visit/launch_context.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // <group>: actions in a scope of their own.
-#include "actions/ros/ros_names.hpp"
+#include "actions/values/ros_names.hpp"
 #include "launcher/language/fields.hpp"
 #include "launcher/visit/launch_context.hpp"
 

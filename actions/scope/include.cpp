@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "actions/ros/ros_names.hpp"
+#include "actions/values/ros_names.hpp"
 #include "base/monotonic_clock.hpp"
 #include "launcher/language/argument_use.hpp"
 #include "launcher/language/fields.hpp"

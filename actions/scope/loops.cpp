@@ -4,7 +4,7 @@
 
 #include <charconv>
 
-#include "actions/ros/parameter_value.hpp"
+#include "actions/values/parameter_value.hpp"
 #include "base/text/ascii.hpp"
 #include "launcher/frontend/yaml_document.hpp"
 #include "launcher/language/fields.hpp"

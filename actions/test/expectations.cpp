@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "actions/process/resource_fields.hpp"
-#include "actions/ros/ros_condition.hpp"
 #include "actions/test/expectation_fields.hpp"
+#include "actions/values/ros_condition.hpp"
 
 namespace launch {
 

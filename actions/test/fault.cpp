@@ -18,7 +18,7 @@
 #include "actions/test/expectation_fields.hpp"
 #include "actions/test/message_fault.hpp"
 #include "actions/test/network_fault.hpp"
-#include "actions/test/range_field.hpp"
+#include "actions/values/range_field.hpp"
 #include "launcher/language/exit_code_filter.hpp"
 #include "launcher/language/fields.hpp"
 #include "launcher/visit/launch_context.hpp"

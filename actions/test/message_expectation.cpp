@@ -2,10 +2,10 @@
 // <message topic="…">: messages that come on a topic while a test runs.
 #include <fmt/format.h>
 
-#include "actions/ros/ros_names.hpp"
 #include "actions/test/expectation_fields.hpp"
 #include "actions/test/expectations.hpp"
-#include "actions/test/message_texts.hpp"
+#include "actions/values/message_texts.hpp"
+#include "actions/values/ros_names.hpp"
 #include "launcher/message_types/interface_library.hpp"
 #include "launcher/message_types/message_condition.hpp"
 #include "launcher/ros/ros_message_watch.hpp"

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "actions/ros/ros_condition.hpp"
-#include "actions/ros/ros_names.hpp"
 #include "actions/test/expectation_fields.hpp"
+#include "actions/values/ros_condition.hpp"
+#include "actions/values/ros_names.hpp"
 
 namespace launch {
 

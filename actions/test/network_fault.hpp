@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "actions/test/range_field.hpp"
+#include "actions/values/range_field.hpp"
 #include "launcher/language/fields.hpp"
 #include "launcher/visit/fault_draw.hpp"
 #include "launcher/visit/fault_request.hpp"

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <array>
 
-#include "actions/ros/ros_condition.hpp"
-#include "actions/ros/ros_names.hpp"
 #include "actions/test/expectation_fields.hpp"
 #include "actions/test/expectations.hpp"
+#include "actions/values/ros_condition.hpp"
+#include "actions/values/ros_names.hpp"
 #include "tracing/record/plan/ros_events.hpp"
 
 namespace launch {

@@ -46,17 +46,17 @@ void TraceScope::expect(const std::vector<ProcessSpec>& processes) {
   const auto traced = static_cast<std::size_t>(
       std::count_if(processes.begin(), processes.end(), [this](const ProcessSpec& spec) { return traces(spec); }));
   const auto processors = static_cast<std::size_t>(::get_nprocs_conf());
+  tracing::TraceConfig& config = run_.config();
   if (choices_.auto_buffers) {
-    config_.subbuffer_size_ust = tracing::sufficient_subbuffer_size(config_, traced, processors);
+    config.subbuffer_size_ust = tracing::sufficient_subbuffer_size(config, traced, processors);
   }
-  if (std::string warning = tracing::buffer_warning(config_, traced, processors); !warning.empty()) {
-    setup_.warnings.push_back(std::move(warning));
+  if (std::string warning = tracing::buffer_warning(config, traced, processors); !warning.empty()) {
+    run_.warn(std::move(warning));
   }
   for (const std::string& pattern : choices_.nodes.value_or(std::vector<std::string>())) {
     if (std::none_of(processes.begin(), processes.end(),
                      [&](const ProcessSpec& spec) { return matches(pattern, spec); })) {
-      setup_.warnings.push_back(
-          fmt::format("nothing that is launched now is called '{}', which 'nodes' names", pattern));
+      run_.warn(fmt::format("nothing that is launched now is called '{}', which 'nodes' names", pattern));
     }
   }
 }
@@ -70,7 +70,7 @@ bool TraceScope::traces(const ProcessSpec& spec) const {
 void TraceScope::prepare(ProcessSpec& spec) const {
   if (!traces(spec)) {
     std::string& variable = spec.environment["LD_PRELOAD"];
-    const std::string library = prefix_ + "/lib/launch/liblaunch_untraced.so";
+    const std::string library = run_.prefix() + "/lib/launch/liblaunch_untraced.so";
     if (variable.find(library) == std::string::npos) {
       variable = tracing::append_preload(variable, {library});
     }
@@ -83,18 +83,18 @@ void TraceScope::prepare(ProcessSpec& spec) const {
     spec.environment.emplace("LTTNG_UST_REGISTER_TIMEOUT", "0");
   }
   spec.environment.emplace("TRACETOOLS_REGISTER_TIMEOUT", kLongestRegistration);
-  if (!preload_.empty()) {
+  if (!run_.preload().empty()) {
     std::string& variable = spec.environment["LD_PRELOAD"];
-    variable = tracing::append_preload(variable, preload_);
+    variable = tracing::append_preload(variable, run_.preload());
   }
-  if (tracing::records_load_addresses(config_.all_events_ust())) {
+  if (tracing::records_load_addresses(run_.config().all_events_ust())) {
     spec.tells_load_addresses = true;
     spec.environment.erase(tracing::kWithoutLoadAddresses);
   } else if (!spec.tells_load_addresses) {
     spec.environment.emplace(tracing::kWithoutLoadAddresses, "1");
   }
-  if (counters_) {
-    spec.environment.emplace(tracing::kEventCountersVariable, counters_->path().string());
+  if (const tracing::CounterDirectory* const counters = run_.counters()) {
+    spec.environment.emplace(tracing::kEventCountersVariable, counters->path().string());
   }
   if (choices_.callback_deadline != 0) {
     spec.environment.emplace("TRACETOOLS_CALLBACK_DEADLINE", nanoseconds_of(choices_.callback_deadline));
@@ -102,7 +102,7 @@ void TraceScope::prepare(ProcessSpec& spec) const {
   if (choices_.message_deadline != 0) {
     spec.environment.emplace("TRACETOOLS_MESSAGE_DEADLINE", nanoseconds_of(choices_.message_deadline));
   }
-  if (may_block(config_)) {
+  if (may_block(run_.config())) {
     spec.environment.emplace("LTTNG_UST_ALLOW_BLOCKING", "1");
   }
 }

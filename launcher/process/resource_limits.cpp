@@ -12,7 +12,7 @@
 #include <cstring>
 #include <utility>
 
-#include "launcher/process/spawn/launch_exec_protocol.hpp"
+#include "launcher/process/exec/launch_exec_protocol.hpp"
 
 namespace launch {
 

@@ -14,7 +14,7 @@
 #include <climits>
 #include <cstdlib>
 
-#include "launcher/process/spawn/launch_exec_protocol.hpp"
+#include "launcher/process/exec/launch_exec_protocol.hpp"
 
 namespace {
 

@@ -21,9 +21,9 @@
 
 #include "base/environment/loopback.hpp"
 #include "base/files/pipe.hpp"
+#include "launcher/process/exec/launch_exec_protocol.hpp"
 #include "launcher/process/isolation/tap_device.hpp"
 #include "launcher/process/process_runner.hpp"
-#include "launcher/process/spawn/launch_exec_protocol.hpp"
 
 namespace launch {
 namespace {

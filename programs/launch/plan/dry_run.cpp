@@ -7,7 +7,7 @@
 
 #include <optional>
 
-#include "actions/ros/parameter_value.hpp"
+#include "actions/values/parameter_value.hpp"
 #include "programs/launch/plan/dry_run_schema.hpp"
 #include "programs/launch/plan/parameter_json.hpp"
 #include "programs/launch/plan/shell_script.hpp"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "actions/ros/ros_condition.hpp"
+#include "actions/values/ros_condition.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "actions/ros/parameter_value.hpp"
-#include "actions/ros/ros_names.hpp"
+#include "actions/values/parameter_value.hpp"
+#include "actions/values/ros_names.hpp"
 #include "launcher/ros/ros_readiness.hpp"
 
 namespace launch {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "actions/ros/ros_names.hpp"
+#include "actions/values/ros_names.hpp"
 
 #include <fmt/format.h>
 

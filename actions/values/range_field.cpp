@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "actions/test/range_field.hpp"
+#include "actions/values/range_field.hpp"
 
 #include <fmt/format.h>
 

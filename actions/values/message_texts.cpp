@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "actions/test/message_texts.hpp"
+#include "actions/values/message_texts.hpp"
 
 namespace launch {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "actions/ros/parameter_value.hpp"
+#include "actions/values/parameter_value.hpp"
 
 #include <fmt/format.h>
 

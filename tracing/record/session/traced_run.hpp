@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// A trace session around the run of a system: its start, what is done beside recording while the system runs, its end.
+//
+// Call start(), then look_around() and request_snapshot() as you like, then finish(). start(), look_around() and
+// finish() block, some for hundreds of milliseconds: call them from a thread of your own, one at a time. The others
+// return at once, and request_snapshot() and hurry() may be called from any thread meanwhile.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "tracing/model/chains/chain_definition.hpp"
+#include "tracing/record/account/counter_directory.hpp"
+#include "tracing/record/account/loss_account.hpp"
+#include "tracing/record/account/overhead_guard.hpp"
+#include "tracing/record/plan/trace_config.hpp"
+#include "tracing/record/session/event_watch.hpp"
+#include "tracing/record/session/flight_recorder.hpp"
+#include "tracing/record/session/run_watch.hpp"
+#include "tracing/record/session/tracer.hpp"
+
+namespace tracing {
+
+// What a run wants of its trace beside the recording itself.
+struct RunChoices {
+  // Reasons for a snapshot: a process dies unasked, the owner of the run gets this signal (0: none), an event matches.
+  bool snapshot_on_crash = false;
+  int snapshot_on_signal = 0;
+  std::vector<std::string> snapshot_on_events = {};
+  // Further reasons: a callback takes longer, or a message is older, than so many milliseconds; 0: no such reason.
+  double callback_deadline = 0;
+  double message_deadline = 0;
+  bool report = false;                       // a page is made of the trace at its end
+  std::vector<ChainDefinition> chains = {};  // for the report
+
+  bool flight_recorder() const { return snapshot_on_crash || snapshot_on_signal != 0 || !watched_events().empty(); }
+  // The events that cause a snapshot.
+  std::vector<std::string> watched_events() const;
+};
+
+class TracedRun {
+ public:
+  // Tells something to the user; called from several threads.
+  using Tell = std::function<void(bool warning, const std::string& text)>;
+  // Called from a thread of its own for each snapshot that was taken. `late` names the events by which processes have
+  // told that they missed a deadline, if that is a reason.
+  using SnapshotObserver = std::function<void(const TakenSnapshot& taken, const std::vector<std::string>& late)>;
+
+  // `prefix` is the folder of bin/launch, which ends the session of a killed launcher, and lib/launch/launch-report,
+  // which describes a finished trace in one line and as a page.
+  TracedRun(TraceConfig config, std::unique_ptr<Tracer> tracer, std::string prefix, RunChoices choices);
+
+  // The evaluated settings. They may be changed before start().
+  TraceConfig& config() { return config_; }
+  const TraceConfig& config() const { return config_; }
+  const RunChoices& choices() const { return choices_; }
+  const std::string& prefix() const { return prefix_; }
+  // The libraries that every traced process preloads.
+  const std::vector<std::string>& preload() const { return preload_; }
+  // Where processes count their events; null before clean_up_command(), and when there is no room.
+  const CounterDirectory* counters() const { return counters_.get(); }
+  // Adds a warning that start() tells. Call it before.
+  void warn(std::string warning) { setup_.warnings.push_back(std::move(warning)); }
+
+  // The command that releases what start() takes when this process is killed before finish(). Call it once, before
+  // start(), and only if there will be a run: it makes the directory of counters.
+  std::vector<std::string> clean_up_command();
+
+  // Begins the session, its flight recorder and the guard of max-overhead. Throws TraceError; nothing is left then.
+  void start(const Tell& tell, const SnapshotObserver& observer);
+  // To be called once when the processes of the run have registered: it has the events described early, which saves
+  // 200 ms at the end of the session (programs/trace_probe/trace_probe.c), and warns of programs that can't be
+  // recorded, for which it searches all of /proc.
+  void look_around(const Tell& tell);
+  // Does nothing if there is no flight recorder at the time.
+  void request_snapshot(const std::string& reason);
+  // The user is in a hurry: a finish() under way ends at once, with the data that is there.
+  void hurry() { hurry_ = true; }
+  // Ends the session and tells what it holds and has lost. Throws TraceError when the session can't be reached any
+  // more, and for losses if the settings want that (fail_on_loss).
+  void finish(const Tell& tell);
+
+  // The steps of start(); after finish(), those of finish().
+  bool finished() const { return !losses_.steps.empty(); }
+  const std::vector<SessionStep>& steps() const { return finished() ? losses_.steps : setup_.steps; }
+
+ private:
+  // Ends a session that has begun although its setup failed.
+  void end_failed_session();
+  // Returns a sentence if it fails.
+  std::string write_chains() const;
+  void start_flight_recorder(const Tell& tell, const SnapshotObserver& observer);
+  void stop_flight_recorder();
+  void summarize();
+  void make_report();
+  void tell_result(const Tell& tell) const;
+
+  TraceConfig config_;
+  std::unique_ptr<Tracer> tracer_;
+  std::string prefix_;
+  RunChoices choices_;
+  std::int64_t created_;  // when this run was made, in seconds since the epoch
+  std::vector<std::string> preload_;
+  std::shared_ptr<CounterDirectory> counters_;
+  SetupReport setup_;
+  LossAccount losses_;
+  std::string summary_;
+  std::string report_;  // path of the page; empty: none could be made
+  std::atomic<bool> hurry_ = false;
+  std::mutex flight_recorder_mutex_;  // of the pointer
+  std::shared_ptr<FlightRecorder> flight_recorder_;
+  std::unique_ptr<EventWatch> event_watch_;
+  std::unique_ptr<OverheadGuard> overhead_guard_;
+  std::unique_ptr<RunWatch> run_watch_;
+};
+
+}  // namespace tracing
