@@ -9,7 +9,7 @@ import re
 from pathlib import Path
 
 SUFFIXES = ('.hpp', '.cpp', '.h', '.c')
-INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
+INCLUDE = re.compile(r'^[ \t]*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
 # Headers are found below these folders of a package, as the compiler finds them.
 HEADER_FOLDERS = ('include', 'src')
 
@@ -37,7 +37,7 @@ class IncludeGraph:
         package_source = next((Path(*file.parts[:i + 1]) for i, part in enumerate(file.parts) if part == 'src'), None)
         for match in INCLUDE.finditer(text):
             name = Path(match.group(1))
-            beside = Path(*[part for part in (file.parent / name).parts])
+            beside = file.parent / name
             candidates = [name, beside] + ([package_source / name] if package_source else [])
             found = next((c for c in candidates if c in self._known), None) or self._below_include.get(name)
             if found and found != file:
