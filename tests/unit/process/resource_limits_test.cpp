@@ -11,8 +11,8 @@
 #include <cerrno>
 #include <system_error>
 
+#include "launcher/process/exec/launch_exec_protocol.hpp"
 #include "launcher/process/process_runner.hpp"
-#include "launcher/process/spawn/launch_exec_protocol.hpp"
 
 namespace launch {
 namespace {
