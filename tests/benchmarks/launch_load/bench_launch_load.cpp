@@ -162,7 +162,7 @@ void bench_include_chain(const fs::path& directory) {
 void bench_corpus_tree(const fs::path& directory) {
   const bench::CorpusTree tree = bench::prepare_corpus_tree(directory);
   if (tree.file.empty()) {
-    fmt::print("  a tree of real launch files: skipped, because " SHARED_CORPUS " is absent\n");
+    fmt::print("  a tree of real launch files: skipped, because its prefix could not be made\n");
     return;
   }
   int includes = 0;

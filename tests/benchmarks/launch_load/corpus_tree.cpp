@@ -22,12 +22,11 @@ void write_xacro(const fs::path& path) {
 }  // namespace
 
 CorpusTree prepare_corpus_tree(const std::string& directory) {
-  const fs::path root = SHARED_CORPUS
+  const fs::path root = CORPUS
       "/launch_files/autowarefoundation+autoware_launch/autoware_launch/launch/"
       "planning_simulator.launch.xml";
   const fs::path prefix = fs::path(directory) / "prefix";
-  const std::string make =
-      fmt::format("/usr/bin/python3 '" SHARED_CORPUS "/make_prefix' '{}' --standins", prefix.string());
+  const std::string make = fmt::format("/usr/bin/python3 '" MAKE_PREFIX "' '" CORPUS "' '{}'", prefix.string());
   if (!fs::exists(root) || std::system(make.c_str()) != 0) {
     return {};
   }
