@@ -18,8 +18,8 @@ SOURCE = Path(os.environ['SOURCE_DIRECTORY'])
 
 # Files without a licence line, by folder and by suffix. The text of an interface file is part of its type's description.
 # JSON has no comments. A package.xml names its licence in an element.
-EXEMPT_FOLDERS = ('docs/', 'launch_examples/', 'tests/golden/', 'third_party/', '.vscode/')
-EXEMPT_SUFFIXES = ('.md', '.json', '.xml', '.msg', '.srv', '.action', '.tsv')
+EXEMPT_FOLDERS = ('docs/', '.github/', 'launch_examples/', 'tests/golden/', 'third_party/', '.vscode/')
+EXEMPT_SUFFIXES = ('.md', '.json', '.xml', '.msg', '.srv', '.action', '.tsv', '.xz')
 EXEMPT_NAMES = ('LICENSE', '.gitignore')
 
 VERSIONS_OF_ROS_2 = {
@@ -78,6 +78,43 @@ class Licence(unittest.TestCase):
             if Path(name).name == 'package.xml':
                 with self.subTest(name):
                     self.assertRegex((SOURCE / name).read_text(), r'<license>Apache(-| License )2\.0</license>')
+
+
+class OneForm(unittest.TestCase):
+    """What the formatter makes, checked where it is not installed; and what it does not look at."""
+
+    BODY_WITHOUT_BRACES = re.compile(r'^\s*((\} )?else if|if|for|while) (constexpr )?\(.*\) [^{}]*;$|^\s*(\} )?else (?!if )[^{]*;$')
+
+    @classmethod
+    def setUpClass(cls):
+        cls.texts = {name: (SOURCE / name).read_text(encoding='utf-8') for name in tracked_files() or []
+                     if name.endswith(('.cpp', '.hpp', '.c', '.h')) and not name.startswith('third_party/')}
+
+    def setUp(self):
+        if not self.texts:
+            self.skipTest('the sources are not a checkout of git')
+
+    def lines_like(self, expression):
+        return [f'{name}:{number}: {line.strip()}' for name, text in self.texts.items()
+                for number, line in enumerate(text.splitlines(), 1) if expression.search(line)]
+
+    def test_the_expressions_find_what_they_forbid(self):
+        for line in ('  if (a) return;', '} else if (a) b();', '  else return 1;', '  for (int i : all) use(i);', '  while (more()) step();'):
+            self.assertRegex(line, self.BODY_WITHOUT_BRACES)
+        for line in ('  if (a) {', '  } while (more());', '  } else {', '  for (;;) {', '  // if (a) b();'):
+            self.assertNotRegex(line, self.BODY_WITHOUT_BRACES)
+
+    def test_every_body_has_braces(self):
+        # A line that opens more parentheses than it closes is the beginning of a condition.
+        self.assertEqual([line for line in self.lines_like(self.BODY_WITHOUT_BRACES) if line.count('(') == line.count(')')], [])
+
+    def test_comments_have_two_slashes(self):
+        self.assertEqual(self.lines_like(re.compile(r'^\s*///')), [])
+
+    def test_every_header_says_pragma_once(self):
+        # LTTng reads the headers of tracepoints several times.
+        self.assertEqual([name for name, text in self.texts.items() if name.endswith(('.hpp', '.h'))
+                          and '\n#pragma once\n' not in text and 'HEADER_MULTI_READ' not in text], [])
 
 
 class Version(unittest.TestCase):
