@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "launcher/process/process_supervisor.hpp"
+#include "tests/benchmarks/samples/samples_file.hpp"
 
 namespace {
 
@@ -107,6 +108,8 @@ int main() {
       bare.push_back(run_bare(*runner, directory));
       supervised.push_back(run_supervised(*runner, directory));
     }
+    benchmarks::report(
+        {fmt::format("{} lines of a child", kLines), "s", supervised, "read and written by a loop", bare});
     fmt::print("million lines of a child per second, to /dev/null and a file\n");
     fmt::print("{:>9} {:>11} {:>7}\n", "bare", "supervised", "ratio");
     fmt::print("{:>9.2f} {:>11.2f} {:>7.2f}\n", kLines / median(bare) / 1e6, kLines / median(supervised) / 1e6,

@@ -27,6 +27,7 @@
 #include "base/files/pipe.hpp"
 #include "base/files/unique_fd.hpp"
 #include "launcher/process/process_supervisor.hpp"
+#include "tests/benchmarks/samples/samples_file.hpp"
 
 namespace {
 
@@ -209,6 +210,9 @@ void measure(Launcher& launcher, std::size_t count, std::size_t rounds) {
                        supervised / pipes);
   };
   fmt::print("{:>8} | {} | {}\n", count, row(start), row(stop));
+  const std::string children = fmt::format("{} {}, each", count, count == 1 ? "process" : "processes");
+  benchmarks::report({children + " started", "us", start[2], "posix_spawn, kill, waitpid", start[0]});
+  benchmarks::report({children + " ended", "us", stop[2], "posix_spawn, kill, waitpid", stop[0]});
   std::fflush(stdout);
 }
 

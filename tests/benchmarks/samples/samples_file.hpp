@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a benchmark has measured, for programs: `./dev evaluate` makes intervals of it.
+// What a benchmark has measured, for programs: `./dev evaluate` and `./dev bench --record` make intervals of it.
 #pragma once
 
 #include <string>

@@ -21,6 +21,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/benchmarks/samples/samples_file.hpp"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -85,6 +87,7 @@ double sum_of(const std::map<std::string, double>& steps, const std::string& pre
 }
 
 void print(const char* what, std::vector<double> milliseconds, double aim) {
+  benchmarks::report({what, "ms", milliseconds});
   std::sort(milliseconds.begin(), milliseconds.end());
   const double median = milliseconds[milliseconds.size() / 2];
   fmt::print("  {:<46} {:7.1f} {:7.1f}   {:>5} {}\n", what, milliseconds.front(), median,
