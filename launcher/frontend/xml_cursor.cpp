@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/frontend/xml_cursor.hpp"
 
-#include <utility>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdint>
 
 namespace launch {
 
@@ -10,10 +15,27 @@ namespace {
 // Without a limit, a file that is not XML at all could give an error for each of its characters.
 constexpr std::size_t kMaximumErrors = 20;
 
+constexpr std::array<std::string_view, 5> kEntities = {"lt", "gt", "amp", "quot", "apos"};
+
+// The text is "#65" or "#x41".
+bool is_character_number(std::string_view text) {
+  const bool is_hexadecimal = text.starts_with("#x");
+  const char* const end = text.data() + text.size();
+  std::uint32_t c = 0;
+  const auto [last, failure] =
+      std::from_chars(text.data() + (is_hexadecimal ? 2 : 1), end, c, is_hexadecimal ? 16 : 10);
+  return failure == std::errc() && last == end &&
+         (c == 0x9 || c == 0xA || c == 0xD || (c >= 0x20 && c <= 0xD7FF) || (c >= 0xE000 && c <= 0xFFFD) ||
+          (c >= 0x10000 && c <= 0x10FFFF));
+}
+
 }  // namespace
 
-SourceRange XmlCursor::range(std::size_t begin, std::size_t end) const {
-  return {markup.file, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
+std::string_view leading_xml_name(std::string_view text) {
+  if (text.empty() || !begins_xml_name(text.front())) {
+    return text.substr(0, 0);
+  }
+  return text.substr(0, std::find_if_not(text.begin(), text.end(), continues_xml_name) - text.begin());
 }
 
 bool XmlCursor::skip_blanks() {
@@ -25,24 +47,62 @@ bool XmlCursor::skip_blanks() {
 }
 
 std::string_view XmlCursor::take_name() {
-  const std::size_t begin = position;
-  if (position < text.size() && is_xml_name_start(text[position])) {
-    while (position < text.size() && is_xml_name_character(text[position])) {
-      ++position;
+  const std::string_view name = leading_xml_name(rest());
+  position += name.size();
+  return name;
+}
+
+XmlAttributeValue XmlCursor::take_value() {
+  XmlAttributeValue value;
+  skip_blanks();
+  value.has_equals_sign = at("=");
+  if (!value.has_equals_sign) {
+    return value;
+  }
+  ++position;
+  skip_blanks();
+  if (!at("\"") && !at("'")) {
+    return value;
+  }
+  value.quote = text[position];
+  const std::size_t end = text.find(value.quote, position + 1);
+  if (end != std::string_view::npos) {
+    value.is_closed = true;
+    value.text = text.substr(position + 1, end - position - 1);
+    position = end + 1;
+  }
+  return value;
+}
+
+void XmlCursor::check_references(std::string_view part) {
+  for (std::size_t i = part.find('&'); i != std::string_view::npos && !stopped; i = part.find('&', i + 1)) {
+    const std::size_t end = part.find(';', i);
+    const std::string_view reference = part.substr(i, end == std::string_view::npos ? 1 : end + 1 - i);
+    const std::string_view name = reference.substr(1, reference.size() < 2 ? 0 : reference.size() - 2);
+    const auto can_be_in_name = [](char c) { return c == '#' || continues_xml_name(c); };
+    if (name.empty() || !std::all_of(name.begin(), name.end(), can_be_in_name)) {
+      error("'&' starts no entity here", part.substr(i, 1), "write &amp; for the character itself");
+    } else if (name.starts_with('#') && !is_character_number(name)) {
+      error(fmt::format("'{}' is not a character", reference), reference);
+    } else if (!name.starts_with('#') && std::find(kEntities.begin(), kEntities.end(), name) == kEntities.end()) {
+      error(fmt::format("unknown entity '{}'", reference), reference,
+            has_doctype ? "entities declared in a DOCTYPE are not supported"
+                        : "XML knows &lt; &gt; &amp; &quot; &apos; and &#number; only");
     }
   }
-  return text.substr(begin, position - begin);
 }
 
-void XmlCursor::error(std::string message, std::size_t begin, std::size_t end, std::string help) {
+void XmlCursor::error(std::string message, std::string_view where, std::string help) {
   if (!stopped) {
-    markup.errors.push_back({Severity::kError, std::move(message), range(begin, end), std::move(help)});
-    stopped = markup.errors.size() >= kMaximumErrors;
+    const auto begin = static_cast<std::uint32_t>(where.data() - text.data());
+    const auto end = begin + static_cast<std::uint32_t>(where.size());
+    errors.push_back({Severity::kError, std::move(message), {file, begin, end}, std::move(help)});
+    stopped = errors.size() >= kMaximumErrors;
   }
 }
 
-void XmlCursor::fatal(std::string message, std::size_t begin, std::size_t end, std::string help) {
-  error(std::move(message), begin, end, std::move(help));
+void XmlCursor::fatal(std::string message, std::string_view where, std::string help) {
+  error(std::move(message), where, std::move(help));
   stopped = true;
 }
 
