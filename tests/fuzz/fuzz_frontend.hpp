@@ -4,10 +4,10 @@
 
 #include <cstdlib>
 
-#include "launcher/frontend/entity_equivalence.hpp"
 #include "launcher/frontend/frontend.hpp"
 #include "launcher/substitution/template_parser.hpp"
 #include "tests/fuzz/fuzz_input.hpp"
+#include "tests/unit/frontend/entity_equivalence.hpp"
 
 namespace fuzz {
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "base/diagnostics/read_source_file.hpp"
-#include "launcher/frontend/entity_equivalence.hpp"
+#include "tests/unit/frontend/entity_equivalence.hpp"
 #include "tests/unit/frontend/entity_test_support.hpp"
 
 namespace launch {

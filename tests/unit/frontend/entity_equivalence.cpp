@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/frontend/entity_equivalence.hpp"
+#include "tests/unit/frontend/entity_equivalence.hpp"
 
 #include <algorithm>
 #include <cmath>
