@@ -11,7 +11,6 @@
 #include "launcher/frontend/frontend.hpp"
 #include "launcher/frontend/input_text.hpp"
 #include "launcher/frontend/yaml_events.hpp"
-#include "launcher/frontend/yaml_merge_keys.hpp"
 #include "launcher/frontend/yaml_scalar_place.hpp"
 
 namespace launch {

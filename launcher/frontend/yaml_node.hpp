@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plain tree that YAML text is read into.
+// The plain tree that YAML text is read into, with the merge keys of YAML 1.1.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "base/diagnostics/source.hpp"
+#include "base/diagnostics/diagnostic.hpp"
 #include "launcher/frontend/entity.hpp"
 
 namespace launch {
@@ -32,5 +32,10 @@ struct YamlEntry {
 
 // The name of the node in messages: "a list", "a mapping", "str 'text'", "nothing".
 std::string describe(const YamlNode& node);
+
+// Replaces each entry `<<: MAPPING` by the entries of MAPPING. Keys of the mapping itself take precedence over merged
+// keys. Earlier merged mappings take precedence over later ones. A key that is given twice is an error here, although
+// yaml-cpp and PyYAML accept it.
+void resolve_merge_keys(YamlNode& mapping, std::vector<Diagnostic>& errors);
 
 }  // namespace launch
