@@ -1,73 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rcl_action/action_client.h"
 
-#include "action_client_impl.hpp"
-#include "init_named.hpp"
-#include "rcl/error_handling.h"
+#include <memory>
+#include <utility>
+
+#include "action_end.hpp"
 #include "rcl/graph.h"
-#include "rcl/node_type_cache.h"
 #include "rcl_action/default_qos.h"
-#include "rcl_action/names.h"
 #include "rmw/qos_profiles.h"
+
+namespace rcl_action {
+
+rcl_ret_t init_all(rcl_action_client_impl_s& client, rcl_node_t* node, const rosidl_action_type_support_t& types) {
+  const auto init_client = [&](rcl_client_t& part, const auto* type, const char* name, const rmw_qos_profile_t& qos) {
+    const rcl_client_options_t options{qos, client.options.allocator};
+    return rcl_client_init(&part, node, type, name, &options);
+  };
+  const auto init_subscription = [&](rcl_subscription_t& part, const auto* type, const char* name,
+                                     const rmw_qos_profile_t& qos) {
+    rcl_subscription_options_t options = rcl_subscription_get_default_options();
+    options.qos = qos;
+    return rcl_subscription_init(&part, node, type, name, &options);
+  };
+  return init_parts(client, types, init_client, init_subscription);
+}
+
+rcl_ret_t fini_all(rcl_action_client_impl_s& client, rcl_node_t* node) {
+  return last_error({rcl_client_fini(&client.goal, node), rcl_client_fini(&client.cancel, node),
+                     rcl_client_fini(&client.result, node), rcl_subscription_fini(&client.feedback, node),
+                     rcl_subscription_fini(&client.status, node)});
+}
+
+}  // namespace rcl_action
 
 namespace {
 
-rcl_ret_t init_client(rcl_client_t& client, rcl_action::MakeName make_name, const rcl_action_client_impl_t& impl,
-                      const rcl_node_t* node, const rosidl_service_type_support_t* type_support,
-                      const rmw_qos_profile_t& qos) {
-  return rcl_action::init_named(make_name, impl.action_name.c_str(), impl.options.allocator, [&](const char* name) {
-    const rcl_client_options_t options{qos, impl.options.allocator};
-    return rcl_client_init(&client, node, type_support, name, &options);
-  });
-}
+using ActionClient = rcl_action_client_impl_s;
 
-rcl_ret_t init_subscription(rcl_subscription_t& subscription, rcl_action::MakeName make_name,
-                            const rcl_action_client_impl_t& impl, const rcl_node_t* node,
-                            const rosidl_message_type_support_t* type_support, const rmw_qos_profile_t& qos) {
-  return rcl_action::init_named(make_name, impl.action_name.c_str(), impl.options.allocator, [&](const char* name) {
-    rcl_subscription_options_t options = rcl_subscription_get_default_options();
-    options.qos = qos;
-    return rcl_subscription_init(&subscription, node, type_support, name, &options);
-  });
-}
-
-rcl_ret_t init_all(rcl_action_client_impl_t& impl, rcl_node_t* node, const rosidl_action_type_support_t& types) {
-  const rcl_action_client_options_t& options = impl.options;
-  rcl_ret_t result = init_client(impl.goal_client, rcl_action_get_goal_service_name, impl, node,
-                                 types.goal_service_type_support, options.goal_service_qos);
-  if (result == RCL_RET_OK) {
-    result = init_client(impl.cancel_client, rcl_action_get_cancel_service_name, impl, node,
-                         types.cancel_service_type_support, options.cancel_service_qos);
-  }
-  if (result == RCL_RET_OK) {
-    result = init_client(impl.result_client, rcl_action_get_result_service_name, impl, node,
-                         types.result_service_type_support, options.result_service_qos);
-  }
-  if (result == RCL_RET_OK) {
-    result = init_subscription(impl.feedback_subscription, rcl_action_get_feedback_topic_name, impl, node,
-                               types.feedback_message_type_support, options.feedback_topic_qos);
-  }
-  if (result == RCL_RET_OK) {
-    result = init_subscription(impl.status_subscription, rcl_action_get_status_topic_name, impl, node,
-                               types.status_message_type_support, options.status_topic_qos);
-  }
-  return result;
-}
-
-rcl_ret_t fini_all(rcl_action_client_impl_t& impl, rcl_node_t* node) {
-  rcl_ret_t result = RCL_RET_OK;
-  for (const rcl_ret_t each :
-       {rcl_client_fini(&impl.goal_client, node), rcl_client_fini(&impl.cancel_client, node),
-        rcl_client_fini(&impl.result_client, node), rcl_subscription_fini(&impl.feedback_subscription, node),
-        rcl_subscription_fini(&impl.status_subscription, node)}) {
-    if (each != RCL_RET_OK) {
-      result = each;
-    }
-  }
-  return result;
-}
-
-rcl_ret_t send(const rcl_action_client_t* client, rcl_client_t rcl_action_client_impl_s::*part, const void* request,
+rcl_ret_t send(const rcl_action_client_t* client, rcl_client_t ActionClient::*part, const void* request,
                int64_t* sequence_number) {
   if (!rcl_action_client_is_valid(client)) {
     return RCL_RET_ACTION_CLIENT_INVALID;
@@ -75,8 +45,8 @@ rcl_ret_t send(const rcl_action_client_t* client, rcl_client_t rcl_action_client
   return rcl_send_request(&(client->impl->*part), request, sequence_number);
 }
 
-rcl_ret_t take(const rcl_action_client_t* client, rcl_client_t rcl_action_client_impl_s::*part,
-               rmw_request_id_t* header, void* response) {
+rcl_ret_t take(const rcl_action_client_t* client, rcl_client_t ActionClient::*part, rmw_request_id_t* header,
+               void* response) {
   if (!rcl_action_client_is_valid(client)) {
     return RCL_RET_ACTION_CLIENT_INVALID;
   }
@@ -84,7 +54,7 @@ rcl_ret_t take(const rcl_action_client_t* client, rcl_client_t rcl_action_client
   return result == RCL_RET_CLIENT_TAKE_FAILED ? RCL_RET_ACTION_CLIENT_TAKE_FAILED : result;
 }
 
-rcl_ret_t take(const rcl_action_client_t* client, rcl_subscription_t rcl_action_client_impl_s::*part, void* message) {
+rcl_ret_t take(const rcl_action_client_t* client, rcl_subscription_t ActionClient::*part, void* message) {
   if (!rcl_action_client_is_valid(client)) {
     return RCL_RET_ACTION_CLIENT_INVALID;
   }
@@ -93,7 +63,7 @@ rcl_ret_t take(const rcl_action_client_t* client, rcl_subscription_t rcl_action_
   return result == RCL_RET_SUBSCRIPTION_TAKE_FAILED ? RCL_RET_ACTION_CLIENT_TAKE_FAILED : result;
 }
 
-rcl_ret_t set_callback(const rcl_action_client_t* client, rcl_client_t rcl_action_client_impl_s::*part,
+rcl_ret_t set_callback(const rcl_action_client_t* client, rcl_client_t ActionClient::*part,
                        rcl_event_callback_t callback, const void* user_data) {
   if (!rcl_action_client_is_valid(client)) {
     return RCL_RET_ACTION_CLIENT_INVALID;
@@ -101,7 +71,7 @@ rcl_ret_t set_callback(const rcl_action_client_t* client, rcl_client_t rcl_actio
   return rcl_client_set_on_new_response_callback(&(client->impl->*part), callback, user_data);
 }
 
-rcl_ret_t set_callback(const rcl_action_client_t* client, rcl_subscription_t rcl_action_client_impl_s::*part,
+rcl_ret_t set_callback(const rcl_action_client_t* client, rcl_subscription_t ActionClient::*part,
                        rcl_event_callback_t callback, const void* user_data) {
   if (!rcl_action_client_is_valid(client)) {
     return RCL_RET_ACTION_CLIENT_INVALID;
@@ -134,37 +104,15 @@ rcl_ret_t rcl_action_client_init(rcl_action_client_t* action_client, rcl_node_t*
     RCL_SET_ERROR_MSG("the action client is initialized already");
     return RCL_RET_ALREADY_INIT;
   }
-  auto* impl = new rcl_action_client_impl_s;
+  auto impl = std::make_unique<ActionClient>();
   impl->options = *options;
   impl->action_name = action_name;
-  if (const rcl_ret_t result = init_all(*impl, node, *type_support); result != RCL_RET_OK) {
-    // The caller gets the first error.
-    const rcl_error_string_t reason = rcl_get_error_string();
-    (void)fini_all(*impl, node);
-    rcl_reset_error();
-    RCL_SET_ERROR_MSG(reason.str);
-    delete impl;
-    return result;
-  }
-  impl->type = type_support->description;
-  (void)rcl_node_type_cache_register_type(node, impl->type);
-  action_client->impl = impl;
-  return RCL_RET_OK;
+  return rcl_action::init_end(action_client->impl, std::move(impl), node, *type_support);
 }
 
 rcl_ret_t rcl_action_client_fini(rcl_action_client_t* action_client, rcl_node_t* node) {
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(action_client, RCL_RET_ACTION_CLIENT_INVALID);
-  if (!rcl_node_is_valid_except_context(node)) {
-    return RCL_RET_NODE_INVALID;
-  }
-  if (action_client->impl == nullptr) {
-    return RCL_RET_OK;
-  }
-  (void)rcl_node_type_cache_unregister_type(node, action_client->impl->type);
-  const rcl_ret_t result = fini_all(*action_client->impl, node);
-  delete action_client->impl;
-  action_client->impl = nullptr;
-  return result;
+  return rcl_action::fini_end(action_client->impl, node);
 }
 
 rcl_ret_t rcl_action_server_is_available(const rcl_node_t* node, const rcl_action_client_t* client,
@@ -175,14 +123,14 @@ rcl_ret_t rcl_action_server_is_available(const rcl_node_t* node, const rcl_actio
   }
   const rcl_action_client_impl_t& impl = *client->impl;
   *is_available = false;
-  for (const rcl_client_t* part : {&impl.goal_client, &impl.cancel_client, &impl.result_client}) {
+  for (const rcl_client_t* part : {&impl.goal, &impl.cancel, &impl.result}) {
     bool is_there = false;
     if (const rcl_ret_t result = rcl_service_server_is_available(node, part, &is_there);
         result != RCL_RET_OK || !is_there) {
       return result;
     }
   }
-  for (const rcl_subscription_t* part : {&impl.feedback_subscription, &impl.status_subscription}) {
+  for (const rcl_subscription_t* part : {&impl.feedback, &impl.status}) {
     size_t publishers = 0;
     if (const rcl_ret_t result = rcl_subscription_get_publisher_count(part, &publishers);
         result != RCL_RET_OK || publishers == 0) {
@@ -195,65 +143,65 @@ rcl_ret_t rcl_action_server_is_available(const rcl_node_t* node, const rcl_actio
 
 rcl_ret_t rcl_action_send_goal_request(const rcl_action_client_t* action_client, const void* ros_goal_request,
                                        int64_t* sequence_number) {
-  return send(action_client, &rcl_action_client_impl_s::goal_client, ros_goal_request, sequence_number);
+  return send(action_client, &ActionClient::goal, ros_goal_request, sequence_number);
 }
 
 rcl_ret_t rcl_action_send_cancel_request(const rcl_action_client_t* action_client, const void* ros_cancel_request,
                                          int64_t* sequence_number) {
-  return send(action_client, &rcl_action_client_impl_s::cancel_client, ros_cancel_request, sequence_number);
+  return send(action_client, &ActionClient::cancel, ros_cancel_request, sequence_number);
 }
 
 rcl_ret_t rcl_action_send_result_request(const rcl_action_client_t* action_client, const void* ros_result_request,
                                          int64_t* sequence_number) {
-  return send(action_client, &rcl_action_client_impl_s::result_client, ros_result_request, sequence_number);
+  return send(action_client, &ActionClient::result, ros_result_request, sequence_number);
 }
 
 rcl_ret_t rcl_action_take_goal_response(const rcl_action_client_t* action_client, rmw_request_id_t* response_header,
                                         void* ros_goal_response) {
-  return take(action_client, &rcl_action_client_impl_s::goal_client, response_header, ros_goal_response);
+  return take(action_client, &ActionClient::goal, response_header, ros_goal_response);
 }
 
 rcl_ret_t rcl_action_take_cancel_response(const rcl_action_client_t* action_client, rmw_request_id_t* response_header,
                                           void* ros_cancel_response) {
-  return take(action_client, &rcl_action_client_impl_s::cancel_client, response_header, ros_cancel_response);
+  return take(action_client, &ActionClient::cancel, response_header, ros_cancel_response);
 }
 
 rcl_ret_t rcl_action_take_result_response(const rcl_action_client_t* action_client, rmw_request_id_t* response_header,
                                           void* ros_result_response) {
-  return take(action_client, &rcl_action_client_impl_s::result_client, response_header, ros_result_response);
+  return take(action_client, &ActionClient::result, response_header, ros_result_response);
 }
 
 rcl_ret_t rcl_action_take_feedback(const rcl_action_client_t* action_client, void* ros_feedback) {
-  return take(action_client, &rcl_action_client_impl_s::feedback_subscription, ros_feedback);
+  return take(action_client, &ActionClient::feedback, ros_feedback);
 }
 
 rcl_ret_t rcl_action_take_status(const rcl_action_client_t* action_client, void* ros_status_array) {
-  return take(action_client, &rcl_action_client_impl_s::status_subscription, ros_status_array);
+  return take(action_client, &ActionClient::status, ros_status_array);
 }
 
 rcl_ret_t rcl_action_client_set_goal_client_callback(const rcl_action_client_t* action_client,
                                                      rcl_event_callback_t callback, const void* user_data) {
-  return set_callback(action_client, &rcl_action_client_impl_s::goal_client, callback, user_data);
+  return set_callback(action_client, &ActionClient::goal, callback, user_data);
 }
 
 rcl_ret_t rcl_action_client_set_cancel_client_callback(const rcl_action_client_t* action_client,
                                                        rcl_event_callback_t callback, const void* user_data) {
-  return set_callback(action_client, &rcl_action_client_impl_s::cancel_client, callback, user_data);
+  return set_callback(action_client, &ActionClient::cancel, callback, user_data);
 }
 
 rcl_ret_t rcl_action_client_set_result_client_callback(const rcl_action_client_t* action_client,
                                                        rcl_event_callback_t callback, const void* user_data) {
-  return set_callback(action_client, &rcl_action_client_impl_s::result_client, callback, user_data);
+  return set_callback(action_client, &ActionClient::result, callback, user_data);
 }
 
 rcl_ret_t rcl_action_client_set_feedback_subscription_callback(const rcl_action_client_t* action_client,
                                                                rcl_event_callback_t callback, const void* user_data) {
-  return set_callback(action_client, &rcl_action_client_impl_s::feedback_subscription, callback, user_data);
+  return set_callback(action_client, &ActionClient::feedback, callback, user_data);
 }
 
 rcl_ret_t rcl_action_client_set_status_subscription_callback(const rcl_action_client_t* action_client,
                                                              rcl_event_callback_t callback, const void* user_data) {
-  return set_callback(action_client, &rcl_action_client_impl_s::status_subscription, callback, user_data);
+  return set_callback(action_client, &ActionClient::status, callback, user_data);
 }
 
 const char* rcl_action_client_get_action_name(const rcl_action_client_t* action_client) {

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <optional>
 
-#include "action_server_impl.hpp"
+#include "action_end.hpp"
 #include "rcl/error_handling.h"
 
 namespace {

@@ -3,8 +3,7 @@
 
 #include <algorithm>
 
-#include "action_client_impl.hpp"
-#include "action_server_impl.hpp"
+#include "action_end.hpp"
 
 namespace {
 
@@ -53,9 +52,9 @@ rcl_ret_t rcl_action_wait_set_add_action_server(rcl_wait_set_t* wait_set, const 
     return RCL_RET_ACTION_SERVER_INVALID;
   }
   const rcl_action_server_impl_t& impl = *action_server->impl;
-  return first_error({rcl_wait_set_add_service(wait_set, &impl.goal_service, nullptr),
-                      rcl_wait_set_add_service(wait_set, &impl.cancel_service, nullptr),
-                      rcl_wait_set_add_service(wait_set, &impl.result_service, nullptr),
+  return first_error({rcl_wait_set_add_service(wait_set, &impl.goal, nullptr),
+                      rcl_wait_set_add_service(wait_set, &impl.cancel, nullptr),
+                      rcl_wait_set_add_service(wait_set, &impl.result, nullptr),
                       rcl_wait_set_add_timer(wait_set, &impl.expire_timer, nullptr)});
 }
 
@@ -64,11 +63,11 @@ rcl_ret_t rcl_action_wait_set_add_action_client(rcl_wait_set_t* wait_set, const 
     return RCL_RET_ACTION_CLIENT_INVALID;
   }
   const rcl_action_client_impl_t& impl = *action_client->impl;
-  return first_error({rcl_wait_set_add_client(wait_set, &impl.goal_client, nullptr),
-                      rcl_wait_set_add_client(wait_set, &impl.cancel_client, nullptr),
-                      rcl_wait_set_add_client(wait_set, &impl.result_client, nullptr),
-                      rcl_wait_set_add_subscription(wait_set, &impl.feedback_subscription, nullptr),
-                      rcl_wait_set_add_subscription(wait_set, &impl.status_subscription, nullptr)});
+  return first_error({rcl_wait_set_add_client(wait_set, &impl.goal, nullptr),
+                      rcl_wait_set_add_client(wait_set, &impl.cancel, nullptr),
+                      rcl_wait_set_add_client(wait_set, &impl.result, nullptr),
+                      rcl_wait_set_add_subscription(wait_set, &impl.feedback, nullptr),
+                      rcl_wait_set_add_subscription(wait_set, &impl.status, nullptr)});
 }
 
 rcl_ret_t rcl_action_server_wait_set_get_entities_ready(const rcl_wait_set_t* wait_set,
@@ -80,9 +79,9 @@ rcl_ret_t rcl_action_server_wait_set_get_entities_ready(const rcl_wait_set_t* wa
   }
   const rcl_action_server_impl_t& impl = *action_server->impl;
   const size_t services = wait_set->size_of_services;
-  *is_goal_request_ready = contains(wait_set->services, services, impl.goal_service);
-  *is_cancel_request_ready = contains(wait_set->services, services, impl.cancel_service);
-  *is_result_request_ready = contains(wait_set->services, services, impl.result_service);
+  *is_goal_request_ready = contains(wait_set->services, services, impl.goal);
+  *is_cancel_request_ready = contains(wait_set->services, services, impl.cancel);
+  *is_result_request_ready = contains(wait_set->services, services, impl.result);
   *is_goal_expired = contains(wait_set->timers, wait_set->size_of_timers, impl.expire_timer);
   return RCL_RET_OK;
 }
@@ -98,10 +97,10 @@ rcl_ret_t rcl_action_client_wait_set_get_entities_ready(const rcl_wait_set_t* wa
   const rcl_action_client_impl_t& impl = *action_client->impl;
   const size_t subscriptions = wait_set->size_of_subscriptions;
   const size_t clients = wait_set->size_of_clients;
-  *is_feedback_ready = contains(wait_set->subscriptions, subscriptions, impl.feedback_subscription);
-  *is_status_ready = contains(wait_set->subscriptions, subscriptions, impl.status_subscription);
-  *is_goal_response_ready = contains(wait_set->clients, clients, impl.goal_client);
-  *is_cancel_response_ready = contains(wait_set->clients, clients, impl.cancel_client);
-  *is_result_response_ready = contains(wait_set->clients, clients, impl.result_client);
+  *is_feedback_ready = contains(wait_set->subscriptions, subscriptions, impl.feedback);
+  *is_status_ready = contains(wait_set->subscriptions, subscriptions, impl.status);
+  *is_goal_response_ready = contains(wait_set->clients, clients, impl.goal);
+  *is_cancel_response_ready = contains(wait_set->clients, clients, impl.cancel);
+  *is_result_response_ready = contains(wait_set->clients, clients, impl.result);
   return RCL_RET_OK;
 }
