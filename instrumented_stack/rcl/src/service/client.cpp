@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rcl/client.h"
 
-#include "rcl/error_handling.h"
-#include "rcl/node_type_cache.h"
-#include "rmw/rmw.h"
+#include "node/node_entity.hpp"
 #include "rmw/type_description.h"
 #include "service/service_event_publisher.hpp"
 #include "service_msgs/msg/service_event_info.hpp"
@@ -47,39 +45,25 @@ rcl_ret_t rcl_client_init(rcl_client_t* client, const rcl_node_t* node,
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(type_support, RCL_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(service_name, RCL_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(options, RCL_RET_INVALID_ARGUMENT);
-  if (client->impl != nullptr) {
-    RCL_SET_ERROR_MSG("the client is initialized already");
-    return RCL_RET_ALREADY_INIT;
-  }
-  if (!rcl_node_is_valid(node)) {
-    return RCL_RET_NODE_INVALID;
-  }
-  char* resolved = nullptr;
-  if (const rcl_ret_t result = rcl_node_resolve_name(node, service_name, options->allocator, true, false, &resolved);
+  const auto create = [&](rmw_node_t* rmw_node, const char* name) {
+    return rmw_create_client(rmw_node, type_support, name, &options->qos);
+  };
+  const auto complete = [&](rcl_client_impl_t& impl) {
+    impl.type = rmw_service_type_description(type_support);
+    rmw_ret_t result = rmw_client_request_publisher_get_actual_qos(impl.rmw_handle, &impl.request_qos);
+    if (result == RMW_RET_OK) {
+      result = rmw_client_response_subscription_get_actual_qos(impl.rmw_handle, &impl.response_qos);
+    }
+    impl.request_qos.avoid_ros_namespace_conventions = options->qos.avoid_ros_namespace_conventions;
+    impl.response_qos.avoid_ros_namespace_conventions = options->qos.avoid_ros_namespace_conventions;
+    return result;
+  };
+  if (const rcl_ret_t result = rcl::init_entity(client->impl, "client", node, rcl::NameKind::kService, service_name,
+                                                *options, create, complete, rmw_destroy_client);
       result != RCL_RET_OK) {
-    const bool name_is_wrong = result == RCL_RET_UNKNOWN_SUBSTITUTION || result == RCL_RET_TOPIC_NAME_INVALID;
-    return name_is_wrong ? RCL_RET_SERVICE_NAME_INVALID : result;
-  }
-  rmw_client_t* handle = rmw_create_client(rcl_node_get_rmw_handle(node), type_support, resolved, &options->qos);
-  options->allocator.deallocate(resolved, options->allocator.state);
-  if (handle == nullptr) {
-    return RCL_RET_ERROR;
-  }
-  rmw_qos_profile_t request_qos;
-  rmw_qos_profile_t response_qos;
-  rmw_ret_t result = rmw_client_request_publisher_get_actual_qos(handle, &request_qos);
-  if (result == RMW_RET_OK) {
-    result = rmw_client_response_subscription_get_actual_qos(handle, &response_qos);
-  }
-  if (result != RMW_RET_OK) {
-    (void)rmw_destroy_client(rcl_node_get_rmw_handle(node), handle);
     return result;
   }
-  request_qos.avoid_ros_namespace_conventions = options->qos.avoid_ros_namespace_conventions;
-  response_qos.avoid_ros_namespace_conventions = options->qos.avoid_ros_namespace_conventions;
-  const rosidl_type_description_t* type = rmw_service_type_description(type_support);
-  (void)rcl_node_type_cache_register_type(node, type);
-  client->impl = new rcl_client_impl_s{*options, request_qos, response_qos, handle, type};
+  [[maybe_unused]] const auto* handle = client->impl->rmw_handle;
   TRACETOOLS_TRACEPOINT(rcl_client_init, static_cast<const void*>(client), static_cast<const void*>(node),
                         static_cast<const void*>(handle), handle->service_name);
   return RCL_RET_OK;
@@ -87,20 +71,12 @@ rcl_ret_t rcl_client_init(rcl_client_t* client, const rcl_node_t* node,
 
 rcl_ret_t rcl_client_fini(rcl_client_t* client, rcl_node_t* node) {
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(client, RCL_RET_CLIENT_INVALID);
-  if (!rcl_node_is_valid_except_context(node)) {
-    return RCL_RET_NODE_INVALID;
-  }
-  rmw_ret_t result = RMW_RET_OK;
-  if (client->impl != nullptr) {
+  return rcl::fini_entity(client->impl, node, [&](rmw_node_t* rmw_node, rcl_client_impl_t& impl) {
     TRACETOOLS_EXT_TRACEPOINT(rcl_client_fini, static_cast<const void*>(client));
-    (void)rcl_node_type_cache_unregister_type(node, client->impl->type);
-    const rcl_ret_t turned_off = client->impl->events.turn_off(node);
-    result = rmw_destroy_client(rcl_node_get_rmw_handle(node), client->impl->rmw_handle);
-    result = result == RMW_RET_OK ? turned_off : result;
-    delete client->impl;
-    client->impl = nullptr;
-  }
-  return result;
+    const rcl_ret_t turned_off = impl.events.turn_off(node);
+    const rmw_ret_t result = rmw_destroy_client(rmw_node, impl.rmw_handle);
+    return result == RMW_RET_OK ? turned_off : result;
+  });
 }
 
 rcl_ret_t rcl_send_request(const rcl_client_t* client, const void* ros_request, int64_t* sequence_number) {

@@ -3,9 +3,7 @@
 
 #include <string>
 
-#include "rcl/error_handling.h"
-#include "rcl/node_type_cache.h"
-#include "rmw/rmw.h"
+#include "node/node_entity.hpp"
 #include "rmw/type_description.h"
 #include "tracetools/tracetools.h"
 
@@ -34,33 +32,22 @@ rcl_ret_t rcl_publisher_init(rcl_publisher_t* publisher, const rcl_node_t* node,
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(type_support, RCL_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(topic_name, RCL_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(options, RCL_RET_INVALID_ARGUMENT);
-  if (publisher->impl != nullptr) {
-    RCL_SET_ERROR_MSG("the publisher is initialized already");
-    return RCL_RET_ALREADY_INIT;
-  }
-  if (!rcl_node_is_valid(node)) {
-    return RCL_RET_NODE_INVALID;
-  }
-  char* resolved = nullptr;
-  if (const rcl_ret_t result = rcl_node_resolve_name(node, topic_name, options->allocator, false, false, &resolved);
+  const auto create = [&](rmw_node_t* rmw_node, const char* name) {
+    return rmw_create_publisher(rmw_node, type_support, name, &options->qos, &options->rmw_publisher_options);
+  };
+  const auto complete = [&](rcl_publisher_impl_t& impl) {
+    impl.type = rmw_message_type_description(type_support);
+    const rmw_ret_t result = rmw_publisher_get_actual_qos(impl.rmw_handle, &impl.actual_qos);
+    impl.actual_qos.avoid_ros_namespace_conventions = options->qos.avoid_ros_namespace_conventions;
+    return result;
+  };
+  if (const rcl_ret_t result = rcl::init_entity(publisher->impl, "publisher", node, rcl::NameKind::kTopic, topic_name,
+                                                *options, create, complete, rmw_destroy_publisher);
       result != RCL_RET_OK) {
-    return result == RCL_RET_UNKNOWN_SUBSTITUTION ? RCL_RET_TOPIC_NAME_INVALID : result;
-  }
-  rmw_publisher_t* handle = rmw_create_publisher(rcl_node_get_rmw_handle(node), type_support, resolved, &options->qos,
-                                                 &options->rmw_publisher_options);
-  options->allocator.deallocate(resolved, options->allocator.state);
-  if (handle == nullptr) {
-    return RCL_RET_ERROR;
-  }
-  rmw_qos_profile_t actual_qos;
-  if (const rmw_ret_t result = rmw_publisher_get_actual_qos(handle, &actual_qos); result != RMW_RET_OK) {
-    (void)rmw_destroy_publisher(rcl_node_get_rmw_handle(node), handle);
     return result;
   }
-  actual_qos.avoid_ros_namespace_conventions = options->qos.avoid_ros_namespace_conventions;
-  const rosidl_type_description_t* type = rmw_message_type_description(type_support);
-  (void)rcl_node_type_cache_register_type(node, type);
-  publisher->impl = new rcl_publisher_impl_s{node->context, handle, *options, actual_qos, type};
+  publisher->impl->context = node->context;
+  [[maybe_unused]] const auto* handle = publisher->impl->rmw_handle;
   TRACETOOLS_TRACEPOINT(rcl_publisher_init, static_cast<const void*>(publisher), static_cast<const void*>(node),
                         static_cast<const void*>(handle), handle->topic_name, options->qos.depth);
   return RCL_RET_OK;
@@ -68,18 +55,10 @@ rcl_ret_t rcl_publisher_init(rcl_publisher_t* publisher, const rcl_node_t* node,
 
 rcl_ret_t rcl_publisher_fini(rcl_publisher_t* publisher, rcl_node_t* node) {
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(publisher, RCL_RET_PUBLISHER_INVALID);
-  if (!rcl_node_is_valid_except_context(node)) {
-    return RCL_RET_NODE_INVALID;
-  }
-  rmw_ret_t result = RMW_RET_OK;
-  if (publisher->impl != nullptr) {
+  return rcl::fini_entity(publisher->impl, node, [&](rmw_node_t* rmw_node, rcl_publisher_impl_t& impl) {
     TRACETOOLS_EXT_TRACEPOINT(rcl_publisher_fini, static_cast<const void*>(publisher));
-    (void)rcl_node_type_cache_unregister_type(node, publisher->impl->type);
-    result = rmw_destroy_publisher(rcl_node_get_rmw_handle(node), publisher->impl->rmw_handle);
-    delete publisher->impl;
-    publisher->impl = nullptr;
-  }
-  return result;
+    return rmw_destroy_publisher(rmw_node, impl.rmw_handle);
+  });
 }
 
 [[gnu::hot]] rcl_ret_t rcl_publish(const rcl_publisher_t* publisher, const void* ros_message,

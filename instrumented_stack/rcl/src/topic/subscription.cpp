@@ -4,9 +4,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "rcl/error_handling.h"
-#include "rcl/node_type_cache.h"
-#include "rmw/rmw.h"
+#include "node/node_entity.hpp"
 #include "rmw/type_description.h"
 #include "tracetools/tracetools.h"
 
@@ -51,34 +49,22 @@ rcl_ret_t rcl_subscription_init(rcl_subscription_t* subscription, const rcl_node
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(type_support, RCL_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(topic_name, RCL_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(options, RCL_RET_INVALID_ARGUMENT);
-  if (subscription->impl != nullptr) {
-    RCL_SET_ERROR_MSG("the subscription is initialized already");
-    return RCL_RET_ALREADY_INIT;
-  }
-  if (!rcl_node_is_valid(node)) {
-    return RCL_RET_NODE_INVALID;
-  }
-  char* resolved = nullptr;
-  if (const rcl_ret_t result = rcl_node_resolve_name(node, topic_name, options->allocator, false, false, &resolved);
+  const auto create = [&](rmw_node_t* rmw_node, const char* name) {
+    return rmw_create_subscription(rmw_node, type_support, name, &options->qos, &options->rmw_subscription_options);
+  };
+  const auto complete = [&](rcl_subscription_impl_t& impl) {
+    impl.type = rmw_message_type_description(type_support);
+    const rmw_ret_t result = rmw_subscription_get_actual_qos(impl.rmw_handle, &impl.actual_qos);
+    impl.actual_qos.avoid_ros_namespace_conventions = options->qos.avoid_ros_namespace_conventions;
+    return result;
+  };
+  if (const rcl_ret_t result = rcl::init_entity(subscription->impl, "subscription", node, rcl::NameKind::kTopic,
+                                                topic_name, *options, create, complete, rmw_destroy_subscription);
       result != RCL_RET_OK) {
-    return result == RCL_RET_UNKNOWN_SUBSTITUTION ? RCL_RET_TOPIC_NAME_INVALID : result;
-  }
-  rmw_subscription_t* handle = rmw_create_subscription(rcl_node_get_rmw_handle(node), type_support, resolved,
-                                                       &options->qos, &options->rmw_subscription_options);
-  options->allocator.deallocate(resolved, options->allocator.state);
-  if (handle == nullptr) {
-    return RCL_RET_ERROR;
-  }
-  rmw_qos_profile_t actual_qos;
-  if (const rmw_ret_t result = rmw_subscription_get_actual_qos(handle, &actual_qos); result != RMW_RET_OK) {
-    (void)rmw_destroy_subscription(rcl_node_get_rmw_handle(node), handle);
     return result;
   }
-  actual_qos.avoid_ros_namespace_conventions = options->qos.avoid_ros_namespace_conventions;
-  const rosidl_type_description_t* type = rmw_message_type_description(type_support);
-  (void)rcl_node_type_cache_register_type(node, type);
-  subscription->impl = new rcl_subscription_impl_s{handle, *options, actual_qos, type};
   subscription->impl->options.rmw_subscription_options.content_filter_options = nullptr;  // belongs to the caller
+  [[maybe_unused]] const auto* handle = subscription->impl->rmw_handle;
   TRACETOOLS_TRACEPOINT(rcl_subscription_init, static_cast<const void*>(subscription), static_cast<const void*>(node),
                         static_cast<const void*>(handle), handle->topic_name, options->qos.depth);
   return RCL_RET_OK;
@@ -86,18 +72,10 @@ rcl_ret_t rcl_subscription_init(rcl_subscription_t* subscription, const rcl_node
 
 rcl_ret_t rcl_subscription_fini(rcl_subscription_t* subscription, rcl_node_t* node) {
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(subscription, RCL_RET_SUBSCRIPTION_INVALID);
-  if (!rcl_node_is_valid_except_context(node)) {
-    return RCL_RET_NODE_INVALID;
-  }
-  rmw_ret_t result = RMW_RET_OK;
-  if (subscription->impl != nullptr) {
+  return rcl::fini_entity(subscription->impl, node, [&](rmw_node_t* rmw_node, rcl_subscription_impl_t& impl) {
     TRACETOOLS_EXT_TRACEPOINT(rcl_subscription_fini, static_cast<const void*>(subscription));
-    (void)rcl_node_type_cache_unregister_type(node, subscription->impl->type);
-    result = rmw_destroy_subscription(rcl_node_get_rmw_handle(node), subscription->impl->rmw_handle);
-    delete subscription->impl;
-    subscription->impl = nullptr;
-  }
-  return result;
+    return rmw_destroy_subscription(rmw_node, impl.rmw_handle);
+  });
 }
 
 [[gnu::hot]] rcl_ret_t rcl_take(const rcl_subscription_t* subscription, void* ros_message,
