@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <random>
 
+#include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/logging.hpp"
-#include "require_ok.hpp"
 
 namespace rclcpp_action {
+
+using rclcpp::detail::require_ok;
 
 namespace {
 
@@ -174,9 +176,7 @@ void ClientBase::set_on_ready_callback(std::function<void(size_t, int)> callback
 void ClientBase::clear_on_ready_callback() {
   for (std::size_t id = 0; id < on_ready_.size(); ++id) {
     on_ready_[id].clear([&](rcl_event_callback_t call, const void* data) {
-      if (kSetClientCallback[id](&client_, call, data) != RCL_RET_OK) {
-        rcl_reset_error();
-      }
+      rclcpp::detail::ignore_error(kSetClientCallback[id](&client_, call, data));
     });
   }
 }

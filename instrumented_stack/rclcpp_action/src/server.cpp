@@ -9,11 +9,13 @@
 
 #include "action_msgs/msg/goal_status_array.hpp"
 #include "action_msgs/srv/cancel_goal.hpp"
+#include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/logging.hpp"
-#include "require_ok.hpp"
 
 namespace rclcpp_action {
+
+using rclcpp::detail::require_ok;
 
 namespace {
 
@@ -138,9 +140,7 @@ void ServerBase::set_on_ready_callback(std::function<void(size_t, int)> callback
 void ServerBase::clear_on_ready_callback() {
   for (std::size_t id = 0; id < on_ready_.size(); ++id) {
     on_ready_[id].clear([&](rcl_event_callback_t call, const void* data) {
-      if (kSetServerCallback[id](&server_, call, data) != RCL_RET_OK) {
-        rcl_reset_error();
-      }
+      rclcpp::detail::ignore_error(kSetServerCallback[id](&server_, call, data));
     });
   }
 }

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/logging.hpp"
 
@@ -12,10 +13,8 @@ ServerGoalHandleBase::~ServerGoalHandleBase() = default;
 
 rcl_action_goal_state_t ServerGoalHandleBase::state() const {
   rcl_action_goal_state_t state = GOAL_STATE_UNKNOWN;
-  const rcl_ret_t ret = rcl_action_goal_handle_get_status(rcl_handle_.get(), &state);
-  if (ret != RCL_RET_OK) {
-    rclcpp::exceptions::throw_from_rcl_error(ret, "failed to get the status of a goal");
-  }
+  rclcpp::detail::require_ok(rcl_action_goal_handle_get_status(rcl_handle_.get(), &state),
+                             "failed to get the status of a goal");
   return state;
 }
 

@@ -6,6 +6,7 @@
 #include <rmw/validate_namespace.h>
 #include <rmw/validate_node_name.h>
 
+#include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/detail/topic_name.hpp"
 #include "rclcpp/exceptions.hpp"
 
@@ -43,9 +44,7 @@ std::string expand_topic_or_service_name(const std::string& name, const std::str
   if (ret == RCL_RET_TOPIC_NAME_INVALID || ret == RCL_RET_UNKNOWN_SUBSTITUTION) {
     is_service ? detail::throw_invalid_service_name(name) : detail::throw_invalid_topic_name(name);
   }
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to expand a name");
-  }
+  detail::require_ok(ret, "failed to expand a name");
   const std::string result = expanded;
   allocator.deallocate(expanded, allocator.state);
   const auto require_valid_name = is_service ? require_valid<exceptions::InvalidServiceNameError>

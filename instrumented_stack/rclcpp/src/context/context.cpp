@@ -10,10 +10,13 @@
 #include <utility>
 
 #include "rclcpp/detail/rcl_arguments.hpp"
+#include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/logging.hpp"
 
 namespace rclcpp {
+
+using detail::require_ok;
 
 namespace {
 
@@ -37,16 +40,13 @@ std::shared_ptr<void> use_logging(const rcl_context_t& context) {
   const std::lock_guard lock(logging_mutex);
   if (logging_users == 0) {
     const rcl_allocator_t allocator = rcl_get_default_allocator();
-    const rcl_ret_t ret = rcl_logging_configure(&context.global_arguments, &allocator);
-    if (ret != RCL_RET_OK) {
-      exceptions::throw_from_rcl_error(ret, "failed to configure logging");
-    }
+    require_ok(rcl_logging_configure(&context.global_arguments, &allocator), "failed to configure logging");
   }
   ++logging_users;
   return {nullptr, [](void*) {
             const std::lock_guard last_user_lock(logging_mutex);
-            if (--logging_users == 0 && rcl_logging_fini() != RCL_RET_OK) {
-              rcl_reset_error();
+            if (--logging_users == 0) {
+              detail::ignore_error(rcl_logging_fini());
             }
           }};
 }
@@ -81,10 +81,7 @@ void Context::init(int argc, const char* const* argv, const InitOptions& init_op
         }
         delete context;
       });
-  const rcl_ret_t ret = rcl_init(argc, argv, init_options.get_rcl_init_options(), rcl_context.get());
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to initialize rcl");
-  }
+  require_ok(rcl_init(argc, argv, init_options.get_rcl_init_options(), rcl_context.get()), "failed to initialize rcl");
   std::vector<std::string> unknown = detail::unparsed_ros_arguments(argv, rcl_context->global_arguments);
   if (!unknown.empty()) {
     throw exceptions::UnknownROSArgsError(std::move(unknown));
@@ -108,10 +105,7 @@ size_t Context::get_domain_id() const {
   if (!rcl_context_) {
     throw std::runtime_error("context is not initialized");
   }
-  const rcl_ret_t ret = rcl_context_get_domain_id(rcl_context_.get(), &domain_id);
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to get domain id from context");
-  }
+  require_ok(rcl_context_get_domain_id(rcl_context_.get(), &domain_id), "failed to get domain id from context");
   return domain_id;
 }
 
@@ -127,10 +121,7 @@ bool Context::shutdown(const std::string& reason) {
     return false;
   }
   run(pre_shutdown_callbacks_);
-  const rcl_ret_t ret = rcl_shutdown(rcl_context_.get());
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to shut the context down");
-  }
+  require_ok(rcl_shutdown(rcl_context_.get()), "failed to shut the context down");
   valid_ = false;
   shutdown_reason_ = reason;
   run(on_shutdown_callbacks_);

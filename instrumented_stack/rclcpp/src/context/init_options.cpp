@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/init_options.hpp"
 
-#include "rclcpp/exceptions.hpp"
+#include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/logging.hpp"
 
 namespace rclcpp {
+
+using detail::require_ok;
 
 namespace {
 
@@ -20,20 +22,14 @@ std::shared_ptr<rcl_init_options_t> zero_initialized() {
 
 std::shared_ptr<rcl_init_options_t> copy_of(const rcl_init_options_t& other) {
   std::shared_ptr<rcl_init_options_t> options = zero_initialized();
-  const rcl_ret_t ret = rcl_init_options_copy(&other, options.get());
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to copy rcl init options");
-  }
+  require_ok(rcl_init_options_copy(&other, options.get()), "failed to copy rcl init options");
   return options;
 }
 
 }  // namespace
 
 InitOptions::InitOptions(rcl_allocator_t allocator) : init_options_(zero_initialized()) {
-  const rcl_ret_t ret = rcl_init_options_init(init_options_.get(), allocator);
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to initialize rcl init options");
-  }
+  require_ok(rcl_init_options_init(init_options_.get(), allocator), "failed to initialize rcl init options");
 }
 
 InitOptions::InitOptions(const rcl_init_options_t& init_options) : init_options_(copy_of(init_options)) {}
@@ -58,10 +54,8 @@ InitOptions& InitOptions::auto_initialize_logging(bool initialize_logging) {
 }
 
 void InitOptions::set_domain_id(size_t domain_id) {
-  const rcl_ret_t ret = rcl_init_options_set_domain_id(init_options_.get(), domain_id);
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to set domain id to rcl init options");
-  }
+  require_ok(rcl_init_options_set_domain_id(init_options_.get(), domain_id),
+             "failed to set domain id to rcl init options");
 }
 
 void InitOptions::use_default_domain_id() {
@@ -70,10 +64,8 @@ void InitOptions::use_default_domain_id() {
 
 size_t InitOptions::get_domain_id() const {
   size_t domain_id = 0;
-  const rcl_ret_t ret = rcl_init_options_get_domain_id(init_options_.get(), &domain_id);
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to get domain id from rcl init options");
-  }
+  require_ok(rcl_init_options_get_domain_id(init_options_.get(), &domain_id),
+             "failed to get domain id from rcl init options");
   return domain_id;
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/exceptions.hpp"
 
 namespace rclcpp::detail {
@@ -23,10 +24,8 @@ std::vector<std::string> unparsed_ros_arguments(const char* const* argv, const r
     return {};
   }
   int* indices = nullptr;
-  const rcl_ret_t ret = rcl_arguments_get_unparsed_ros(&arguments, rcl_get_default_allocator(), &indices);
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to get unparsed ROS arguments");
-  }
+  require_ok(rcl_arguments_get_unparsed_ros(&arguments, rcl_get_default_allocator(), &indices),
+             "failed to get unparsed ROS arguments");
   const std::unique_ptr<int, void (*)(void*)> owner(indices, free_with_rcl);
   std::vector<std::string> unparsed;
   for (int i = 0; i < count; ++i) {
@@ -37,13 +36,10 @@ std::vector<std::string> unparsed_ros_arguments(const char* const* argv, const r
 
 std::vector<std::string> without_ros_arguments(int argc, const char* const* argv) {
   rcl_arguments_t parsed = rcl_get_zero_initialized_arguments();
-  rcl_ret_t ret = rcl_parse_arguments(argc, argv, rcl_get_default_allocator(), &parsed);
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to parse arguments");
-  }
+  require_ok(rcl_parse_arguments(argc, argv, rcl_get_default_allocator(), &parsed), "failed to parse arguments");
   int count = 0;
   const char** arguments = nullptr;
-  ret = rcl_remove_ros_arguments(argv, &parsed, rcl_get_default_allocator(), &count, &arguments);
+  const rcl_ret_t ret = rcl_remove_ros_arguments(argv, &parsed, rcl_get_default_allocator(), &count, &arguments);
   const std::unique_ptr<const char*, void (*)(void*)> owner(arguments, free_with_rcl);
   std::vector<std::string> remaining(arguments, arguments + count);
   const rcl_ret_t fini_ret = rcl_arguments_fini(&parsed);
@@ -58,11 +54,8 @@ void parse_arguments(const std::vector<std::string>& arguments, rcl_arguments_t&
   for (const std::string& argument : arguments) {
     argv.push_back(argument.c_str());
   }
-  const rcl_ret_t ret =
-      rcl_parse_arguments(static_cast<int>(argv.size()), argv.data(), rcl_get_default_allocator(), &parsed);
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to parse arguments");
-  }
+  require_ok(rcl_parse_arguments(static_cast<int>(argv.size()), argv.data(), rcl_get_default_allocator(), &parsed),
+             "failed to parse arguments");
   std::vector<std::string> unknown = unparsed_ros_arguments(argv.data(), parsed);
   if (!unknown.empty()) {
     throw exceptions::UnknownROSArgsError(std::move(unknown));

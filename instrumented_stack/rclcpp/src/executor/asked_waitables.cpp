@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "base/require_ok.hpp"
+#include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/logging.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/require_ok.hpp"
+#include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/exceptions.hpp"
 
 namespace rclcpp {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <mutex>
 
-#include "rclcpp/exceptions.hpp"
+#include "rclcpp/detail/require_ok.hpp"
 
 namespace rclcpp::experimental {
 
@@ -113,12 +113,10 @@ bool IntraProcessManager::can_communicate(const PublisherEntry& publisher,
     return false;
   }
   rmw_qos_compatibility_type_t compatibility = RMW_QOS_COMPATIBILITY_ERROR;
-  const rmw_ret_t ret =
+  detail::require_ok(
       rmw_qos_profile_check_compatible(publisher.qos.get_rmw_qos_profile(),
-                                       subscription.get_actual_qos().get_rmw_qos_profile(), &compatibility, nullptr, 0);
-  if (ret != RMW_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to check the compatibility of quality of service");
-  }
+                                       subscription.get_actual_qos().get_rmw_qos_profile(), &compatibility, nullptr, 0),
+      "failed to check the compatibility of quality of service");
   return compatibility != RMW_QOS_COMPATIBILITY_ERROR;
 }
 

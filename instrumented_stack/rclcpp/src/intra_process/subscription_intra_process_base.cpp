@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "rclcpp/exceptions.hpp"
+#include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/topic_statistics/subscription_topic_statistics.hpp"
 
 namespace rclcpp::experimental {
@@ -22,11 +22,8 @@ void SubscriptionIntraProcessBase::add_to_wait_set(rcl_wait_set_t& wait_set) {
   if (has_data()) {
     guard_condition_.trigger();
   }
-  const rcl_ret_t ret =
-      rcl_wait_set_add_guard_condition(&wait_set, &guard_condition_.get_rcl_guard_condition(), nullptr);
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to add guard condition to wait set");
-  }
+  detail::require_ok(rcl_wait_set_add_guard_condition(&wait_set, &guard_condition_.get_rcl_guard_condition(), nullptr),
+                     "failed to add guard condition to wait set");
 }
 
 bool SubscriptionIntraProcessBase::is_ready(const rcl_wait_set_t& /*wait_set*/) {

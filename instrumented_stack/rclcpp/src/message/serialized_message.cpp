@@ -6,24 +6,15 @@
 #include <cstring>
 #include <utility>
 
-#include "rclcpp/exceptions.hpp"
+#include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/logging.hpp"
 
 namespace rclcpp {
 
-namespace {
-
-void require_ok(rmw_ret_t ret) {
-  if (ret != RMW_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to allocate a serialized message");
-  }
-}
-
-}  // namespace
-
 SerializedMessage::SerializedMessage(size_t initial_capacity, const rcl_allocator_t& allocator)
     : serialized_message_(rmw_get_zero_initialized_serialized_message()) {
-  require_ok(rmw_serialized_message_init(&serialized_message_, initial_capacity, &allocator));
+  detail::require_ok(rmw_serialized_message_init(&serialized_message_, initial_capacity, &allocator),
+                     "failed to allocate a serialized message");
 }
 
 SerializedMessage::SerializedMessage(const SerializedMessage& other) : SerializedMessage(other.serialized_message_) {}
@@ -55,7 +46,8 @@ SerializedMessage::~SerializedMessage() {
 }
 
 void SerializedMessage::reserve(size_t capacity) {
-  require_ok(rmw_serialized_message_resize(&serialized_message_, capacity));
+  detail::require_ok(rmw_serialized_message_resize(&serialized_message_, capacity),
+                     "failed to allocate a serialized message");
 }
 
 rcl_serialized_message_t SerializedMessage::release_rcl_serialized_message() {

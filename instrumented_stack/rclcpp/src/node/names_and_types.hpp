@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "base/require_ok.hpp"
+#include "rclcpp/detail/require_ok.hpp"
 
 namespace rclcpp::detail {
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/logging.hpp"
 
@@ -59,9 +60,7 @@ NodeBase::NodeBase(const std::string& node_name, const std::string& node_namespa
   if (ret == RCL_RET_NODE_INVALID_NAMESPACE) {
     throw_if_invalid_namespace(node_namespace);
   }
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to initialize rcl node");
-  }
+  detail::require_ok(ret, "failed to initialize rcl node");
   node_handle_.reset(rcl_node.release(), [rcl_context](rcl_node_t* node) {
     if (rcl_node_fini(node) != RCL_RET_OK) {
       RCLCPP_ERROR(get_logger("rclcpp"), "failed to finalize a node: %s", rcl_get_error_string().str);

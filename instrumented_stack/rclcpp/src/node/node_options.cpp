@@ -2,7 +2,7 @@
 #include "rclcpp/node_options.hpp"
 
 #include "rclcpp/detail/rcl_arguments.hpp"
-#include "rclcpp/exceptions.hpp"
+#include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/logging.hpp"
 
 namespace rclcpp {
@@ -119,9 +119,7 @@ const rcl_node_options_t* NodeOptions::get_rcl_node_options() const {
 std::shared_ptr<const rcl_node_options_t> NodeOptions::make_rcl_node_options() const {
   const std::shared_ptr<rcl_node_options_t> options(new rcl_node_options_t(rcl_node_get_default_options()),
                                                     [](rcl_node_options_t* finished) {
-                                                      if (rcl_node_options_fini(finished) != RCL_RET_OK) {
-                                                        rcl_reset_error();
-                                                      }
+                                                      detail::ignore_error(rcl_node_options_fini(finished));
                                                       delete finished;
                                                     });
   options->allocator = allocator_;

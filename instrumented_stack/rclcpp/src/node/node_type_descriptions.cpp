@@ -8,7 +8,7 @@
 #include <type_description_interfaces/srv/get_type_description.hpp>
 
 #include "rclcpp/create_service.hpp"
-#include "rclcpp/exceptions.hpp"
+#include "rclcpp/detail/require_ok.hpp"
 
 namespace rclcpp::node_interfaces {
 
@@ -91,10 +91,8 @@ void answer(const rcl_node_t* node, const GetTypeDescription::Request& request,
     return;
   }
   const rosidl_type_description_t* type = nullptr;
-  const rcl_ret_t result = rcl_node_type_cache_get_type_info(node, request.type_hash.c_str(), &type);
-  if (result != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(result, "could not look up a type");
-  }
+  detail::require_ok(rcl_node_type_cache_get_type_info(node, request.type_hash.c_str(), &type),
+                     "could not look up a type");
   if (type == nullptr) {
     response.failure_reason = "Type not currently in use by this node";
     return;

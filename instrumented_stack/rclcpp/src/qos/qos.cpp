@@ -3,7 +3,7 @@
 
 #include <rmw/qos_profiles.h>
 
-#include "rclcpp/exceptions.hpp"
+#include "rclcpp/detail/require_ok.hpp"
 
 namespace rclcpp {
 
@@ -144,12 +144,10 @@ std::string qos_policy_name_from_kind(rmw_qos_policy_kind_t policy_kind) {
 QoSCheckCompatibleResult qos_check_compatible(const QoS& publisher_qos, const QoS& subscription_qos) {
   rmw_qos_compatibility_type_t compatibility = RMW_QOS_COMPATIBILITY_OK;
   char reason[2048] = "";
-  const rmw_ret_t ret =
+  detail::require_ok(
       rmw_qos_profile_check_compatible(publisher_qos.get_rmw_qos_profile(), subscription_qos.get_rmw_qos_profile(),
-                                       &compatibility, reason, sizeof(reason));
-  if (ret != RMW_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to check compatibility of QoS profiles");
-  }
+                                       &compatibility, reason, sizeof(reason)),
+      "failed to check compatibility of QoS profiles");
   return {static_cast<QoSCompatibility>(compatibility), reason};
 }
 

@@ -8,11 +8,14 @@
 #include <algorithm>
 
 #include "rclcpp/clock.hpp"
+#include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/detail/topic_name.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/logging.hpp"
 
 namespace rclcpp {
+
+using detail::require_ok;
 
 namespace {
 
@@ -80,9 +83,7 @@ bool ClientBase::service_is_ready() const {
     rcl_reset_error();
     return false;
   }
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "rcl_service_server_is_available failed");
-  }
+  require_ok(ret, "rcl_service_server_is_available failed");
   return is_ready;
 }
 
@@ -115,9 +116,7 @@ bool ClientBase::take_type_erased_response(void* response_out, rmw_request_id_t&
     rcl_reset_error();
     return false;
   }
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to take a response");
-  }
+  require_ok(ret, "failed to take a response");
   return true;
 }
 
@@ -144,10 +143,7 @@ void ClientBase::execute() {
 
 int64_t ClientBase::send_type_erased_request(const void* request) {
   int64_t sequence_number = 0;
-  const rcl_ret_t ret = rcl_send_request(client_handle_.get(), request, &sequence_number);
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to send request");
-  }
+  require_ok(rcl_send_request(client_handle_.get(), request, &sequence_number), "failed to send request");
   return sequence_number;
 }
 
@@ -156,31 +152,24 @@ void ClientBase::configure_introspection(std::shared_ptr<Clock> clock, const QoS
   rcl_publisher_options_t options = rcl_publisher_get_default_options();
   options.qos = qos_service_event_pub.get_rmw_qos_profile();
   const std::lock_guard lock(introspection_mutex_);
-  const rcl_ret_t ret = rcl_client_configure_service_introspection(client_handle_.get(), node_handle_.get(),
-                                                                   clock ? clock->get_clock_handle() : nullptr,
-                                                                   introspected_type_, options, introspection_state);
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to configure client introspection");
-  }
+  require_ok(rcl_client_configure_service_introspection(client_handle_.get(), node_handle_.get(),
+                                                        clock ? clock->get_clock_handle() : nullptr, introspected_type_,
+                                                        options, introspection_state),
+             "failed to configure client introspection");
   introspection_clock_ = std::move(clock);
 }
 
 void ClientBase::set_on_new_response_callback(std::function<void(size_t)> callback) {
   on_ready_.set(std::move(callback), "set_on_new_response_callback", "client",
                 [this](rcl_event_callback_t function, const void* user_data) {
-                  const rcl_ret_t ret =
-                      rcl_client_set_on_new_response_callback(client_handle_.get(), function, user_data);
-                  if (ret != RCL_RET_OK) {
-                    exceptions::throw_from_rcl_error(ret, "failed to set the callback of a client");
-                  }
+                  require_ok(rcl_client_set_on_new_response_callback(client_handle_.get(), function, user_data),
+                             "failed to set the callback of a client");
                 });
 }
 
 void ClientBase::clear_on_new_response_callback() {
   on_ready_.clear([this](rcl_event_callback_t function, const void* user_data) {
-    if (rcl_client_set_on_new_response_callback(client_handle_.get(), function, user_data) != RCL_RET_OK) {
-      rcl_reset_error();
-    }
+    detail::ignore_error(rcl_client_set_on_new_response_callback(client_handle_.get(), function, user_data));
   });
 }
 

@@ -4,11 +4,14 @@
 #include <tracetools/tracetools.h>
 
 #include "rclcpp/clock.hpp"
+#include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/detail/topic_name.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/logging.hpp"
 
 namespace rclcpp {
+
+using detail::require_ok;
 
 namespace {
 
@@ -74,9 +77,7 @@ bool ServiceBase::take_type_erased_request(void* request_out, rmw_request_id_t& 
     rcl_reset_error();
     return false;
   }
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to take a request");
-  }
+  require_ok(ret, "failed to take a request");
   return true;
 }
 
@@ -105,9 +106,7 @@ void ServiceBase::send_type_erased_response(rmw_request_id_t& request_id, void* 
     rcl_reset_error();
     return;
   }
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to send response");
-  }
+  require_ok(ret, "failed to send response");
 }
 
 void ServiceBase::trace_creation(const AnyServiceCallbackBase& callback) {
@@ -122,31 +121,24 @@ void ServiceBase::configure_introspection(std::shared_ptr<Clock> clock, const Qo
   rcl_publisher_options_t options = rcl_publisher_get_default_options();
   options.qos = qos_service_event_pub.get_rmw_qos_profile();
   const std::lock_guard lock(introspection_mutex_);
-  const rcl_ret_t ret = rcl_service_configure_service_introspection(service_handle_.get(), node_handle_.get(),
-                                                                    clock ? clock->get_clock_handle() : nullptr,
-                                                                    introspected_type_, options, introspection_state);
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to configure service introspection");
-  }
+  require_ok(rcl_service_configure_service_introspection(service_handle_.get(), node_handle_.get(),
+                                                         clock ? clock->get_clock_handle() : nullptr,
+                                                         introspected_type_, options, introspection_state),
+             "failed to configure service introspection");
   introspection_clock_ = std::move(clock);
 }
 
 void ServiceBase::set_on_new_request_callback(std::function<void(size_t)> callback) {
   on_ready_.set(std::move(callback), "set_on_new_request_callback", "service",
                 [this](rcl_event_callback_t function, const void* user_data) {
-                  const rcl_ret_t ret =
-                      rcl_service_set_on_new_request_callback(service_handle_.get(), function, user_data);
-                  if (ret != RCL_RET_OK) {
-                    exceptions::throw_from_rcl_error(ret, "failed to set the callback of a service");
-                  }
+                  require_ok(rcl_service_set_on_new_request_callback(service_handle_.get(), function, user_data),
+                             "failed to set the callback of a service");
                 });
 }
 
 void ServiceBase::clear_on_new_request_callback() {
   on_ready_.clear([this](rcl_event_callback_t function, const void* user_data) {
-    if (rcl_service_set_on_new_request_callback(service_handle_.get(), function, user_data) != RCL_RET_OK) {
-      rcl_reset_error();
-    }
+    detail::ignore_error(rcl_service_set_on_new_request_callback(service_handle_.get(), function, user_data));
   });
 }
 

@@ -5,10 +5,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "rclcpp/exceptions.hpp"
+#include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/logging.hpp"
 
 namespace rclcpp {
+
+using detail::require_ok;
 
 namespace {
 
@@ -23,10 +25,7 @@ void require_valid(const Context::SharedPtr& context) {
 struct Clock::Impl {
   explicit Impl(rcl_clock_type_t clock_type) {
     rcl_allocator_t allocator = rcl_get_default_allocator();
-    const rcl_ret_t ret = rcl_clock_init(clock_type, &rcl_clock, &allocator);
-    if (ret != RCL_RET_OK) {
-      exceptions::throw_from_rcl_error(ret, "failed to initialize rcl clock");
-    }
+    require_ok(rcl_clock_init(clock_type, &rcl_clock, &allocator), "failed to initialize rcl clock");
   }
   ~Impl() {
     if (rcl_clock_fini(&rcl_clock) != RCL_RET_OK) {
@@ -54,10 +53,7 @@ Clock::Clock(rcl_clock_type_t clock_type) : impl_(std::make_shared<Impl>(clock_t
 
 Time Clock::now() const {
   rcl_time_point_value_t now = 0;
-  const rcl_ret_t ret = rcl_clock_get_now(&impl_->rcl_clock, &now);
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "could not get current time stamp");
-  }
+  require_ok(rcl_clock_get_now(&impl_->rcl_clock, &now), "could not get current time stamp");
   return Time(now, impl_->rcl_clock.type);
 }
 
@@ -151,10 +147,8 @@ JumpHandler::SharedPtr Clock::create_jump_callback(JumpHandler::pre_callback_t p
   };
   {
     const std::lock_guard lock(impl_->mutex);
-    const rcl_ret_t ret = rcl_clock_add_jump_callback(&impl_->rcl_clock, threshold, call, handler.get());
-    if (ret != RCL_RET_OK) {
-      exceptions::throw_from_rcl_error(ret, "failed to add a jump callback");
-    }
+    require_ok(rcl_clock_add_jump_callback(&impl_->rcl_clock, threshold, call, handler.get()),
+               "failed to add a jump callback");
   }
   // The handler may outlive the clock.
   return JumpHandler::SharedPtr(handler.release(), [call, weak_impl = std::weak_ptr<Impl>(impl_)](JumpHandler* ended) {
@@ -171,10 +165,7 @@ JumpHandler::SharedPtr Clock::create_jump_callback(JumpHandler::pre_callback_t p
 
 bool Clock::ros_time_is_active() const {
   bool active = false;
-  const rcl_ret_t ret = rcl_is_enabled_ros_time_override(&impl_->rcl_clock, &active);
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to check ros_time_override_status");
-  }
+  require_ok(rcl_is_enabled_ros_time_override(&impl_->rcl_clock, &active), "failed to check ros_time_override_status");
   return active;
 }
 

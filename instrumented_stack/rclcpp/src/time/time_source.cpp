@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "base/require_ok.hpp"
 #include "rclcpp/create_subscription.hpp"
 #include "rclcpp/detail/qos_parameters.hpp"
+#include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/executors/single_threaded_executor.hpp"
 

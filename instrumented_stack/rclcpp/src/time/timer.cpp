@@ -3,7 +3,7 @@
 
 #include <tracetools/tracetools.h>
 
-#include "base/require_ok.hpp"
+#include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/logging.hpp"
 
@@ -113,18 +113,14 @@ void TimerBase::trace_callback(const void* callback, const detail::CallbackSymbo
 void TimerBase::set_on_reset_callback(std::function<void(size_t)> callback) {
   on_ready_.set(std::move(callback), "set_on_reset_callback", "timer",
                 [this](rcl_event_callback_t function, const void* user_data) {
-                  const rcl_ret_t ret = rcl_timer_set_on_reset_callback(timer_handle_.get(), function, user_data);
-                  if (ret != RCL_RET_OK) {
-                    exceptions::throw_from_rcl_error(ret, "failed to set the callback of a timer");
-                  }
+                  require_ok(rcl_timer_set_on_reset_callback(timer_handle_.get(), function, user_data),
+                             "failed to set the callback of a timer");
                 });
 }
 
 void TimerBase::clear_on_reset_callback() {
   on_ready_.clear([this](rcl_event_callback_t function, const void* user_data) {
-    if (rcl_timer_set_on_reset_callback(timer_handle_.get(), function, user_data) != RCL_RET_OK) {
-      rcl_reset_error();
-    }
+    detail::ignore_error(rcl_timer_set_on_reset_callback(timer_handle_.get(), function, user_data));
   });
 }
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/event_handler.hpp"
 
+#include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/logging.hpp"
 
 namespace rclcpp {
+
+using detail::require_ok;
 
 UnsupportedEventTypeException::UnsupportedEventTypeException(rcl_ret_t result, const rcl_error_state_t* error_state,
                                                              const std::string& prefix)
@@ -20,9 +23,7 @@ EventHandlerBase::EventHandlerBase(std::shared_ptr<const void> parent,
     rcl_reset_error();
     throw unsupported;
   }
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "Failed to initialize event");
-  }
+  require_ok(ret, "Failed to initialize event");
   event_handle_.reset(event.release(), [parent = std::move(parent)](rcl_event_t* handle) {
     if (rcl_event_fini(handle) != RCL_RET_OK) {
       RCLCPP_ERROR(get_logger("rclcpp"), "failed to finalize an event: %s", rcl_get_error_string().str);
@@ -37,10 +38,8 @@ EventHandlerBase::~EventHandlerBase() {
 }
 
 void EventHandlerBase::add_to_wait_set(rcl_wait_set_t& wait_set) {
-  const rcl_ret_t ret = rcl_wait_set_add_event(&wait_set, event_handle_.get(), &wait_set_event_index_);
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "Couldn't add event to wait set");
-  }
+  require_ok(rcl_wait_set_add_event(&wait_set, event_handle_.get(), &wait_set_event_index_),
+             "Couldn't add event to wait set");
 }
 
 bool EventHandlerBase::is_ready(const rcl_wait_set_t& wait_set) {
@@ -55,18 +54,14 @@ void EventHandlerBase::set_on_ready_callback(std::function<void(size_t, int)> ca
       [callback = std::move(callback)](size_t count) { callback(count, static_cast<int>(EntityType::Event)); },
       "set_on_ready_callback", "event",
       [this](rcl_event_callback_t function, const void* user_data) {
-        const rcl_ret_t ret = rcl_event_set_callback(event_handle_.get(), function, user_data);
-        if (ret != RCL_RET_OK) {
-          exceptions::throw_from_rcl_error(ret, "failed to set the on new message callback for an event");
-        }
+        require_ok(rcl_event_set_callback(event_handle_.get(), function, user_data),
+                   "failed to set the on new message callback for an event");
       });
 }
 
 void EventHandlerBase::clear_on_ready_callback() {
   on_ready_.clear([this](rcl_event_callback_t function, const void* user_data) {
-    if (rcl_event_set_callback(event_handle_.get(), function, user_data) != RCL_RET_OK) {
-      rcl_reset_error();
-    }
+    detail::ignore_error(rcl_event_set_callback(event_handle_.get(), function, user_data));
   });
 }
 

@@ -3,7 +3,7 @@
 
 #include <tracetools/tracetools.h>
 
-#include "rclcpp/exceptions.hpp"
+#include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/serialization.hpp"
 
 namespace rclcpp {
@@ -15,10 +15,8 @@ void GenericPublisher::publish(const SerializedMessage& message) {
 
 void GenericPublisher::publish_as_loaned_msg(const SerializedMessage& message) {
   void* loan = nullptr;
-  const rcl_ret_t ret = rcl_borrow_loaned_message(get_publisher_handle().get(), type_support_, &loan);
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to borrow a message");
-  }
+  detail::require_ok(rcl_borrow_loaned_message(get_publisher_handle().get(), type_support_, &loan),
+                     "failed to borrow a message");
   try {
     SerializationBase(type_support_).deserialize_message(&message, loan);
   } catch (...) {

@@ -5,7 +5,7 @@
 
 #include <tuple>
 
-#include "rclcpp/exceptions.hpp"
+#include "rclcpp/detail/require_ok.hpp"
 
 namespace rclcpp {
 
@@ -72,10 +72,7 @@ std::vector<NetworkFlowEndpoint> network_flow_endpoints(
     const std::function<rmw_ret_t(rcutils_allocator_t*, rmw_network_flow_endpoint_array_t*)>& get) {
   rcl_allocator_t allocator = rcl_get_default_allocator();
   rmw_network_flow_endpoint_array_t array = rmw_get_zero_initialized_network_flow_endpoint_array();
-  const rmw_ret_t ret = get(&allocator, &array);
-  if (ret != RMW_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to get network flow endpoints");
-  }
+  detail::require_ok(get(&allocator, &array), "failed to get network flow endpoints");
   std::vector<NetworkFlowEndpoint> endpoints;
   for (size_t i = 0; i < array.size; ++i) {
     endpoints.emplace_back(array.network_flow_endpoint[i]);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/detail/resolve_use_intra_process.hpp"
 #include "rclcpp/detail/topic_name.hpp"
 #include "rclcpp/exceptions.hpp"
@@ -90,9 +91,7 @@ size_t PublisherBase::get_subscription_count() const {
     rcl_reset_error();
     return 0;  // after shutdown there are no subscriptions
   }
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to get subscription count");
-  }
+  detail::require_ok(ret, "failed to get subscription count");
   return count;
 }
 
@@ -130,9 +129,7 @@ bool PublisherBase::wait_for_all_acked_ns(std::chrono::nanoseconds timeout) cons
     rcl_reset_error();
     return false;
   }
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to wait for acknowledgements");
-  }
+  detail::require_ok(ret, "failed to wait for acknowledgements");
   return true;
 }
 

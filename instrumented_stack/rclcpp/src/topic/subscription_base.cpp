@@ -7,6 +7,7 @@
 #include <chrono>
 #include <utility>
 
+#include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/detail/resolve_use_intra_process.hpp"
 #include "rclcpp/detail/topic_name.hpp"
 #include "rclcpp/exceptions.hpp"
@@ -15,6 +16,8 @@
 #include "rclcpp/topic_statistics/subscription_topic_statistics.hpp"
 
 namespace rclcpp {
+
+using detail::require_ok;
 
 namespace {
 
@@ -31,11 +34,9 @@ void set_filter(const ContentFilterOptions& filter, rcl_subscription_options_t& 
     return;
   }
   const std::vector<const char*> parameters = c_strings(filter.expression_parameters);
-  const rcl_ret_t ret = rcl_subscription_options_set_content_filter_options(
-      filter.filter_expression.c_str(), parameters.size(), parameters.data(), &options);
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to set content_filter_options");
-  }
+  require_ok(rcl_subscription_options_set_content_filter_options(filter.filter_expression.c_str(), parameters.size(),
+                                                                 parameters.data(), &options),
+             "failed to set content_filter_options");
 }
 
 }  // namespace
@@ -104,10 +105,7 @@ QoS SubscriptionBase::get_actual_qos() const {
 
 size_t SubscriptionBase::get_publisher_count() const {
   size_t count = 0;
-  const rcl_ret_t ret = rcl_subscription_get_publisher_count(subscription_handle_.get(), &count);
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to get publisher count");
-  }
+  require_ok(rcl_subscription_get_publisher_count(subscription_handle_.get(), &count), "failed to get publisher count");
   return count;
 }
 
@@ -131,9 +129,7 @@ bool SubscriptionBase::take_serialized(SerializedMessage& message_out, MessageIn
     rcl_reset_error();
     return false;
   }
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to take a message");
-  }
+  require_ok(ret, "failed to take a message");
   return true;
 }
 
@@ -152,17 +148,13 @@ void SubscriptionBase::set_content_filter(const std::string& filter_expression,
     ret = rcl_subscription_set_content_filter(subscription_handle_.get(), &options);
     (void)rcl_subscription_content_filter_options_fini(subscription_handle_.get(), &options);
   }
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to set the content filter");
-  }
+  require_ok(ret, "failed to set the content filter");
 }
 
 ContentFilterOptions SubscriptionBase::get_content_filter() const {
   auto options = rcl_get_zero_initialized_subscription_content_filter_options();
-  const rcl_ret_t ret = rcl_subscription_get_content_filter(subscription_handle_.get(), &options);
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to get the content filter");
-  }
+  require_ok(rcl_subscription_get_content_filter(subscription_handle_.get(), &options),
+             "failed to get the content filter");
   const auto& filter = options.rmw_subscription_content_filter_options;
   ContentFilterOptions result;
   result.filter_expression = filter.filter_expression;
@@ -340,19 +332,15 @@ bool SubscriptionBase::is_delivered_twice(const MessageInfo& message_info) const
 void SubscriptionBase::set_on_new_message_callback(std::function<void(size_t)> callback) {
   on_ready_.set(std::move(callback), "set_on_new_message_callback", "subscription",
                 [this](rcl_event_callback_t function, const void* user_data) {
-                  const rcl_ret_t ret =
-                      rcl_subscription_set_on_new_message_callback(subscription_handle_.get(), function, user_data);
-                  if (ret != RCL_RET_OK) {
-                    exceptions::throw_from_rcl_error(ret, "failed to set the callback of a subscription");
-                  }
+                  require_ok(
+                      rcl_subscription_set_on_new_message_callback(subscription_handle_.get(), function, user_data),
+                      "failed to set the callback of a subscription");
                 });
 }
 
 void SubscriptionBase::clear_on_new_message_callback() {
   on_ready_.clear([this](rcl_event_callback_t function, const void* user_data) {
-    if (rcl_subscription_set_on_new_message_callback(subscription_handle_.get(), function, user_data) != RCL_RET_OK) {
-      rcl_reset_error();
-    }
+    detail::ignore_error(rcl_subscription_set_on_new_message_callback(subscription_handle_.get(), function, user_data));
   });
 }
 

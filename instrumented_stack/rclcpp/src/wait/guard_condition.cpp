@@ -4,10 +4,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "rclcpp/exceptions.hpp"
+#include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/logging.hpp"
 
 namespace rclcpp {
+
+using detail::require_ok;
 
 GuardCondition::GuardCondition(const Context::SharedPtr& context, rcl_guard_condition_options_t options)
     : rcl_context_(context ? context->get_rcl_context() : nullptr),
@@ -15,10 +17,8 @@ GuardCondition::GuardCondition(const Context::SharedPtr& context, rcl_guard_cond
   if (!context) {
     throw std::invalid_argument("context argument unexpectedly nullptr");
   }
-  const rcl_ret_t ret = rcl_guard_condition_init(&rcl_guard_condition_, rcl_context_.get(), options);
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to create guard condition");
-  }
+  require_ok(rcl_guard_condition_init(&rcl_guard_condition_, rcl_context_.get(), options),
+             "failed to create guard condition");
 }
 
 GuardCondition::~GuardCondition() {
@@ -29,10 +29,7 @@ GuardCondition::~GuardCondition() {
 }
 
 void GuardCondition::trigger() {
-  const rcl_ret_t ret = rcl_trigger_guard_condition(&rcl_guard_condition_);
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to trigger guard condition");
-  }
+  require_ok(rcl_trigger_guard_condition(&rcl_guard_condition_), "failed to trigger guard condition");
   const std::lock_guard lock(trigger_mutex_);
   if (on_trigger_callback_) {
     on_trigger_callback_(1);
@@ -50,10 +47,8 @@ void GuardCondition::set_on_trigger_callback(std::function<void(size_t)> callbac
 }
 
 void GuardCondition::add_to_wait_set(rcl_wait_set_t& wait_set) {
-  const rcl_ret_t ret = rcl_wait_set_add_guard_condition(&wait_set, &rcl_guard_condition_, nullptr);
-  if (ret != RCL_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to add guard condition to wait set");
-  }
+  require_ok(rcl_wait_set_add_guard_condition(&wait_set, &rcl_guard_condition_, nullptr),
+             "failed to add guard condition to wait set");
 }
 
 }  // namespace rclcpp

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "base/require_ok.hpp"
+#include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/event_handler.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/logging.hpp"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turns an error of rcl into an exception.
+// What becomes of an error of rcl: an exception, or nothing.
 #pragma once
 
+#include <rcl/error_handling.h>
 #include <rcl/types.h>
 
 #include "rclcpp/exceptions.hpp"
@@ -12,6 +13,13 @@ namespace rclcpp::detail {
 inline void require_ok(rcl_ret_t ret, const char* what) {
   if (ret != RCL_RET_OK) {
     exceptions::throw_from_rcl_error(ret, what);
+  }
+}
+
+// For calls whose failure leaves nothing to do. No message of rcl is left for the next error.
+inline void ignore_error(rcl_ret_t ret) {
+  if (ret != RCL_RET_OK) {
+    rcl_reset_error();
   }
 }
 
