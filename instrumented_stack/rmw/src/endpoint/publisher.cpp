@@ -12,7 +12,7 @@
 
 #include "endpoint/endpoint.hpp"
 #include "endpoint/network_flow.hpp"
-#include "event/writer_events.hpp"
+#include "event/endpoint_events.hpp"
 #include "faults/publish_faults.hpp"
 #include "names/topic_name.hpp"
 #include "participant/participant.hpp"

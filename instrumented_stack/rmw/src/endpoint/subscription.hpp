@@ -12,7 +12,7 @@
 #include <string>
 
 #include "endpoint/endpoint.hpp"
-#include "event/reader_events.hpp"
+#include "event/endpoint_events.hpp"
 #include "faults/take_faults.hpp"
 #include "rmw/types.h"
 #include "rosidl_typesupport_fastrtps_cpp/message_type_support.h"
