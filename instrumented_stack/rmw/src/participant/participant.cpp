@@ -39,20 +39,6 @@ namespace {
 namespace fdds = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;
 
-// The type hash that ROS 2 announces for an endpoint, so that others can see whether they use the same definition.
-// Empty if only the name of the type is known.
-std::vector<rtps::octet> type_hash_user_data(const message_type_support_callbacks_t& type) {
-  if (*type.type_hash_ == '\0') {
-    return {};
-  }
-  const std::string text = std::string("typehash=") + type.type_hash_ + ";";
-  return {text.begin(), text.end()};
-}
-
-std::string value_in(const std::vector<rtps::octet>& user_data, std::string_view key) {
-  return user_data_value({reinterpret_cast<const char*>(user_data.data()), user_data.size()}, key);
-}
-
 fdds::PublishModeQosPolicyKind publish_mode(fdds::PublishModeQosPolicyKind in_profile) {
   const char* value = std::getenv("RMW_FASTRTPS_PUBLICATION_MODE");
   const std::string_view mode = value == nullptr ? "" : value;
@@ -161,7 +147,7 @@ class Participant::DiscoveryListener final : public fdds::DomainParticipantListe
       const auto& locators = info.info.metatraffic_locators.unicast;
       traffic_.discovered(info.info.m_guid.guidPrefix, {locators.begin(), locators.end()},
                           std::chrono::nanoseconds(info.info.m_leaseDuration.to_ns()));
-      graph_.add_participant(gid, value_in(info.info.m_userData.data_vec(), "enclave"));
+      graph_.add_participant(gid, user_data_value(info.info.m_userData.data_vec(), "enclave"));
       unanswered_.discovered(gid, std::chrono::steady_clock::now());
     } else if (info.status == rtps::ParticipantDiscoveryInfo::REMOVED_PARTICIPANT ||
                info.status == rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT) {
@@ -191,7 +177,7 @@ class Participant::DiscoveryListener final : public fdds::DomainParticipantListe
     } else {
       graph_.add_endpoint(
           gid, {kind, proxy.topicName().to_string(), proxy.typeName().to_string(), profile_of(proxy.m_qos), nullptr,
-                value_in(proxy.m_qos.m_userData.data_vec(), "typehash")});
+                user_data_value(proxy.m_qos.m_userData.data_vec(), "typehash")});
     }
   }
 
@@ -222,9 +208,7 @@ Participant::Participant(const rmw_init_options_t& options, GraphCache& graph)
     use_default_transports(0, traffic_, qos);
   }
   const std::string enclave = options.enclave == nullptr ? "/" : options.enclave;
-  const std::string user_data = "enclave=" + enclave + ";";
-  // Includes the terminating null, as rmw_fastrtps_cpp sends it.
-  qos.user_data().data_vec(std::vector<rtps::octet>(user_data.c_str(), user_data.c_str() + user_data.size() + 1));
+  qos.user_data().data_vec(enclave_user_data(enclave));
   qos.name(enclave);
   if (!qos_from_xml_) {
     // The announcements of many endpoints exceed the initial size.
@@ -383,7 +367,7 @@ fdds::DataWriterQos Participant::writer_qos(const std::string& topic_name,
     qos.data_sharing().off();
     qos.publish_mode().kind = publish_mode(qos.publish_mode().kind);
   }
-  qos.user_data().data_vec(type_hash_user_data(type));
+  qos.user_data().data_vec(type_hash_user_data(type.type_hash_));
   return qos;
 }
 
@@ -395,7 +379,7 @@ fdds::DataReaderQos Participant::reader_qos(const std::string& topic_name,
     qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
     qos.data_sharing().off();
   }
-  qos.user_data().data_vec(type_hash_user_data(type));
+  qos.user_data().data_vec(type_hash_user_data(type.type_hash_));
   return qos;
 }
 
