@@ -6,102 +6,91 @@
 #include "rmw/get_topic_endpoint_info.h"
 #include "rmw/rmw.h"
 
+namespace {
+
+// Asks rmw unless the node is invalid.
+template <typename Ask, typename... Arguments>
+rcl_ret_t ask(Ask of_rmw, const rcl_node_t* node, Arguments... arguments) {
+  return rcl_node_is_valid(node) ? of_rmw(rcl_node_get_rmw_handle(node), arguments...) : RCL_RET_NODE_INVALID;
+}
+
+}  // namespace
+
 rcl_ret_t rcl_names_and_types_fini(rcl_names_and_types_t* names_and_types) {
   return rmw_names_and_types_fini(names_and_types);
 }
 
 rcl_ret_t rcl_count_publishers(const rcl_node_t* node, const char* topic_name, size_t* count) {
-  return rcl_node_is_valid(node) ? rmw_count_publishers(rcl_node_get_rmw_handle(node), topic_name, count)
-                                 : RCL_RET_NODE_INVALID;
+  return ask(rmw_count_publishers, node, topic_name, count);
 }
 
 rcl_ret_t rcl_count_subscribers(const rcl_node_t* node, const char* topic_name, size_t* count) {
-  return rcl_node_is_valid(node) ? rmw_count_subscribers(rcl_node_get_rmw_handle(node), topic_name, count)
-                                 : RCL_RET_NODE_INVALID;
+  return ask(rmw_count_subscribers, node, topic_name, count);
 }
 
 rcl_ret_t rcl_get_node_names(const rcl_node_t* node, rcl_allocator_t, rcutils_string_array_t* node_names,
                              rcutils_string_array_t* node_namespaces) {
-  return rcl_node_is_valid(node) ? rmw_get_node_names(rcl_node_get_rmw_handle(node), node_names, node_namespaces)
-                                 : RCL_RET_NODE_INVALID;
+  return ask(rmw_get_node_names, node, node_names, node_namespaces);
 }
 
 rcl_ret_t rcl_get_topic_names_and_types(const rcl_node_t* node, rcl_allocator_t* allocator, bool no_demangle,
                                         rcl_names_and_types_t* topic_names_and_types) {
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(allocator, RCL_RET_INVALID_ARGUMENT);
-  return rcl_node_is_valid(node) ? rmw_get_topic_names_and_types(rcl_node_get_rmw_handle(node), allocator, no_demangle,
-                                                                 topic_names_and_types)
-                                 : RCL_RET_NODE_INVALID;
+  return ask(rmw_get_topic_names_and_types, node, allocator, no_demangle, topic_names_and_types);
 }
 
 rcl_ret_t rcl_count_services(const rcl_node_t* node, const char* service_name, size_t* count) {
-  return rcl_node_is_valid(node) ? rmw_count_services(rcl_node_get_rmw_handle(node), service_name, count)
-                                 : RCL_RET_NODE_INVALID;
+  return ask(rmw_count_services, node, service_name, count);
 }
 
 rcl_ret_t rcl_count_clients(const rcl_node_t* node, const char* service_name, size_t* count) {
-  return rcl_node_is_valid(node) ? rmw_count_clients(rcl_node_get_rmw_handle(node), service_name, count)
-                                 : RCL_RET_NODE_INVALID;
+  return ask(rmw_count_clients, node, service_name, count);
 }
 
 rcl_ret_t rcl_get_service_names_and_types(const rcl_node_t* node, rcl_allocator_t* allocator,
                                           rcl_names_and_types_t* service_names_and_types) {
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(allocator, RCL_RET_INVALID_ARGUMENT);
-  return rcl_node_is_valid(node)
-             ? rmw_get_service_names_and_types(rcl_node_get_rmw_handle(node), allocator, service_names_and_types)
-             : RCL_RET_NODE_INVALID;
+  return ask(rmw_get_service_names_and_types, node, allocator, service_names_and_types);
 }
 
 rcl_ret_t rcl_get_publisher_names_and_types_by_node(const rcl_node_t* node, rcl_allocator_t* allocator,
                                                     bool no_demangle, const char* node_name, const char* node_namespace,
                                                     rcl_names_and_types_t* topic_names_and_types) {
-  return rcl_node_is_valid(node)
-             ? rmw_get_publisher_names_and_types_by_node(rcl_node_get_rmw_handle(node), allocator, node_name,
-                                                         node_namespace, no_demangle, topic_names_and_types)
-             : RCL_RET_NODE_INVALID;
+  return ask(rmw_get_publisher_names_and_types_by_node, node, allocator, node_name, node_namespace, no_demangle,
+             topic_names_and_types);
 }
 
 rcl_ret_t rcl_get_subscriber_names_and_types_by_node(const rcl_node_t* node, rcl_allocator_t* allocator,
                                                      bool no_demangle, const char* node_name,
                                                      const char* node_namespace,
                                                      rcl_names_and_types_t* topic_names_and_types) {
-  return rcl_node_is_valid(node)
-             ? rmw_get_subscriber_names_and_types_by_node(rcl_node_get_rmw_handle(node), allocator, node_name,
-                                                          node_namespace, no_demangle, topic_names_and_types)
-             : RCL_RET_NODE_INVALID;
+  return ask(rmw_get_subscriber_names_and_types_by_node, node, allocator, node_name, node_namespace, no_demangle,
+             topic_names_and_types);
 }
 
 rcl_ret_t rcl_get_service_names_and_types_by_node(const rcl_node_t* node, rcl_allocator_t* allocator,
                                                   const char* node_name, const char* node_namespace,
                                                   rcl_names_and_types_t* service_names_and_types) {
-  return rcl_node_is_valid(node)
-             ? rmw_get_service_names_and_types_by_node(rcl_node_get_rmw_handle(node), allocator, node_name,
-                                                       node_namespace, service_names_and_types)
-             : RCL_RET_NODE_INVALID;
+  return ask(rmw_get_service_names_and_types_by_node, node, allocator, node_name, node_namespace,
+             service_names_and_types);
 }
 
 rcl_ret_t rcl_get_client_names_and_types_by_node(const rcl_node_t* node, rcl_allocator_t* allocator,
                                                  const char* node_name, const char* node_namespace,
                                                  rcl_names_and_types_t* service_names_and_types) {
-  return rcl_node_is_valid(node)
-             ? rmw_get_client_names_and_types_by_node(rcl_node_get_rmw_handle(node), allocator, node_name,
-                                                      node_namespace, service_names_and_types)
-             : RCL_RET_NODE_INVALID;
+  return ask(rmw_get_client_names_and_types_by_node, node, allocator, node_name, node_namespace,
+             service_names_and_types);
 }
 
 rcl_ret_t rcl_get_publishers_info_by_topic(const rcl_node_t* node, rcl_allocator_t* allocator, const char* topic_name,
                                            bool no_mangle, rcl_topic_endpoint_info_array_t* publishers_info) {
-  return rcl_node_is_valid(node) ? rmw_get_publishers_info_by_topic(rcl_node_get_rmw_handle(node), allocator,
-                                                                    topic_name, no_mangle, publishers_info)
-                                 : RCL_RET_NODE_INVALID;
+  return ask(rmw_get_publishers_info_by_topic, node, allocator, topic_name, no_mangle, publishers_info);
 }
 
 rcl_ret_t rcl_get_subscriptions_info_by_topic(const rcl_node_t* node, rcl_allocator_t* allocator,
                                               const char* topic_name, bool no_mangle,
                                               rcl_topic_endpoint_info_array_t* subscriptions_info) {
-  return rcl_node_is_valid(node) ? rmw_get_subscriptions_info_by_topic(rcl_node_get_rmw_handle(node), allocator,
-                                                                       topic_name, no_mangle, subscriptions_info)
-                                 : RCL_RET_NODE_INVALID;
+  return ask(rmw_get_subscriptions_info_by_topic, node, allocator, topic_name, no_mangle, subscriptions_info);
 }
 
 rcl_ret_t rcl_service_server_is_available(const rcl_node_t* node, const rcl_client_t* client, bool* is_available) {

@@ -6,13 +6,72 @@
 
 #include <algorithm>
 
-#include "node/names_and_types.hpp"
+#include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/exceptions.hpp"
 
-namespace rclcpp::node_interfaces {
+namespace rclcpp {
+
+TopicEndpointInfo::TopicEndpointInfo(const rcl_topic_endpoint_info_t& info)
+    : node_name_(info.node_name),
+      node_namespace_(info.node_namespace),
+      topic_type_(info.topic_type),
+      topic_type_hash_(info.topic_type_hash),
+      endpoint_type_(static_cast<rclcpp::EndpointType>(info.endpoint_type)),
+      qos_profile_(QoSInitialization(info.qos_profile.history, info.qos_profile.depth), info.qos_profile) {
+  std::copy(std::begin(info.endpoint_gid), std::end(info.endpoint_gid), endpoint_gid_.begin());
+}
+
+namespace node_interfaces {
 
 using detail::require_ok;
-using detail::to_map;
+
+namespace {
+
+// `ask` is a function of rcl that takes `arguments` between the allocator and the result.
+template <typename Ask, typename... Arguments>
+NodeGraph::NamesAndTypes names_and_types(const NodeBaseInterface& node_base, const char* failure, Ask ask,
+                                         Arguments... arguments) {
+  rcl_names_and_types_t found = rcl_get_zero_initialized_names_and_types();
+  rcl_allocator_t allocator = rcl_get_default_allocator();
+  require_ok(ask(node_base.get_rcl_node_handle(), &allocator, arguments..., &found), failure);
+  NodeGraph::NamesAndTypes result;
+  for (size_t i = 0; i < found.names.size; ++i) {
+    const rcutils_string_array_t& types = found.types[i];
+    result[found.names.data[i]] = std::vector<std::string>(types.data, types.data + types.size);
+  }
+  require_ok(rcl_names_and_types_fini(&found), "failed to free names and types");
+  return result;
+}
+
+using Count = rcl_ret_t (*)(const rcl_node_t*, const char*, size_t*);
+
+size_t counted(const NodeBaseInterface& node_base, const std::string& name, bool is_service, Count count,
+               const char* failure) {
+  size_t number = 0;
+  const std::string full_name = node_base.resolve_topic_or_service_name(name, is_service);
+  require_ok(count(node_base.get_rcl_node_handle(), full_name.c_str(), &number), failure);
+  return number;
+}
+
+using AskForEndpoints = rcl_ret_t (*)(const rcl_node_t*, rcl_allocator_t*, const char*, bool,
+                                      rcl_topic_endpoint_info_array_t*);
+
+std::vector<TopicEndpointInfo> endpoints(const NodeBaseInterface& node_base, const std::string& topic_name,
+                                         bool no_mangle, AskForEndpoints ask) {
+  const std::string name = no_mangle ? topic_name : node_base.resolve_topic_or_service_name(topic_name, false);
+  rcl_allocator_t allocator = rcl_get_default_allocator();
+  rcl_topic_endpoint_info_array_t infos = rcl_get_zero_initialized_topic_endpoint_info_array();
+  require_ok(ask(node_base.get_rcl_node_handle(), &allocator, name.c_str(), no_mangle, &infos),
+             "failed to get information about a topic");
+  std::vector<TopicEndpointInfo> result;
+  for (size_t i = 0; i < infos.size; ++i) {
+    result.emplace_back(infos.info_array[i]);
+  }
+  require_ok(rcl_topic_endpoint_info_array_fini(&infos, &allocator), "failed to free information about a topic");
+  return result;
+}
+
+}  // namespace
 
 std::vector<std::string> NodeGraph::get_node_names() const {
   std::vector<std::string> result;
@@ -45,51 +104,62 @@ std::vector<std::tuple<std::string, std::string, std::string>> NodeGraph::get_no
 }
 
 NodeGraph::NamesAndTypes NodeGraph::get_topic_names_and_types(bool no_demangle) const {
-  rcl_names_and_types_t topics = rcl_get_zero_initialized_names_and_types();
-  rcl_allocator_t allocator = rcl_get_default_allocator();
-  require_ok(rcl_get_topic_names_and_types(node_base_->get_rcl_node_handle(), &allocator, no_demangle, &topics),
-             "failed to get topic names and types");
-  return to_map(topics);
-}
-
-size_t NodeGraph::count_publishers(const std::string& topic_name) const {
-  size_t count = 0;
-  const std::string full_name = node_base_->resolve_topic_or_service_name(topic_name, false);
-  require_ok(rcl_count_publishers(node_base_->get_rcl_node_handle(), full_name.c_str(), &count),
-             "could not count publishers");
-  return count;
-}
-
-size_t NodeGraph::count_subscribers(const std::string& topic_name) const {
-  size_t count = 0;
-  const std::string full_name = node_base_->resolve_topic_or_service_name(topic_name, false);
-  require_ok(rcl_count_subscribers(node_base_->get_rcl_node_handle(), full_name.c_str(), &count),
-             "could not count subscribers");
-  return count;
+  return names_and_types(*node_base_, "failed to get topic names and types", rcl_get_topic_names_and_types,
+                         no_demangle);
 }
 
 NodeGraph::NamesAndTypes NodeGraph::get_service_names_and_types() const {
-  rcl_names_and_types_t services = rcl_get_zero_initialized_names_and_types();
-  rcl_allocator_t allocator = rcl_get_default_allocator();
-  require_ok(rcl_get_service_names_and_types(node_base_->get_rcl_node_handle(), &allocator, &services),
-             "failed to get service names and types");
-  return to_map(services);
+  return names_and_types(*node_base_, "failed to get service names and types", rcl_get_service_names_and_types);
 }
 
+NodeGraph::NamesAndTypes NodeGraph::get_publisher_names_and_types_by_node(const std::string& node_name,
+                                                                          const std::string& namespace_,
+                                                                          bool no_demangle) const {
+  return names_and_types(*node_base_, "failed to get publisher names and types by node",
+                         rcl_get_publisher_names_and_types_by_node, no_demangle, node_name.c_str(), namespace_.c_str());
+}
+
+NodeGraph::NamesAndTypes NodeGraph::get_subscriber_names_and_types_by_node(const std::string& node_name,
+                                                                           const std::string& namespace_,
+                                                                           bool no_demangle) const {
+  return names_and_types(*node_base_, "failed to get subscriber names and types by node",
+                         rcl_get_subscriber_names_and_types_by_node, no_demangle, node_name.c_str(),
+                         namespace_.c_str());
+}
+
+NodeGraph::NamesAndTypes NodeGraph::get_service_names_and_types_by_node(const std::string& node_name,
+                                                                        const std::string& namespace_) const {
+  return names_and_types(*node_base_, "failed to get service names and types by node",
+                         rcl_get_service_names_and_types_by_node, node_name.c_str(), namespace_.c_str());
+}
+
+NodeGraph::NamesAndTypes NodeGraph::get_client_names_and_types_by_node(const std::string& node_name,
+                                                                       const std::string& namespace_) const {
+  return names_and_types(*node_base_, "failed to get client names and types by node",
+                         rcl_get_client_names_and_types_by_node, node_name.c_str(), namespace_.c_str());
+}
+
+size_t NodeGraph::count_publishers(const std::string& topic_name) const {
+  return counted(*node_base_, topic_name, false, rcl_count_publishers, "could not count publishers");
+}
+size_t NodeGraph::count_subscribers(const std::string& topic_name) const {
+  return counted(*node_base_, topic_name, false, rcl_count_subscribers, "could not count subscribers");
+}
 size_t NodeGraph::count_services(const std::string& service_name) const {
-  size_t count = 0;
-  const std::string full_name = node_base_->resolve_topic_or_service_name(service_name, true);
-  require_ok(rcl_count_services(node_base_->get_rcl_node_handle(), full_name.c_str(), &count),
-             "could not count services");
-  return count;
+  return counted(*node_base_, service_name, true, rcl_count_services, "could not count services");
+}
+size_t NodeGraph::count_clients(const std::string& service_name) const {
+  return counted(*node_base_, service_name, true, rcl_count_clients, "could not count clients");
 }
 
-size_t NodeGraph::count_clients(const std::string& service_name) const {
-  size_t count = 0;
-  const std::string full_name = node_base_->resolve_topic_or_service_name(service_name, true);
-  require_ok(rcl_count_clients(node_base_->get_rcl_node_handle(), full_name.c_str(), &count),
-             "could not count clients");
-  return count;
+std::vector<TopicEndpointInfo> NodeGraph::get_publishers_info_by_topic(const std::string& topic_name,
+                                                                       bool no_mangle) const {
+  return endpoints(*node_base_, topic_name, no_mangle, rcl_get_publishers_info_by_topic);
+}
+
+std::vector<TopicEndpointInfo> NodeGraph::get_subscriptions_info_by_topic(const std::string& topic_name,
+                                                                          bool no_mangle) const {
+  return endpoints(*node_base_, topic_name, no_mangle, rcl_get_subscriptions_info_by_topic);
 }
 
 Event::SharedPtr NodeGraph::get_graph_event() {
@@ -121,4 +191,6 @@ void NodeGraph::wait_for_graph_change(Event::SharedPtr event, std::chrono::nanos
   }
 }
 
-}  // namespace rclcpp::node_interfaces
+}  // namespace node_interfaces
+
+}  // namespace rclcpp
