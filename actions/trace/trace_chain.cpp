@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "launcher/language/setting.hpp"
 
 namespace launch {
 
@@ -21,23 +24,16 @@ ItemSpec ChainFields::item() {
           .extension = true};
 }
 
-ChainFields::ChainFields(const Fields& fields)
-    : where_(fields.where()),
-      name_where_(fields.where("name")),
-      name_(fields.text("name")),
-      nodes_(fields, "nodes"),
-      budget_(fields.number("budget")),
-      budget_where_(fields.where("budget")) {}
-
 tracing::ChainDefinition ChainFields::perform(Scope& scope) const {
   tracing::ChainDefinition chain;
-  chain.name = name_.perform(scope);
+  chain.name = fields_.text("name").perform(scope);
   if (chain.name.empty()) {
-    throw LaunchError("the name of the chain is empty", name_where_, "launch report shows the chain by its name");
+    throw LaunchError("the name of the chain is empty", fields_.where("name"),
+                      "launch report shows the chain by its name");
   }
-  chain.nodes = nodes_.perform(scope);
+  chain.nodes = perform_names(fields_, "nodes", scope);
   if (chain.nodes.size() < 2) {
-    throw LaunchError(fmt::format("chain '{}' needs two nodes at least", chain.name), nodes_.where(),
+    throw LaunchError(fmt::format("chain '{}' needs two nodes at least", chain.name), nodes_where(),
                       "name the node where it begins, and the node where it ends");
   }
   for (std::string& node : chain.nodes) {
@@ -45,10 +41,10 @@ tracing::ChainDefinition ChainFields::perform(Scope& scope) const {
       node.insert(node.begin(), '/');
     }
   }
-  if (budget_) {
-    const double milliseconds = budget_->perform(scope);
+  if (const std::optional<NumberField> budget = fields_.number("budget")) {
+    const double milliseconds = budget->perform(scope);
     if (!(milliseconds > 0)) {
-      throw LaunchError(fmt::format("the budget of chain '{}' is not above 0", chain.name), budget_where_,
+      throw LaunchError(fmt::format("the budget of chain '{}' is not above 0", chain.name), fields_.where("budget"),
                         "write milliseconds, such as 50, or leave out the budget");
     }
     chain.budget_ns = std::llround(milliseconds * 1e6);

@@ -2,10 +2,8 @@
 // <chain> in <trace>: a chain of callbacks with a name and a budget, for the report.
 #pragma once
 
-#include <optional>
 #include <vector>
 
-#include "actions/trace/trace_channel.hpp"
 #include "launcher/language/fields.hpp"
 #include "tracing/model/chains/chain_definition.hpp"
 
@@ -15,19 +13,14 @@ class ChainFields {
  public:
   static ItemSpec item();
 
-  explicit ChainFields(const Fields& fields);
-  const SourceRange& where() const { return where_; }
-  const SourceRange& nodes_where() const { return nodes_.where(); }
+  explicit ChainFields(const Fields& fields) : fields_(fields) {}
+  const SourceRange& where() const { return fields_.where(); }
+  const SourceRange& nodes_where() const { return fields_.where("nodes"); }
   // Throws LaunchError.
   tracing::ChainDefinition perform(Scope& scope) const;
 
  private:
-  SourceRange where_;
-  SourceRange name_where_;
-  Template name_;
-  WordsField nodes_;
-  std::optional<NumberField> budget_;  // ms
-  SourceRange budget_where_;
+  Fields fields_;
 };
 
 // Throws LaunchError when two chains have one name.

@@ -25,11 +25,11 @@ RunScope::Tell on_loop(EventLoop& loop, const RunScope::Tell& tell) {
 
 }  // namespace
 
-TraceScope::TraceScope(tracing::TraceConfig config, std::unique_ptr<tracing::Tracer> tracer, std::string prefix,
-                       SourceRange origin, TraceChoices choices)
+TraceScope::TraceScope(TraceRequest request, std::unique_ptr<tracing::Tracer> tracer, std::string prefix,
+                       SourceRange origin)
     : origin_(std::move(origin)),
-      choices_(std::move(choices)),
-      run_(std::move(config), std::move(tracer), std::move(prefix), choices_) {}
+      choices_(std::move(request.choices)),
+      run_(std::move(request.config), std::move(tracer), std::move(prefix), choices_) {}
 
 TraceScope::~TraceScope() {
   if (worker_.joinable()) {

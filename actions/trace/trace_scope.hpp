@@ -4,31 +4,21 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "actions/trace/trace_settings.hpp"
 #include "launcher/visit/run_scope.hpp"
 #include "tracing/record/plan/plan_channels.hpp"
-#include "tracing/record/plan/trace_config.hpp"
 #include "tracing/record/session/traced_run.hpp"
 
 namespace launch {
 
-// The attributes of <trace> that concern the launcher rather than the tracer.
-struct TraceChoices : tracing::RunChoices {
-  // Patterns of the nodes and processes to record; all are recorded when this is not given.
-  std::optional<std::vector<std::string>> nodes = {};
-  bool auto_buffers = false;                // userspace buffers sized from the number of processes and processors
-  std::vector<NamedNode> chain_nodes = {};  // those that the chains pass
-};
-
 class TraceScope : public RunScope {
  public:
   // `prefix`: see tracing::TracedRun.
-  TraceScope(tracing::TraceConfig config, std::unique_ptr<tracing::Tracer> tracer, std::string prefix,
-             SourceRange origin, TraceChoices choices = {});
+  TraceScope(TraceRequest request, std::unique_ptr<tracing::Tracer> tracer, std::string prefix, SourceRange origin);
   ~TraceScope() override;
 
   void expect(const std::vector<ProcessSpec>& processes) override;
@@ -41,7 +31,9 @@ class TraceScope : public RunScope {
   void record(const LaunchRecord& record) override;
   void observe_snapshots(SnapshotObserver observer) override { snapshot_observer_ = std::move(observer); }
   std::string kind() const override { return "trace"; }
-  std::vector<ScopeSetting> describe() const override;
+  std::vector<ShownSetting> describe() const override {
+    return shown_settings(trace_settings(), TraceRequest{run_.config(), choices_});
+  }
   std::vector<TimedStep> timing() const override;
   const SourceRange& origin() const override { return origin_; }
   std::vector<NamedNode> named_nodes() const override { return choices_.chain_nodes; }

@@ -1,69 +1,386 @@
 // SPDX-License-Identifier: Apache-2.0
-// The evaluated attributes of a <trace>, for --dry-run.
-#include <fmt/format.h>
+#include "actions/trace/trace_settings.hpp"
 
-#include "actions/trace/trace_scope.hpp"
-#include "tracing/record/plan/trace_config.hpp"
+#include <fmt/format.h>
+#include <signal.h>
+
+#include <algorithm>
+
+#include "actions/trace/trace_overhead.hpp"
+#include "base/diagnostics/diagnostic.hpp"
+#include "tracing/record/plan/event_classes.hpp"
+#include "tracing/record/plan/event_rule.hpp"
+#include "tracing/record/plan/trace_error.hpp"
 
 namespace launch {
 
 namespace {
 
-std::vector<std::string> channel_names(const tracing::TraceConfig& config) {
+using Channel = tracing::ChannelConfig;
+using Config = tracing::TraceConfig;
+using Type = AttributeType;
+
+// An attribute that ros2 launch does not know.
+AttributeSpec extension(const char* name, Type type, const std::string& fallback, const char* help) {
+  return {name, type, false, fallback, help, true};
+}
+
+// The place of a member of the struct, or of one of its parts.
+template <typename Member>
+auto at(Member Config::*member) {
+  return [member](TraceRequest& request) -> SettingPlace { return &(request.config.*member); };
+}
+template <typename Member, typename Struct>
+auto of_choices(Member Struct::*member) {
+  return [member](TraceRequest& request) -> SettingPlace { return &(request.choices.*member); };
+}
+template <typename Member>
+auto of_channel(Member Channel::*member) {
+  return [member](Channel& channel) -> SettingPlace { return &(channel.*member); };
+}
+
+enum class Tracepoints { kUserspace /* PROVIDER:NAME */, kKernel /* NAME */ };
+
+// Whether the text is a name, and not a word of a rule that was written wrongly.
+bool is_name(const std::string& text, Tracepoints of) {
+  return of == Tracepoints::kUserspace ? text.find(':') != std::string::npos
+                                       : text != "if" && text != "except" && text != "level";
+}
+
+// The event rules. A substitution may give a rule with blanks, or several names.
+std::vector<std::string> perform_events(const Fields& fields, const std::string& attribute, Scope& scope,
+                                        Tracepoints of) {
+  std::vector<std::string> events;
+  for (const std::string& text : perform_words(fields, attribute, scope)) {
+    try {
+      tracing::parse_event_rule(text);
+      events.push_back(text);
+    } catch (const tracing::TraceError& error) {
+      const std::vector<std::string> parts = split_names(text);
+      if (parts.size() < 2 ||
+          !std::all_of(parts.begin(), parts.end(), [of](const std::string& part) { return is_name(part, of); })) {
+        throw LaunchError(error.what(), fields.where(attribute), error.remedy());
+      }
+      events.insert(events.end(), parts.begin(), parts.end());
+    }
+  }
+  return events;
+}
+
+// Reads the events of an attribute into the list that `list` gives.
+template <typename Target, typename List>
+auto events(const char* attribute, Tracepoints of, List list) {
+  return [attribute, of, list](const Fields& fields, Scope& scope, Target& target) {
+    list(target) = perform_events(fields, attribute, scope, of);
+  };
+}
+
+void perform_session_name(const Fields& fields, Scope& scope, TraceRequest& request) {
+  const Template& text = fields.text("session-name");
+  request.config.session_name = text.perform(scope);
+  if (request.config.session_name.empty()) {
+    throw LaunchError("the session name is empty", text.where(), "the directory of the trace is called so, too");
+  }
+  if (request.config.session_name.find('/') != std::string::npos) {
+    throw LaunchError(fmt::format("the session name '{}' has a slash", request.config.session_name), text.where(),
+                      "name the directory with base-path");
+  }
+}
+
+SettingPlace buffer_owner(TraceRequest& request) {
+  return SettingChoice{
+      {"uid", "pid"}, static_cast<std::size_t>(request.config.buffers_ust), [&request](std::size_t word) {
+        request.config.buffers_ust = static_cast<tracing::BufferOwner>(word);
+      }};
+}
+
+SettingPlace buffer_sizes(TraceRequest& request) {
+  return SettingChoice{{"auto", "fixed"}, request.choices.auto_buffers ? 0U : 1U, [&request](std::size_t word) {
+                         request.choices.auto_buffers = word == 0;
+                       }};
+}
+
+SettingPlace snapshot_signal(TraceRequest& request) {
+  return SettingChoice{
+      {"SIGUSR1", "SIGUSR2"}, request.choices.snapshot_on_signal == SIGUSR2 ? 1U : 0U, [&request](std::size_t word) {
+        request.choices.snapshot_on_signal = word == 0 ? SIGUSR1 : SIGUSR2;
+      }};
+}
+
+template <typename Named>
+std::vector<std::string> names_of(const std::vector<Named>& parts) {
   std::vector<std::string> names;
-  for (const tracing::ChannelConfig& channel : config.channels) {
-    names.push_back(channel.name);
+  for (const Named& part : parts) {
+    names.push_back(part.name);
   }
   return names;
 }
 
-std::vector<std::string> chain_names(const TraceChoices& choices) {
-  std::vector<std::string> names;
-  for (const tracing::ChainDefinition& chain : choices.chains) {
-    names.push_back(chain.name);
-  }
-  return names;
+std::vector<Setting<TraceRequest>> make_trace_settings() {
+  const Config defaults;
+  return {
+      {.attribute = {"session-name", Type::kText, true, "", "name of the session and of the trace's directory"},
+       .place = at(&Config::session_name),
+       .perform = perform_session_name,
+       .shown = "session-name"},
+      {.attribute = {"append-timestamp", Type::kBoolean, false, "false", "append -YYYYMMDDHHMMSS to the name"},
+       .perform =
+           [](const Fields& fields, Scope& scope, TraceRequest& request) {
+             if (fields.boolean("append-timestamp", false).perform(scope)) {
+               request.config.session_name += tracing::session_timestamp();
+             }
+           }},
+      {.attribute = {"base-path", Type::kText, false, "$ROS_TRACE_DIR, $ROS_HOME/tracing or ~/.ros/tracing",
+                     "directory that will hold the trace's directory"},
+       .place = at(&Config::base_path),
+       .shown = "trace-directory",
+       .show = [](const TraceRequest& request) { return request.config.trace_directory(); }},
+      {.attribute = {"append-trace", Type::kBoolean, false, "false", "allow a trace directory that exists"},
+       .place = at(&Config::append_trace),
+       .shown = "append-trace",
+       .option = {"-a,--append-trace", "", "add to a trace directory that exists already"}},
+      {.attribute = extension("fail-on-loss", Type::kBoolean, "false", "exit with 1 when events were lost"),
+       .place = at(&Config::fail_on_loss),
+       .shown = "fail-on-loss"},
+      {.attribute = extension("report", Type::kBoolean, "false",
+                              "make a page of the trace at its end, report.html in its directory"),
+       .place = of_choices(&TraceChoices::report),
+       .shown = "report"},
+      {.attribute = {"events-ust", Type::kWords, false, "all events of provider ros2",
+                     "userspace events; * matches any text; `'ros2:* except ros2:rcl_init level INFO if vpid > 1'` in "
+                     "quotes"},
+       .place = at(&Config::events_ust),
+       .perform = events<TraceRequest>("events-ust", Tracepoints::kUserspace,
+                                       [](TraceRequest& request) -> auto& { return request.config.events_ust; }),
+       .shown = "events-ust",
+       .option = {"-u,--ust", "EVENT", "userspace events (default: all ROS 2 events)"}},
+      {.attribute = {"events-kernel", Type::kWords, false, "none", "kernel tracepoints"},
+       .place = at(&Config::events_kernel),
+       .perform = events<TraceRequest>("events-kernel", Tracepoints::kKernel,
+                                       [](TraceRequest& request) -> auto& { return request.config.events_kernel; }),
+       .shown = "events-kernel",
+       .option = {"-k,--kernel", "EVENT", "kernel events (default: none)"}},
+      {.attribute = {"syscalls", Type::kWords, false, "none", "system calls"},
+       .place = at(&Config::syscalls),
+       .shown = "syscalls",
+       .option = {"--syscall", "NAME", "system calls (default: none)"}},
+      {.shown = "channels", .show = [](const TraceRequest& request) { return names_of(request.config.channels); }},
+      {.shown = "chains", .show = [](const TraceRequest& request) { return names_of(request.choices.chains); }},
+      {.attribute = {"context-fields", Type::kWords, false, "procname vpid vtid", "fields added to every event"},
+       .place = at(&Config::context_fields_ust),
+       .shown = "context-fields",
+       .option = {"-c,--context", "FIELD", "context fields of every event (default: procname vpid vtid)"}},
+      {.attribute = extension("context-fields-kernel", Type::kWords, "as context-fields",
+                              "fields added to every event of the kernel; context-fields is for userspace events then"),
+       .place = at(&Config::context_fields_kernel),
+       .shown = "context-fields-kernel"},
+      {.attribute = extension("nodes", Type::kWords, "all",
+                              "record these nodes and processes only, by name; * matches any text"),
+       .perform = [](const Fields& fields, Scope& scope,
+                     TraceRequest& request) { request.choices.nodes = perform_names(fields, "nodes", scope); }},
+      {.attribute = {"subbuffer-size-ust", Type::kInteger, false, fmt::format("{}", defaults.subbuffer_size_ust),
+                     "bytes"},
+       .place = at(&Config::subbuffer_size_ust),
+       .shown = "subbuffer-size-ust",
+       .option = {"--subbuffer-size-ust", "BYTES", "size of a sub-buffer of the userspace channel"}},
+      {.attribute = extension("subbuffers", Type::kText, "fixed",
+                              "auto: derive subbuffer-size-ust from the number of processes and processors"),
+       .place = buffer_sizes},
+      {.attribute = extension("init-channel", Type::kBoolean, "false",
+                              "record initialisation events into a channel of their own, ros2_init"),
+       .place = at(&Config::init_channel),
+       .shown = "init-channel",
+       .option = {"--init-channel", "", "record initialisation events into a channel of their own, ros2_init"}},
+      {.attribute = extension("subbuffer-count-ust", Type::kInteger, fmt::format("{}", defaults.subbuffer_count_ust),
+                              "sub-buffers for each processor"),
+       .place = at(&Config::subbuffer_count_ust),
+       .shown = "subbuffer-count-ust",
+       .option = {"--subbuffer-count-ust", "NUMBER",
+                  fmt::format("number of sub-buffers for each processor (default: {})", defaults.subbuffer_count_ust)}},
+      {.attribute = extension("read-timer-ust", Type::kInteger, fmt::format("{}", defaults.read_timer_ust),
+                              "microseconds between two reads of the buffers; 0: traced processes wake the reader"),
+       .place = at(&Config::read_timer_ust),
+       .shown = "read-timer-ust",
+       .option = {"--read-timer-ust", "MICROSECONDS",
+                  fmt::format("time between two reads of the buffers (default: {})", defaults.read_timer_ust)}},
+      {.attribute =
+           extension("switch-timer-ust", Type::kInteger, fmt::format("{}; 0 in snapshot mode", tracing::kSwitchTimer),
+                     "microseconds until a part-full sub-buffer is written; 0: never"),
+       .place = at(&Config::switch_timer_ust),
+       .shown = "switch-timer-ust",
+       .show = [](const TraceRequest& request) { return std::int64_t{request.config.switch_timer()}; },
+       .option = {"--switch-timer-ust", "MICROSECONDS",
+                  fmt::format("time until a part-full sub-buffer is written (default: {}; 0 in snapshot mode)",
+                              tracing::kSwitchTimer)}},
+      {.attribute = extension("overwrite-ust", Type::kBoolean, "false; true in snapshot mode",
+                              "when buffers are full lose the oldest events, not the newest"),
+       .place = at(&Config::overwrite_ust),
+       .shown = "overwrite-ust",
+       .show =
+           [](const TraceRequest& request) {
+             return request.config.overwrite_ust.value_or(request.config.records_snapshots());
+           },
+       .option = {"--overwrite-ust", "BOOLEAN",
+                  "when buffers are full lose the oldest events, not the newest (default: in snapshot mode only)"}},
+      {.attribute = extension("blocking-timeout-ust", Type::kInteger, "0",
+                              "microseconds that a traced thread waits for room before an event is lost; -1: for ever"),
+       .place = at(&Config::blocking_timeout_ust),
+       .shown = "blocking-timeout-ust",
+       .option = {"--blocking-timeout-ust", "MICROSECONDS",
+                  "time that a traced thread waits for room before it loses an event; -1: for ever; its process needs "
+                  "LTTNG_UST_ALLOW_BLOCKING=1 (default: 0)"}},
+      {.attribute = extension("buffers-ust", Type::kText, "uid",
+                              "uid: all processes of a user share buffers; pid: each process has its own"),
+       .place = buffer_owner,
+       .shown = "buffers-ust",
+       .option = {"--buffers-ust", "OWNER",
+                  "owner of the userspace buffers: uid (the user, default) or pid (each process)"}},
+      {.attribute = extension("tracefile-size", Type::kInteger, "0",
+                              "bytes after which a stream goes on in a further file; 0: one file"),
+       .place = at(&Config::tracefile_size),
+       .shown = "tracefile-size",
+       .option = {"--tracefile-size", "BYTES", "size at which a stream goes on in a further file"}},
+      {.attribute = extension("tracefile-count", Type::kInteger, "0", "files of a stream that are kept; 0: all"),
+       .place = at(&Config::tracefile_count),
+       .shown = "tracefile-count",
+       .option = {"--tracefile-count", "NUMBER", "files of a stream that are kept (default: all)"}},
+      {.attribute =
+           extension("url", Type::kText, "", "a relay daemon that gets the trace: net://HOST[:CONTROL[:DATA]]"),
+       .place = at(&Config::url),
+       .shown = "url",
+       .show =
+           [](const TraceRequest& request) {
+             return request.config.over_network() ? request.config.destination() : std::string();
+           },
+       .option = {"--url", "URL", "relay daemon that gets the trace: net://HOST[:CONTROL[:DATA]]"}},
+      {.attribute = extension(
+           "live-timer", Type::kInteger, "0",
+           "microseconds between two deliveries to the viewers of a live session; 0: the session is not live"),
+       .place = at(&Config::live_timer),
+       .shown = "live-timer",
+       .option = {"--live-timer", "MICROSECONDS",
+                  "make the session live: viewers of the relay daemon get new events this often"}},
+      {.attribute = extension("launch-events", Type::kBoolean, "true",
+                              "record what the launcher does, too: the events of provider launch"),
+       .place = at(&Config::launch_events),
+       .shown = "launch-events"},
+      {.attribute = {"subbuffer-size-kernel", Type::kInteger, false, fmt::format("{}", defaults.subbuffer_size_kernel),
+                     "bytes"},
+       .place = at(&Config::subbuffer_size_kernel),
+       .shown = "subbuffer-size-kernel",
+       .option = {"--subbuffer-size-kernel", "BYTES", "size of a sub-buffer of the kernel channel"}},
+      {.attribute = {"snapshot-mode", Type::kBoolean, false, "false",
+                     "keep the newest events in memory until recorded"},
+       .place = at(&Config::snapshot_mode),
+       .shown = "snapshot-mode",
+       .option = {"--snapshot-mode", "", "keep the newest events in memory until record_snapshot"}},
+      {.attribute =
+           extension("snapshot-on-crash", Type::kBoolean, "false",
+                     "take a snapshot when a process dies unexpectedly, of a signal or with an exit code; implies "
+                     "snapshot-mode"),
+       .place = of_choices(&TraceChoices::snapshot_on_crash),
+       .shown = "snapshot-on-crash"},
+      {.attribute = extension("snapshot-on-signal", Type::kText, "none",
+                              "SIGUSR1 or SIGUSR2: take a snapshot when the launcher gets it; implies snapshot-mode"),
+       .place = snapshot_signal},
+      {.attribute =
+           extension("snapshot-on-events", Type::kWords, "none",
+                     "take a snapshot when a userspace event comes; written as in events-ust; implies snapshot-mode"),
+       .place = of_choices(&TraceChoices::snapshot_on_events),
+       .perform =
+           events<TraceRequest>("snapshot-on-events", Tracepoints::kUserspace,
+                                [](TraceRequest& request) -> auto& { return request.choices.snapshot_on_events; }),
+       .shown = "snapshot-on-events"},
+      {.attribute = extension("snapshot-on-late-callback", Type::kFloat, "none",
+                              "milliseconds: take a snapshot when a callback takes longer; implies snapshot-mode"),
+       .place = of_choices(&TraceChoices::callback_deadline),
+       .shown = "snapshot-on-late-callback"},
+      {.attribute =
+           extension("snapshot-on-late-message", Type::kFloat, "none",
+                     "milliseconds: take a snapshot when a message is taken that was published longer before; implies "
+                     "snapshot-mode"),
+       .place = of_choices(&TraceChoices::message_deadline),
+       .shown = "snapshot-on-late-message"},
+      {.attribute = extension("snapshot-limit", Type::kInteger, "10", "snapshots that are kept, the newest ones"),
+       .place = at(&Config::snapshot_limit),
+       .shown = "snapshot-limit"},
+      {.attribute =
+           extension("snapshot-size", Type::kInteger, "10 userspace sub-buffers", "bytes of a snapshot at most"),
+       .place = at(&Config::snapshot_size)},
+      {.attribute = extension("max-overhead", Type::kText, "none",
+                              "limit of what recording costs in all traced processes together, such as 2% of a "
+                              "processor; above it classes of events are dropped"),
+       .perform =
+           [](const Fields& fields, Scope& scope, TraceRequest& request) {
+             request.config.max_overhead = perform_percentage(fields.text("max-overhead"), scope);
+             request.config.drop_order = tracing::droppable_classes();
+           },
+       .shown = "max-overhead",
+       .show =
+           [](const TraceRequest& request) {
+             const double share = request.config.max_overhead;
+             return share == 0 ? std::string() : fmt::format("{:g}%", 100 * share);
+           }},
+      {.attribute = extension("drop-order", Type::kWords, "executor buffers layers messages services callbacks",
+                              "classes of events that max-overhead may drop, in this order; also events as "
+                              "PROVIDER:NAME"),
+       .place = at(&Config::drop_order),
+       .perform =
+           [](const Fields& fields, Scope& scope, TraceRequest& request) {
+             if (fields.has("max-overhead")) {
+               request.config.drop_order = perform_names(fields, "drop-order", scope);
+               check_drop_order(request.config.drop_order, fields.where("drop-order"));
+             }
+           },
+       .shown = "drop-order"},
+      {.attribute = {"dual-session", Type::kBoolean, false, "false", "be the snapshot half of a dual session"},
+       .place = at(&Config::dual_session),
+       .shown = "dual-session"},
+  };
+}
+
+std::vector<Setting<Channel>> make_channel_settings() {
+  const auto own = [](const char* name, Type type, const char* help) {
+    return AttributeSpec{name, type, false, "as the domain's own channel", help};
+  };
+  return {
+      {.attribute = {"name", Type::kText, true, "", "its name"}, .place = of_channel(&Channel::name)},
+      {.attribute = {"events-ust", Type::kWords, false, "none", "userspace events"},
+       .perform = events<Channel>("events-ust", Tracepoints::kUserspace,
+                                  [](Channel& channel) -> auto& { return channel.events_ust; })},
+      {.attribute = {"events-kernel", Type::kWords, false, "none", "kernel tracepoints"},
+       .perform = events<Channel>("events-kernel", Tracepoints::kKernel,
+                                  [](Channel& channel) -> auto& { return channel.events_kernel; })},
+      {.attribute = {"syscalls", Type::kWords, false, "none", "system calls"}, .place = of_channel(&Channel::syscalls)},
+      {.attribute = {"context-fields", Type::kWords, false, "those of the trace", ""},
+       .perform = [](const Fields& fields, Scope& scope,
+                     Channel& channel) { channel.context_fields = perform_names(fields, "context-fields", scope); }},
+      {.attribute = own("subbuffer-size", Type::kInteger, "bytes"), .place = of_channel(&Channel::subbuffer_size)},
+      {.attribute = own("subbuffer-count", Type::kInteger, "sub-buffers for each processor"),
+       .place = of_channel(&Channel::subbuffer_count)},
+      {.attribute = own("read-timer", Type::kInteger, "microseconds between two reads of the buffers"),
+       .place = of_channel(&Channel::read_timer)},
+      {.attribute =
+           own("switch-timer", Type::kInteger, "microseconds until a part-full sub-buffer is written; 0: never"),
+       .place = of_channel(&Channel::switch_timer)},
+      {.attribute = own("overwrite", Type::kBoolean, "lose the oldest events, not the newest"),
+       .place = of_channel(&Channel::overwrite)},
+      {.attribute = {"blocking-timeout", Type::kInteger, false, "0",
+                     "microseconds that a traced thread waits for room; -1: for ever"},
+       .place = of_channel(&Channel::blocking_timeout)},
+  };
 }
 
 }  // namespace
 
-std::vector<ScopeSetting> TraceScope::describe() const {
-  const tracing::TraceConfig& config = run_.config();
-  return {{"session-name", config.session_name},
-          {"trace-directory", config.trace_directory()},
-          {"append-trace", config.append_trace},
-          {"fail-on-loss", config.fail_on_loss},
-          {"report", choices_.report},
-          {"events-ust", config.events_ust},
-          {"events-kernel", config.events_kernel},
-          {"syscalls", config.syscalls},
-          {"channels", channel_names(config)},
-          {"chains", chain_names(choices_)},
-          {"context-fields", config.context_fields_ust},
-          {"context-fields-kernel", config.context_fields_kernel},
-          {"subbuffer-size-ust", static_cast<std::int64_t>(config.subbuffer_size_ust)},
-          {"init-channel", config.init_channel},
-          {"subbuffer-count-ust", static_cast<std::int64_t>(config.subbuffer_count_ust)},
-          {"read-timer-ust", static_cast<std::int64_t>(config.read_timer_ust)},
-          {"switch-timer-ust", static_cast<std::int64_t>(config.switch_timer())},
-          {"overwrite-ust", config.overwrite_ust.value_or(config.records_snapshots())},
-          {"blocking-timeout-ust", config.blocking_timeout_ust},
-          {"buffers-ust", std::string(config.buffers_ust == tracing::BufferOwner::kProcess ? "pid" : "uid")},
-          {"tracefile-size", static_cast<std::int64_t>(config.tracefile_size)},
-          {"tracefile-count", static_cast<std::int64_t>(config.tracefile_count)},
-          {"url", config.over_network() ? config.destination() : std::string()},
-          {"live-timer", static_cast<std::int64_t>(config.live_timer)},
-          {"launch-events", config.launch_events},
-          {"subbuffer-size-kernel", static_cast<std::int64_t>(config.subbuffer_size_kernel)},
-          {"snapshot-mode", config.snapshot_mode},
-          {"snapshot-on-crash", choices_.snapshot_on_crash},
-          {"snapshot-on-events", choices_.snapshot_on_events},
-          {"snapshot-on-late-callback", fmt::format("{}", choices_.callback_deadline)},
-          {"snapshot-on-late-message", fmt::format("{}", choices_.message_deadline)},
-          {"snapshot-limit", static_cast<std::int64_t>(config.snapshot_limit)},
-          {"max-overhead", config.max_overhead == 0 ? "" : fmt::format("{:g}%", 100 * config.max_overhead)},
-          {"drop-order", config.drop_order},
-          {"dual-session", config.dual_session}};
+const std::vector<Setting<TraceRequest>>& trace_settings() {
+  static const std::vector<Setting<TraceRequest>> settings = make_trace_settings();
+  return settings;
+}
+
+const std::vector<Setting<Channel>>& channel_settings() {
+  static const std::vector<Setting<Channel>> settings = make_channel_settings();
+  return settings;
 }
 
 }  // namespace launch

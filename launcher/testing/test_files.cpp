@@ -271,7 +271,7 @@ DiskPlan plan_disks(const TestCase& test, const Registry& registry, const Enviro
     disks.faults = disks_of(plan.tests.front());
   }
   for (const std::unique_ptr<RunScope>& scope : plan.scopes) {
-    for (const ScopeSetting& setting : scope->describe()) {
+    for (const ShownSetting& setting : scope->describe()) {
       const auto* const directory = std::get_if<std::string>(&setting.value);
       if (setting.name == "trace-directory" && directory != nullptr) {
         disks.traces.push_back(*directory);

@@ -8,21 +8,15 @@
 #include <functional>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "base/diagnostics/source.hpp"
+#include "launcher/language/setting.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/process_spec.hpp"
 #include "launcher/visit/launch_record.hpp"
 
 namespace launch {
-
-// One evaluated setting, for --dry-run.
-struct ScopeSetting {
-  std::string name;
-  std::variant<bool, std::int64_t, std::string, std::vector<std::string>> value;
-};
 
 // A node that the scope takes for a part of the launch, for checks.
 struct NamedNode {
@@ -78,7 +72,7 @@ class RunScope {
 
   // "trace", and its evaluated settings.
   virtual std::string kind() const = 0;
-  virtual std::vector<ScopeSetting> describe() const = 0;
+  virtual std::vector<ShownSetting> describe() const = 0;
   virtual std::vector<NamedNode> named_nodes() const { return {}; }
   virtual std::vector<TimedStep> timing() const = 0;  // of begin(); when that is done, of end()
   virtual const SourceRange& origin() const = 0;

@@ -153,7 +153,7 @@ class PlanFindings {
   }
 
   void find_same_session(const RunScope& scope) {
-    for (const ScopeSetting& setting : scope.describe()) {
+    for (const ShownSetting& setting : scope.describe()) {
       const auto* const name = std::get_if<std::string>(&setting.value);
       if (setting.name != "session-name" || name == nullptr || name->find(kUnknownOutput) != std::string::npos) {
         continue;

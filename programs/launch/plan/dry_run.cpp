@@ -131,7 +131,7 @@ std::string dependency_as_text(const Dependency& dependency) {
 
 std::string scope_as_text(const RunScope& scope) {
   std::string text = fmt::format("{} ({})\n", scope.kind(), to_string(scope.origin()));
-  for (const ScopeSetting& setting : scope.describe()) {
+  for (const ShownSetting& setting : scope.describe()) {
     const std::string value = std::visit(
         [](const auto& held) {
           using Held = std::decay_t<decltype(held)>;
@@ -304,7 +304,7 @@ void add_content(Json& root, const LaunchPlan& plan, const Environment& launcher
   Json traces = Json::array();
   for (const auto& scope : plan.scopes) {
     Json trace;
-    for (const ScopeSetting& setting : scope->describe()) {
+    for (const ShownSetting& setting : scope->describe()) {
       std::visit([&](const auto& held) { trace[setting.name] = held; }, setting.value);
     }
     trace["source"] = source_as_json(scope->origin());

@@ -9,6 +9,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "actions/trace/trace_settings.hpp"
 #include "base/diagnostics/command_error.hpp"
 #include "base/environment/own_environment.hpp"
 
@@ -19,7 +20,7 @@ namespace {
 struct SessionArguments {
   std::string session_name;
   std::string path;
-  std::vector<std::string> context_fields = default_context_fields();
+  launch::TraceRequest request;
   bool dual_session = false;
 };
 
@@ -42,68 +43,49 @@ std::string not_negative(const std::string& number) {
   return number.starts_with('-') ? fmt::format("expected a number that is not negative, got '{}'", number) : "";
 }
 
-void add_buffer_options(CLI::App& command, TraceConfig& config) {
-  const auto number = [&command](const std::string& option, auto& value, const std::string& unit,
-                                 const std::string& help) {
-    CLI::Option* const made = command.add_option(option, value, help)->option_text(unit);
-    // The parser would take -5 for a huge number.
-    using Value = std::remove_reference_t<decltype(value)>;
-    if constexpr (std::is_unsigned_v<Value> || std::is_same_v<Value, std::optional<std::uint32_t>>) {
-      made->check(not_negative);
-    }
-  };
-  number("--subbuffer-size-ust", config.subbuffer_size_ust, "BYTES", "size of a sub-buffer of the userspace channel");
-  command.add_flag("--init-channel", config.init_channel,
-                   "record initialisation events into a channel of their own, ros2_init");
-  number("--subbuffer-count-ust", config.subbuffer_count_ust, "NUMBER",
-         fmt::format("number of sub-buffers for each processor (default: {})", config.subbuffer_count_ust));
-  number("--read-timer-ust", config.read_timer_ust, "MICROSECONDS",
-         fmt::format("time between two reads of the buffers (default: {})", config.read_timer_ust));
-  number("--switch-timer-ust", config.switch_timer_ust, "MICROSECONDS",
-         fmt::format("time until a part-full sub-buffer is written (default: {}; 0 in snapshot mode)", kSwitchTimer));
-  number("--subbuffer-size-kernel", config.subbuffer_size_kernel, "BYTES",
-         "size of a sub-buffer of the kernel channel");
-  command.add_option("--overwrite-ust", config.overwrite_ust,
-                     "when buffers are full lose the oldest events, not the newest (default: in snapshot mode only)");
-  number("--blocking-timeout-ust", config.blocking_timeout_ust, "MICROSECONDS",
-         "time that a traced thread waits for room before it loses an event; -1: for ever; its process needs "
-         "LTTNG_UST_ALLOW_BLOCKING=1 (default: 0)");
-  command
-      .add_option("--buffers-ust", config.buffers_ust,
-                  "owner of the userspace buffers: uid (the user, default) or pid (each process)")
-      ->transform(CLI::Transformer(
-          std::map<std::string, BufferOwner>{{"uid", BufferOwner::kUser}, {"pid", BufferOwner::kProcess}}))
-      ->option_text("OWNER");
-  number("--tracefile-size", config.tracefile_size, "BYTES", "size at which a stream goes on in a further file");
-  number("--tracefile-count", config.tracefile_count, "NUMBER", "files of a stream that are kept (default: all)");
+// Lets the option write to the place of the setting.
+void add_option(CLI::App& command, const launch::SettingOption& option, const launch::SettingPlace& place) {
+  std::visit(
+      [&](const auto& at) {
+        using Place = std::decay_t<decltype(at)>;
+        if constexpr (std::is_same_v<Place, launch::SettingChoice>) {
+          std::map<std::string, std::size_t> numbers;
+          for (const std::string& word : at.words) {
+            numbers.emplace(word, numbers.size());
+          }
+          command.add_option_function<std::size_t>(option.flags, at.choose, option.help)
+              ->transform(CLI::Transformer(numbers))
+              ->option_text(option.unit);
+        } else if constexpr (std::is_same_v<Place, std::vector<std::string>*>) {
+          add_names(command, option.flags, *at, option.unit, option.help);
+        } else if constexpr (std::is_same_v<Place, bool*>) {
+          command.add_flag(option.flags, *at, option.help);
+        } else {
+          CLI::Option* const made = command.add_option(option.flags, *at, option.help)->option_text(option.unit);
+          if constexpr (!std::is_same_v<Place, std::int64_t*> && !std::is_same_v<Place, std::string*>) {
+            made->check(not_negative);  // the parser would take -5 for a huge number
+          }
+        }
+      },
+      place);
 }
 
 void add_session_options(CLI::App& command, SessionArguments& arguments, TraceOptions& options) {
-  TraceConfig& config = options.config;
   command
       .add_option("-p,--path", arguments.path,
                   "directory that will hold the trace directory (default: $ROS_TRACE_DIR, $ROS_HOME/tracing or "
                   "~/.ros/tracing)")
       ->option_text("DIR");
-  add_names(command, "-u,--ust", config.events_ust, "EVENT", "userspace events (default: all ROS 2 events)");
-  add_names(command, "-k,--kernel", config.events_kernel, "EVENT", "kernel events (default: none)");
-  add_names(command, "--syscall", config.syscalls, "NAME", "system calls (default: none)");
-  add_names(command, "-c,--context", arguments.context_fields, "FIELD",
-            "context fields of every event (default: procname vpid vtid)");
+  for (const auto& setting : launch::trace_settings()) {
+    if (!setting.option.flags.empty()) {
+      add_option(command, setting.option, setting.place(arguments.request));
+    }
+  }
   command.add_flag("-l,--list", options.list_names, "print the names of the enabled events and context fields");
-  command.add_flag("-a,--append-trace", config.append_trace, "add to a trace directory that exists already");
-  command.add_flag("--snapshot-mode", config.snapshot_mode, "keep the newest events in memory until record_snapshot");
-  add_buffer_options(command, config);
-  command.add_option("--url", config.url, "relay daemon that gets the trace: net://HOST[:CONTROL[:DATA]]")
-      ->option_text("URL");
-  command
-      .add_option("--live-timer", config.live_timer,
-                  "make the session live: viewers of the relay daemon get new events this often")
-      ->option_text("MICROSECONDS");
 }
 
-void add_fail_on_loss(CLI::App& command, TraceOptions& options) {
-  command.add_flag("--fail-on-loss", options.config.fail_on_loss, "exit with 1 when events were lost");
+void add_fail_on_loss(CLI::App& command, SessionArguments& arguments) {
+  command.add_flag("--fail-on-loss", arguments.request.config.fail_on_loss, "exit with 1 when events were lost");
 }
 
 void add_dual_session(CLI::App& command, SessionArguments& arguments) {
@@ -135,19 +117,18 @@ CLI::App* add_status(CLI::App& command, SessionArguments& arguments) {
 CLI::App* add_calibrate(CLI::App& command, SessionArguments& arguments) {
   CLI::App* verb = command.add_subcommand(
       "calibrate", "measure what recording an event costs on this machine, for the verdicts of sessions");
-  add_names(*verb, "-c,--context", arguments.context_fields, "FIELD",
+  add_names(*verb, "-c,--context", arguments.request.config.context_fields_ust, "FIELD",
             "context fields of the event (default: procname vpid vtid)");
   return verb;
 }
 
 void complete(TraceOptions& options, const SessionArguments& arguments) {
-  TraceConfig& config = options.config;
+  TraceConfig& config = options.config = arguments.request.config;
   const bool all_sessions = options.verb == TraceVerb::kStatus && arguments.session_name.empty();
   config.session_name =
       arguments.session_name.empty() && !all_sessions ? "session" + session_timestamp() : arguments.session_name;
   config.base_path = trace_base_path(arguments.path, launch::own_environment());
-  config.context_fields_ust = arguments.context_fields;
-  config.context_fields_kernel = arguments.context_fields;
+  config.context_fields_kernel = config.context_fields_ust;
   options.dual_session = arguments.dual_session;
   // All verbs but record_snapshot act on the half that runs on demand.
   config.dual_runtime = arguments.dual_session && options.verb != TraceVerb::kRecordSnapshot;
@@ -166,14 +147,14 @@ std::variant<TraceOptions, ParserMessage> parse_trace_options(const std::vector<
       ->option_text("NAME");
   add_session_options(command, session, options);
   add_dual_session(command, session);
-  add_fail_on_loss(command, options);
+  add_fail_on_loss(command, session);
 
   CLI::App* start = add_verb(command, "start", "configure and start a session, return at once", session);
   add_session_options(*start, session, options);
   CLI::App* stop = add_verb(command, "stop", "stop recording and end the session", session);
-  add_fail_on_loss(*stop, options);
+  add_fail_on_loss(*stop, session);
   // The counters of a launcher that was killed, whose guardian runs this command. They are removed afterwards.
-  stop->add_option("--event-counters", options.config.event_counters)->group("");
+  stop->add_option("--event-counters", session.request.config.event_counters)->group("");
   stop->add_option("--created-since", options.created_since,
                    "leave the session as it is when it was created before (seconds since 1970)")
       ->option_text("TIME");

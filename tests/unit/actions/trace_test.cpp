@@ -13,10 +13,10 @@ using test_support::Planned;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-std::map<std::string, launch::ScopeSetting> settings_of(const Planned& planned) {
-  std::map<std::string, launch::ScopeSetting> settings;
+std::map<std::string, launch::ShownSetting> settings_of(const Planned& planned) {
+  std::map<std::string, launch::ShownSetting> settings;
   EXPECT_EQ(planned.error, "");
-  for (const launch::ScopeSetting& setting : planned.plan.scopes.at(0)->describe()) {
+  for (const launch::ShownSetting& setting : planned.plan.scopes.at(0)->describe()) {
     settings.emplace(setting.name, setting);
   }
   return settings;
