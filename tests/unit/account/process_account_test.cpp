@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Attributes lost events to processes, by the events that were fired and the events in the trace.
-#include "tracing/record/account/process_account.hpp"
 
 #include <gmock/gmock.h>
 

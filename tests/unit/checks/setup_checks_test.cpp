@@ -9,7 +9,7 @@
 #include <filesystem>
 
 #include "tests/unit/plan/trace_error_text.hpp"
-#include "tracing/record/checks/perf_check.hpp"
+#include "tracing/record/checks/context_check.hpp"
 #include "tracing/record/plan/trace_config.hpp"
 
 namespace {

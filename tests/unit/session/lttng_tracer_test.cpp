@@ -12,7 +12,6 @@
 #include "tests/unit/session/lttng_tracer_fixture.hpp"
 #include "tests/unit/session/trace_reading.hpp"
 #include "tracing/record/account/loss_account.hpp"
-#include "tracing/record/account/session_step.hpp"
 #include "tracing/record/lttng/lttng_ctl.hpp"
 #include "tracing/record/plan/trace_config.hpp"
 #include "tracing/record/plan/trace_error.hpp"

@@ -8,7 +8,7 @@
 #include "base/text/nearest_name.hpp"
 #include "tracing/decode/ctf/metadata_text.hpp"
 #include "tracing/decode/ctf/trace_class.hpp"
-#include "tracing/record/account/seconds.hpp"
+#include "tracing/record/account/stream_packets.hpp"
 #include "tracing/record/plan/ros_events.hpp"
 
 namespace tracing {

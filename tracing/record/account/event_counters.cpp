@@ -13,14 +13,16 @@
 #include <charconv>
 #include <cstdint>
 #include <cstring>
+#include <fstream>
 #include <mutex>
+#include <nlohmann/json.hpp>
 #include <string_view>
 #include <system_error>
 #include <tuple>
 #include <utility>
 
+#include "base/files/replace_file.hpp"
 #include "base/files/unique_fd.hpp"
-#include "tracing/record/account/ended_processes.hpp"
 
 namespace tracing {
 namespace {
@@ -64,6 +66,48 @@ bool has_ended(const fs::path& file) {
   }
   const launch::UniqueFd opened(open(file.c_str(), O_RDONLY | O_CLOEXEC));
   return opened && flock(opened.get(), LOCK_EX | LOCK_NB) == 0;
+}
+
+// The counts of processes that have ended, by the name of the counter file that each had, are in one file beside the
+// counter files of those that run.
+constexpr const char* kEndedFile = "ended.json";
+
+// Empty if there is no such file.
+std::map<std::string, EventCounts> read_ended_processes(const fs::path& directory) {
+  std::map<std::string, EventCounts> ended;
+  std::ifstream file(directory / kEndedFile);
+  const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
+  if (!json.is_object()) {
+    return ended;
+  }
+  for (const auto& [name, process] : json.items()) {
+    ended.emplace(name, EventCounts{.pid = process.value("pid", std::int64_t{0}),
+                                    .process = process.value("process", ""),
+                                    .begin = process.value("begin", std::uint64_t{0}),
+                                    .end = process.value("end", std::uint64_t{0}),
+                                    .cpu = process.value("cpu", std::uint64_t{0}),
+                                    .reached = process.value("reached", std::uint64_t{0}),
+                                    .missed = process.value("missed", std::uint64_t{0}),
+                                    .events = process.value("events", std::map<std::string, std::uint64_t>())});
+  }
+  return ended;
+}
+
+// Replaces the file as a whole. False if it cannot be written.
+bool write_ended_processes(const fs::path& directory, const std::map<std::string, EventCounts>& ended) {
+  nlohmann::json json = nlohmann::json::object();
+  for (const auto& [name, process] : ended) {
+    json[name] = {{"pid", process.pid},       {"process", process.process}, {"begin", process.begin},
+                  {"end", process.end},       {"cpu", process.cpu},         {"reached", process.reached},
+                  {"missed", process.missed}, {"events", process.events}};
+  }
+  try {
+    launch::replace_file((directory / kEndedFile).string(),
+                         json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  } catch (const std::system_error&) {
+    return false;
+  }
+  return true;
 }
 
 }  // namespace

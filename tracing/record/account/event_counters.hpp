@@ -3,15 +3,32 @@
 // libtracetools (docs/tracetools.md).
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <vector>
 
-#include "tracing/record/account/event_counts.hpp"
-
 namespace tracing {
+
+// How many events one process has fired, as it says itself.
+struct EventCounts {
+  std::int64_t pid = 0;
+  std::string process;                          // the name of its program
+  std::uint64_t begin = 0;                      // CLOCK_MONOTONIC, ns
+  std::uint64_t end = 0;                        // 0: it runs, or was killed
+  std::uint64_t cpu = 0;                        // ns of processor time until `end`
+  std::uint64_t reached = 0;                    // when the first session reached it, as `begin`; 0: none has
+  std::uint64_t missed = 0;                     // events that it fired before, and no state dump has told later
+  std::map<std::string, std::uint64_t> events;  // fired while a session recorded them; none that is zero
+
+  std::uint64_t total() const {
+    return std::accumulate(events.begin(), events.end(), std::uint64_t{0},
+                           [](std::uint64_t sum, const auto& event) { return sum + event.second; });
+  }
+};
 
 // What libtracetools looks for in the environment of a process.
 inline constexpr const char* kEventCountersVariable = "TRACETOOLS_EVENT_COUNTERS";

@@ -5,6 +5,13 @@
 #include <numeric>
 
 namespace tracing {
+namespace {
+
+double ratio(double part, double whole) {
+  return whole > 0 ? part / whole : 0;
+}
+
+}  // namespace
 
 std::uint64_t LossAccount::discarded_events() const {
   return std::accumulate(channels.begin(), channels.end(), std::uint64_t{0},
@@ -34,6 +41,18 @@ bool LossAccount::has_losses() const {
     return channel.discarded_events + channel.lost_packets + before.discarded_events != 0 ||
            (before.why == BeforeFirstPacket::kLost && before.packets != 0);
   });
+}
+
+double ProcessAccount::processor_share(double ns_per_event) const {
+  return ratio(tracing_seconds(ns_per_event), seconds);
+}
+
+double ProcessAccount::own_share(double ns_per_event) const {
+  return ratio(tracing_seconds(ns_per_event), cpu_seconds);
+}
+
+double ProcessAccount::ns_per_callback(double ns_per_event) const {
+  return ratio(static_cast<double>(events) * ns_per_event, static_cast<double>(callbacks));
 }
 
 }  // namespace tracing

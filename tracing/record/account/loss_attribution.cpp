@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "tracing/record/account/loss_account.hpp"
 #include "tracing/record/account/packet_losses.hpp"
-#include "tracing/record/account/process_account.hpp"
 #include "tracing/record/account/recorded_events.hpp"
-#include "tracing/record/account/seconds.hpp"
+#include "tracing/record/account/stream_packets.hpp"
 #include "tracing/record/plan/trace_error.hpp"
 
 namespace tracing {

@@ -14,7 +14,6 @@
 
 #include "tracing/record/account/event_counters.hpp"
 #include "tracing/record/account/loss_account.hpp"
-#include "tracing/record/account/process_account.hpp"
 #include "tracing/record/account/recorded_events.hpp"
 #include "tracing/record/account/stream_packets.hpp"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tracing/record/account/event_cuts.hpp"
-#include "tracing/record/account/process_account.hpp"
+#include "tracing/record/account/loss_account.hpp"
 
 namespace tracing {
 namespace {

@@ -42,4 +42,9 @@ std::vector<Stream> read_streams(const std::filesystem::path& directory,
 // When the first packet of all streams begins; the greatest number when there is none.
 std::uint64_t first_time(const std::vector<Stream>& streams);
 
+// Times of a trace, as reports print them.
+inline double to_seconds(std::uint64_t nanoseconds) {
+  return static_cast<double>(nanoseconds) / 1e9;
+}
+
 }  // namespace tracing

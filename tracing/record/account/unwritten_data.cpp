@@ -14,7 +14,7 @@
 #include <limits>
 
 #include "tracing/record/account/loss_account.hpp"
-#include "tracing/record/account/seconds.hpp"
+#include "tracing/record/account/stream_packets.hpp"
 
 namespace tracing {
 namespace {

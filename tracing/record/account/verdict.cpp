@@ -15,7 +15,6 @@
 #include "tracing/record/account/event_cuts.hpp"
 #include "tracing/record/account/loss_account.hpp"
 #include "tracing/record/account/packet_losses.hpp"
-#include "tracing/record/account/process_account.hpp"
 #include "tracing/record/plan/trace_error.hpp"
 
 namespace tracing {

@@ -8,8 +8,15 @@
 #include <vector>
 
 #include "tracing/record/plan/channel_plan.hpp"
+#include "tracing/record/plan/perf_counters.hpp"
 
 namespace tracing {
+
+// Why this process cannot count it (no such hardware counter, no permission), or "" when it can.
+std::string why_not_countable(const PerfCounter& counter);
+
+// One for each thread counter that cannot be counted here: LTTng would record no event at all then, without an error.
+std::vector<std::string> perf_warnings(const std::vector<std::string>& context_fields_ust);
 
 // Tries it: a session of its own records one event of the program `probe` (launch-trace-probe) with these fields of
 // userspace. Takes some tenths of a second. Needs a session daemon. Throws TraceError.

@@ -17,7 +17,6 @@
 #include "tracing/record/account/losses_by_process.hpp"
 #include "tracing/record/account/packet_losses.hpp"
 #include "tracing/record/account/session_pauses.hpp"
-#include "tracing/record/account/session_step.hpp"
 #include "tracing/record/account/stream_packets.hpp"
 #include "tracing/record/account/unwritten_data.hpp"
 #include "tracing/record/account/verdict.hpp"

@@ -4,9 +4,10 @@
 
 #include <chrono>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "tracing/record/account/session_step.hpp"
+#include "tracing/record/account/loss_account.hpp"
 
 namespace tracing {
 
@@ -14,7 +15,10 @@ namespace tracing {
 class StepTimer {
  public:
   explicit StepTimer(std::vector<SessionStep>& steps) : steps_(steps) {}
-  void finished(std::string name);
+  void finished(std::string name) {
+    const auto now = std::chrono::steady_clock::now();
+    steps_.push_back({std::move(name), now - std::exchange(begin_, now)});
+  }
 
  private:
   std::vector<SessionStep>& steps_;

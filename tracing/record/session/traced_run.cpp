@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "tracing/record/account/loss_text.hpp"
-#include "tracing/record/account/session_step.hpp"
 #include "tracing/record/lttng/installed_program.hpp"
 #include "tracing/record/plan/preload.hpp"
 #include "tracing/record/plan/trace_error.hpp"

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "tracing/record/account/loss_account.hpp"
-#include "tracing/record/account/session_step.hpp"
 #include "tracing/record/plan/trace_config.hpp"
 #include "tracing/record/session/run_watch.hpp"
 #include "tracing/record/session/session_details.hpp"
