@@ -9,7 +9,7 @@
 #include <random>
 #include <sstream>
 
-#include "launcher/python/interpreter/python_expression.hpp"
+#include "launcher/python/interpreter/python_module.hpp"
 #include "launcher/substitution/command_output.hpp"
 #include "launcher/substitution/substitution_call.hpp"
 #include "launcher/substitution/template_parser.hpp"

@@ -61,4 +61,8 @@ python::Runtime& python_runtime() {
   return *runtime;
 }
 
+std::string evaluate_python(const std::string& expression, const std::string& modules) {
+  return python_runtime().evaluate(expression, modules);
+}
+
 }  // namespace launch

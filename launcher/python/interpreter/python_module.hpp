@@ -18,4 +18,9 @@ void use_python_module(std::string path);
 // From now on errors of Python carry its traceback. Does not load the module.
 void show_python_tracebacks();
 
+// str() of the value of `expression`. `modules` are names separated by commas; the names of "math" are also available
+// unqualified. Throws std::runtime_error with one line: Python's error, or what to install when there is no Python.
+// Must not be called by several threads at once.
+std::string evaluate_python(const std::string& expression, const std::string& modules);
+
 }  // namespace launch
