@@ -7,7 +7,7 @@
 #include "actions/trace/trace_scope.hpp"
 #include "actions/trace/trace_settings.hpp"
 #include "base/diagnostics/diagnostic.hpp"
-#include "base/environment/session_suffix.hpp"
+#include "base/environment/test_run_variables.hpp"
 #include "launcher/visit/launch_context.hpp"
 #include "tracing/record/session/tracer.hpp"
 

@@ -7,6 +7,8 @@
 
 #include <cerrno>
 
+#include "base/files/unique_fd.hpp"
+
 namespace launch {
 
 sockaddr ipv4_address(in_addr_t address) {
@@ -33,6 +35,15 @@ bool take_multicast(int socket, ifreq& device) {
   route.rt_flags = RTF_UP;
   route.rt_dev = device.ifr_name;
   return ::ioctl(socket, SIOCADDRT, &route) == 0 || errno == EEXIST;
+}
+
+int bring_up_loopback(bool other_takes_multicast) {
+  const UniqueFd socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  ifreq interface {};
+  ::strcpy(interface.ifr_name, "lo");
+  const bool is_up =
+      socket && bring_up(socket.get(), interface) && (other_takes_multicast || take_multicast(socket.get(), interface));
+  return is_up ? 0 : errno;
 }
 
 }  // namespace launch

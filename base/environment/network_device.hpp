@@ -17,4 +17,8 @@ bool bring_up(int socket, ifreq& device);
 // Sends all multicast through the device. Returns as bring_up(), true also if multicast has a way already.
 bool take_multicast(int socket, ifreq& device);
 
+// Brings up lo, allows multicast on it and, unless another device takes it, sends all multicast through it, so
+// DDS participants discover each other without any other network. Returns 0, or errno.
+int bring_up_loopback(bool other_takes_multicast = false);
+
 }  // namespace launch

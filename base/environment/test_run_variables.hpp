@@ -6,6 +6,10 @@
 
 namespace launch {
 
+// What the names of LTTng sessions end with in the launches of a test, so that tests with the same launch file run side
+// by side. Launches within launches inherit it.
+inline constexpr const char* kSessionSuffixVariable = "LAUNCH_SESSION_SUFFIX";
+
 // For a look at a test that does not run: `environment` with a value for each variable that it does not have.
 Environment with_variables_of_a_test_run(Environment environment);
 

@@ -18,7 +18,7 @@
 
 #include "base/environment/domain_lease.hpp"
 #include "base/environment/own_prefix.hpp"
-#include "base/environment/session_suffix.hpp"
+#include "base/environment/test_run_variables.hpp"
 #include "base/processes/process_mark.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/process_messages.hpp"

@@ -21,7 +21,7 @@
 #include <system_error>
 
 #include "base/environment/domain_lease.hpp"
-#include "base/environment/loopback.hpp"
+#include "base/environment/network_device.hpp"
 
 namespace test_support {
 namespace {

@@ -24,7 +24,7 @@
 
 #include "base/environment/domain_lease.hpp"
 #include "base/environment/own_environment.hpp"
-#include "base/environment/session_suffix.hpp"
+#include "base/environment/test_run_variables.hpp"
 #include "base/files/unique_fd.hpp"
 #include "base/processes/spawn.hpp"
 #include "launch_trace_testing/event_query.hpp"

@@ -19,7 +19,7 @@
 #include <system_error>
 #include <utility>
 
-#include "base/environment/loopback.hpp"
+#include "base/environment/network_device.hpp"
 #include "base/files/pipe.hpp"
 #include "launcher/process/exec/launch_exec_protocol.hpp"
 #include "launcher/process/isolation/tap_device.hpp"
