@@ -69,6 +69,6 @@ struct XmlCursor {
 
 // Reads <?xml ... ?>, which stands at the cursor. If the file is in ISO-8859-1, the cursor moves on in a copy of the
 // file in UTF-8.
-void read_xml_declaration(XmlCursor& cursor);  // xml_declaration.cpp
+void read_xml_declaration(XmlCursor& cursor);
 
 }  // namespace launch
