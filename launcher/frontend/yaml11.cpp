@@ -41,7 +41,10 @@ class Pattern {
       throw std::logic_error(text);
     }
   }
-  bool matches(const std::string& text) const { return ::regexec(&compiled_, text.c_str(), 0, nullptr, 0) == 0; }
+  bool matches(std::string_view text) const {
+    regmatch_t whole{0, static_cast<regoff_t>(text.size())};
+    return ::regexec(&compiled_, text.data(), 1, &whole, REG_STARTEND) == 0;
+  }
 
  private:
   regex_t compiled_{};
@@ -49,13 +52,14 @@ class Pattern {
 
 // kInt, kFloat, or kOther for a date; kString if the text is none of them. A pattern is compiled when it is first
 // needed, which takes 20 to 60 microseconds. Usual numbers, such as 10 and 0.5, need none.
-Scalar::Type type_of_number(const std::string& text) {
+Scalar::Type type_of_number(std::string_view text) {
   constexpr std::string_view kDigits = "0123456789";
   const std::size_t whole = std::min(text.find_first_not_of(kDigits), text.size());
   if (whole == text.size() && (whole == 1 || text.front() != '0')) {
     return Scalar::Type::kInt;
   }
-  if (whole != 0 && text[whole] == '.' && text.find_first_not_of(kDigits, whole + 1) == std::string::npos) {
+  if (whole != 0 && text.substr(whole).starts_with('.') &&
+      text.find_first_not_of(kDigits, whole + 1) == std::string_view::npos) {
     return Scalar::Type::kFloat;
   }
   static const Pattern int_pattern(
@@ -223,7 +227,7 @@ bool may_be_word(std::string_view text) {
 }  // namespace
 
 void set_yaml11_type(Scalar& scalar) {
-  const std::string& text = scalar.text.text();
+  const std::string_view text = scalar.text.text();
   scalar.type = Scalar::Type::kString;
   if (!may_be_number(text) && !may_be_word(text)) {
     return;

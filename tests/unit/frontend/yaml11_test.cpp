@@ -83,6 +83,12 @@ TEST(Yaml11, LeavesWhatYaml12WouldTypeAsText) {
   }
 }
 
+TEST(Yaml11, ReadsATextToItsEnd) {
+  for (const std::string& text : {std::string("1\0x", 3), std::string("1.5\0", 4), std::string("1:30\n")}) {
+    EXPECT_EQ(typed(text).type, Scalar::Type::kString) << text;
+  }
+}
+
 TEST(Yaml11, KnowsDatesAndNumbersThatFitNowhere) {
   for (const char* text : {"2024-01-01", "2024-1-1 1:00:00", "2024-01-01T10:00:00.5+01:00", "2001-12-14t21:59:43Z",
                            "9223372036854775808", "-9223372036854775809", "0x_"}) {
