@@ -4,7 +4,6 @@
 #include <pybind11/stl.h>
 
 #include "launcher/python/module/python_failure.hpp"
-#include "launcher/python/module/read_place.hpp"
 
 namespace py = pybind11;
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/python/module/python_failure.hpp"
 
+#include <cstdint>
 #include <string>
-
-#include "launcher/python/module/read_place.hpp"
 
 namespace py = pybind11;
 
@@ -35,6 +34,15 @@ void throw_failure(py::error_already_set& error) {
     message = std::string("a Python error that can't be explained: ") + error.what();
   }
   throw Error(message, std::move(where), std::move(help), std::move(traceback), std::move(cause));
+}
+
+Place read_place(const py::handle& place) {
+  if (place.is_none()) {
+    return {};
+  }
+  const auto parts = place.cast<py::tuple>();
+  return {parts[0].cast<std::string>(), parts[1].cast<std::uint32_t>(), parts[2].cast<std::uint32_t>(),
+          parts[3].cast<std::uint32_t>()};
 }
 
 }  // namespace launch::python

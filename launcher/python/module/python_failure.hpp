@@ -12,6 +12,9 @@
 
 namespace launch::python {
 
+// `place` is (file, line, begin, end), or None.
+Place read_place(const pybind11::handle& place);
+
 // Throws Error for a Python exception. It carries the traceback if `shows_tracebacks()` is set.
 [[noreturn]] void throw_failure(pybind11::error_already_set& error);
 
