@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -30,6 +32,11 @@ Json json_of(const Measurement& one) {
   }
   json["samples_ns"] = one.samples;
   return json;
+}
+
+std::optional<Kind> kind_of(const std::string& name) {
+  const auto found = std::find(std::begin(kKindNames), std::end(kKindNames), name);
+  return found == std::end(kKindNames) ? std::nullopt : std::optional(static_cast<Kind>(found - kKindNames));
 }
 
 Measurement measurement_of(const Json& json) {

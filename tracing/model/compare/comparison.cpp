@@ -236,10 +236,6 @@ void find_changed_steps(std::vector<Change>& changes, const Runs& before) {
 
 }  // namespace
 
-const char* statistic_name(Statistic statistic) {
-  return statistic == Statistic::kMedian ? "median" : "p90";
-}
-
 Comparison compare(const Runs& before, const Runs& after, const CompareOptions& options) {
   Comparison result;
   const std::map<Key, Found> earlier = by_key(before);

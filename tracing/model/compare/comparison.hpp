@@ -9,11 +9,6 @@
 // difference must hold between every two of them.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "tracing/model/compare/rank_test.hpp"
 #include "tracing/model/compare/run_summary.hpp"
 
@@ -27,8 +22,12 @@ struct CompareOptions {
 
 enum class Statistic { kMedian, kP90 };
 
-// "median", "p90"
-const char* statistic_name(Statistic statistic);
+// In the order of Statistic.
+inline constexpr const char* kStatisticNames[] = {"median", "p90"};
+
+constexpr const char* statistic_name(Statistic statistic) {
+  return kStatisticNames[static_cast<std::size_t>(statistic)];
+}
 
 struct Change {
   Kind kind = Kind::kCallback;
@@ -37,27 +36,62 @@ struct Change {
   Statistic statistic = Statistic::kMedian;
   double before_ns = 0;
   double after_ns = 0;
-  Shift shift;             // of the values of blocks, nanoseconds
-  double probability = 1;  // corrected
-  bool doubtful = false;   // events may be missing on either side
-  // Of a chain: the callbacks in it whose durations have changed in the same direction.
+  Shift shift;  // of the values of blocks, nanoseconds
+  double probability = 1;
+  bool doubtful = false;  // on either side
   std::vector<std::string> changed_steps;
 
   bool is_slower() const { return shift.estimate > 0; }
+  const char* kind_word() const { return kind_name(kind); }
+  const char* statistic_word() const { return statistic_name(statistic); }
+  double shift_ns() const { return shift.estimate; }
+  double shift_low_ns() const { return shift.low; }
+  double shift_high_ns() const { return shift.high; }
+
+  static const Field<Change> kFields[];
+};
+inline constexpr Field<Change> Change::kFields[] = {
+    {"kind", {&Change::kind_word, kKindNames}, ""},
+    {"subject", &Change::subject, ""},
+    {"quantity", &Change::quantity, ""},
+    {"statistic", {&Change::statistic_word, kStatisticNames}, ""},
+    {"before_ns", &Change::before_ns, ""},
+    {"after_ns", &Change::after_ns, ""},
+    {"shift_ns", &Change::shift_ns, "positive: slower"},
+    {"shift_low_ns", &Change::shift_low_ns, ""},
+    {"shift_high_ns", &Change::shift_high_ns, ""},
+    {"probability", &Change::probability, "corrected for the number of tests"},
+    {"doubtful", &Change::doubtful, "events may be missing"},
+    {"changed_steps", &Change::changed_steps, "of a chain: its callbacks that have changed in the same direction"},
 };
 
 // A subject that only one side has.
 struct Lone {
   Kind kind = Kind::kCallback;
   std::string subject;
+
   bool operator==(const Lone&) const = default;
+  const char* kind_word() const { return kind_name(kind); }
+
+  static const Field<Lone> kFields[];
+};
+inline constexpr Field<Lone> Lone::kFields[] = {
+    {"kind", {&Lone::kind_word, kKindNames}, ""},
+    {"subject", &Lone::subject, ""},
 };
 
 // The median durations of all callbacks together, which also differ when the machine was slower.
 struct Overall {
   std::size_t callbacks = 0;
-  std::size_t slower = 0;  // so many of them take longer
-  double ratio = 0;        // of the callback in the middle: the shift as a part of the duration before
+  std::size_t slower = 0;
+  double ratio = 0;
+
+  static const Field<Overall> kFields[];
+};
+inline constexpr Field<Overall> Overall::kFields[] = {
+    {"callbacks", &Overall::callbacks, ""},
+    {"slower", &Overall::slower, "so many of them take longer"},
+    {"ratio", &Overall::ratio, "of the callback in the middle: the shift as a part of the duration before"},
 };
 
 struct Comparison {

@@ -2,18 +2,18 @@
 // What is kept of a run to compare it with others, as plain data of bounded size.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
+#include "tracing/model/analysis/results/field.hpp"
 
 namespace tracing::compare {
 
 enum class Kind { kCallback, kHop, kChain, kCall };
 
-// "callback", "hop", "chain", "call"
-const char* kind_name(Kind kind);
-std::optional<Kind> kind_of(const std::string& name);
+// In the order of Kind.
+inline constexpr const char* kKindNames[] = {"callback", "hop", "chain", "call"};
+
+constexpr const char* kind_name(Kind kind) {
+  return kKindNames[static_cast<std::size_t>(kind)];
+}
 
 // One quantity of one subject. Kind, subject and quantity together name it in every run: they hold no process numbers
 // and no addresses.
@@ -31,11 +31,20 @@ struct Measurement {
 
 struct RunSummary {
   std::string directory;      // of the trace
-  std::int64_t begin_ns = 0;  // since the epoch; 0: no event
+  std::int64_t begin_ns = 0;  // 0: no event
   std::int64_t duration_ns = 0;
   std::uint64_t events = 0;
-  std::string remark;  // why it is incomplete: "37 events lost", why reading stopped early; empty: it is complete
+  std::string remark;                     // "37 events lost", why reading stopped early
   std::vector<Measurement> measurements;  // by kind, subject, quantity
+
+  static const Field<RunSummary> kFields[];
+};
+inline constexpr Field<RunSummary> RunSummary::kFields[] = {
+    {"directory", &RunSummary::directory, ""},
+    {"begin_ns", &RunSummary::begin_ns, "since the epoch", trait::kTime},
+    {"duration_ns", &RunSummary::duration_ns, ""},
+    {"events", &RunSummary::events, ""},
+    {"remark", &RunSummary::remark, "why the trace is incomplete; empty if it is complete"},
 };
 
 // One side of a comparison: a trace, or a baseline with one or several runs.

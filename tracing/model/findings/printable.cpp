@@ -41,9 +41,22 @@ void clean(std::string& text) {
   }
 }
 
-template <class... Texts>
-void clean_all(Texts&... texts) {
-  (clean(texts), ...);
+void clean(std::vector<std::string>& texts) {
+  for (std::string& text : texts) {
+    clean(text);
+  }
+}
+
+// The texts of every field.
+template <HasFields Result>
+void clean(std::vector<Result>& results) {
+  for (Result& result : results) {
+    for (const Field<Result>& field : Result::kFields) {
+      if (std::string* const text = field.member.text_in(result)) {
+        clean(*text);
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -63,63 +76,29 @@ std::string printable(std::string_view text) {
 }
 
 TraceResults printable(TraceResults results) {
-  for (ProcessResult& one : results.overview.processes) {
-    clean_all(one.name, one.host);
-  }
-  for (EventCount& one : results.overview.event_counts) {
-    clean(one.name);
-  }
-  for (LossResult& one : results.overview.losses) {
-    clean(one.stream);
-  }
+  clean(results.overview.processes);
+  clean(results.overview.event_counts);
+  clean(results.overview.losses);
   Ros2Results& ros2 = results.ros2;
-  for (CallbackResult& one : ros2.callbacks) {
-    clean_all(one.node, one.owner_name, one.symbol, one.ran_instead);
-  }
-  for (TopicResult& one : ros2.topics) {
-    clean(one.name);
-  }
-  for (SubscriptionResult& one : ros2.subscriptions) {
-    clean_all(one.node, one.topic);
-  }
-  for (ExecutorResult& one : ros2.executors) {
-    clean(one.longest_callback);
-  }
+  clean(ros2.callbacks);
+  clean(ros2.topics);
+  clean(ros2.subscriptions);
+  clean(ros2.executors);
+  clean(ros2.chains);
   for (ChainResult& one : ros2.chains) {
-    clean(one.name);
-    for (ChainResult::Step& step : one.steps) {
-      clean_all(step.node, step.callback, step.topic);
-    }
+    clean(one.steps);
   }
-  for (std::string& one : ros2.unseen_chains) {
-    clean(one);
-  }
-  for (LifecycleResult& one : ros2.lifecycle) {
-    clean_all(one.node, one.state);
-  }
-  for (CallResult& one : ros2.calls) {
-    clean_all(one.service, one.client, one.server);
-  }
-  for (ActionResult& one : ros2.actions) {
-    clean_all(one.name, one.client, one.server);
-  }
-  for (NodeResult& one : ros2.nodes) {
-    clean(one.name);
-  }
-  for (ExecutionResult& one : ros2.executions) {
-    clean_all(one.node, one.service);
-  }
-  for (StartResult& one : results.starts) {
-    clean_all(one.process, one.file);
-  }
+  clean(ros2.unseen_chains);
+  clean(ros2.lifecycle);
+  clean(ros2.calls);
+  clean(ros2.actions);
+  clean(ros2.nodes);
+  clean(ros2.executions);
+  clean(results.starts);
   if (results.startup) {
-    for (StartStep& one : results.startup->critical_path) {
-      clean_all(one.process, one.what);
-    }
+    clean(results.startup->critical_path);
   }
-  for (std::string& one : results.warnings) {
-    clean(one);
-  }
+  clean(results.warnings);
   return results;
 }
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tracing/model/analysis/results/field.hpp"
+
 namespace tracing {
 
 struct RecordedVerdict {
@@ -16,9 +18,11 @@ struct RecordedVerdict {
     std::string name;
     std::int64_t vpid = 0;
     std::uint64_t events = 0;
-    double seconds = 0;                          // that tracing took of its threads
-    double processor_share = 0;                  // of one processor, while it ran
-    std::optional<double> ns_per_callback = {};  // that tracing adds to a callback and what leads to it
+    double seconds = 0;
+    double processor_share = 0;
+    std::optional<double> ns_per_callback = {};
+
+    static const Field<ProcessCost> kFields[];
   };
   std::vector<std::string> absences = {};     // sentences: programs and events that were not there, damage
   std::vector<std::string> overwritten = {};  // "12 events overwritten, as asked"; what else the first packets lack
@@ -26,6 +30,15 @@ struct RecordedVerdict {
   std::uint64_t lost_packets = 0;
   std::optional<double> ns_per_event = {};  // measured on the machine of the recording; the largest of several
   std::vector<ProcessCost> processes = {};  // from the one with the greatest cost
+};
+inline constexpr Field<RecordedVerdict::ProcessCost> RecordedVerdict::ProcessCost::kFields[] = {
+    {"name", &ProcessCost::name, ""},
+    {"vpid", &ProcessCost::vpid, ""},
+    {"events", &ProcessCost::events, ""},
+    {"seconds", &ProcessCost::seconds, "that tracing took of its threads"},
+    {"processor_share", &ProcessCost::processor_share, "of one processor, while it ran", trait::kNotOnPage},
+    {"ns_per_callback", &ProcessCost::ns_per_callback,
+     "that tracing adds to a callback and what leads to it (`docs/trace_control.md`)"},
 };
 
 }  // namespace tracing

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/show/export/tables.hpp"
 
+#include <functional>
 #include <optional>
 #include <string>
+#include <type_traits>
 
-#include "tracing/model/analysis/callback_owner_name.hpp"
 #include "tracing/model/timeline/state_name.hpp"
 
 namespace tracing {
@@ -58,6 +59,42 @@ Table object_table(std::string_view name, std::vector<Column> columns, const std
               emit(row);
             }
           }};
+}
+
+// Cells are texts and integers. A field of another type has no place in a table: trait::kNotInTables.
+Cell cell_of(const std::string& text) {
+  return std::string_view(text);
+}
+Cell cell_of(const std::optional<std::int64_t>& value) {
+  return optional(value);
+}
+template <class Value>
+Cell cell_of(const Value& value) {
+  if constexpr (std::is_integral_v<Value>) {
+    return static_cast<std::int64_t>(value);
+  } else {
+    return {};
+  }
+}
+
+// For each list of results that has no names for other tables to refer to: a column for each field.
+template <class Result>
+Table result_table(std::string_view name, const std::vector<Result>& results) {
+  std::vector<const Field<Result>*> fields;
+  std::vector<Column> columns;
+  for (const Field<Result>& field : Result::kFields) {
+    if (!field.has(trait::kNotInTables)) {
+      fields.push_back(&field);
+      columns.push_back({field.name, field.member.is_text()});
+    }
+  }
+  return object_table(name, std::move(columns), results, [fields](const Result& result) {
+    Row row;
+    for (const Field<Result>* field : fields) {
+      field->member.visit([&](auto member) { row.push_back(cell_of(std::invoke(member, result))); });
+    }
+    return row;
+  });
 }
 
 std::vector<Table> object_tables(const Timeline& timeline) {
@@ -176,20 +213,8 @@ Table state_table(const Timeline& timeline) {
 
 std::vector<Table> result_tables(const TraceResults& results) {
   return {
-      object_table(
-          "starts",
-          {{"vpid"}, {"process", kText}, {"file", kText}, {"line"}, {"exec_ns"}, {"node_after_ns"}, {"ready_after_ns"}},
-          results.starts,
-          [](const StartResult& start) {
-            return Row{start.vpid,    std::string_view(start.process), std::string_view(start.file),  start.line,
-                       start.exec_ns, optional(start.node_after_ns),   optional(start.ready_after_ns)};
-          }),
-      object_table("losses", {{"stream", kText}, {"events"}, {"packets"}, {"uncounted"}, {"begin_ns"}, {"end_ns"}},
-                   results.overview.losses,
-                   [](const LossResult& loss) {
-                     return Row{std::string_view(loss.stream),  number(loss.events),     number(loss.packets),
-                                number(loss.uncounted ? 1 : 0), optional(loss.begin_ns), optional(loss.end_ns)};
-                   }),
+      result_table("starts", results.starts),
+      result_table("losses", results.overview.losses),
       {"event_counts",
        {{"vpid"}, {"event", kText}, {"events"}},
        [&overview = results.overview](const Emit& emit) {

@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "tracing/model/analysis/callback_owner_name.hpp"
 #include "tracing/model/findings/finding.hpp"
-#include "tracing/show/page/page_json.hpp"
 #include "tracing/show/page/result_facts.hpp"
 
 namespace tracing {
@@ -70,39 +68,23 @@ Json objects(const Timeline& timeline) {
 
 Json overview(const TracedSystem& system, std::int64_t begin_ns) {
   const TraceOverview& overview = system.results.overview;
-  Json events = Json::array();
-  for (const EventCount& event : overview.event_counts) {
-    events.push_back({{"name", event.name}, {"total", event.total}});
-  }
-  Json losses = Json::array();
-  for (const LossResult& loss : overview.losses) {
-    const auto relative = [begin_ns](const std::optional<std::int64_t>& time) {
-      return time ? Json(*time - begin_ns) : Json(nullptr);
-    };
-    losses.push_back({{"stream", loss.stream},
-                      {"events", loss.events},
-                      {"packets", loss.packets},
-                      {"uncounted", loss.uncounted},
-                      {"begin", relative(loss.begin_ns)},
-                      {"end", relative(loss.end_ns)}});
-  }
+  const ResultFacts facts(begin_ns);
   return {{"events", overview.events},
           {"lost_events", std::max(overview.lost_events(), system.verdict.discarded_events)},
           {"lost_packets", std::max(overview.lost_packets(), system.verdict.lost_packets)},
           {"lost_uncounted", overview.lost_uncounted()},
-          {"event_counts", events},
-          {"losses", losses}};
+          {"event_counts", facts.of(overview.event_counts)},
+          {"losses", facts.of(overview.losses)}};
 }
 
 Json processes(const Timeline& timeline, const TraceOverview& overview) {
   Json list = Json::array();
   for (const timeline::Process& process : timeline.processes) {
-    const ProcessResult counted = process.place ? overview.processes[*process.place] : ProcessResult{};
-    list.push_back({{"vpid", process.vpid},
-                    {"name", process.name},
-                    {"host", process.host},
-                    {"events", counted.events},
-                    {"doubtful", counted.doubtful}});
+    ProcessResult result = process.place ? overview.processes[*process.place] : ProcessResult{};
+    result.vpid = process.vpid;
+    result.name = process.name;
+    result.host = process.host;
+    list.push_back(ResultFacts(timeline.begin_ns).with({}, result));
   }
   return list;
 }
@@ -124,45 +106,30 @@ Json topic_at(const Timeline& timeline, const std::string& name) {
 }
 
 Json findings(const TracedSystem& system) {
+  const ResultFacts facts(system.timeline.begin_ns);
   Json list = Json::array();
   for (const Finding& finding : find_worth_a_look(system.results)) {
-    list.push_back({{"kind", name_of(finding.kind)},
-                    {"title", title_of(finding.kind)},
-                    {"weight", finding.weight},
-                    {"subject", finding.subject},
-                    {"figures", finding.figures},
-                    {"callback", finding.callback ? Json(*finding.callback) : Json(nullptr)},
-                    {"topic", topic_at(system.timeline, finding.topic)}});
+    list.push_back(facts.with({{"kind", finding.name()}, {"title", finding.title()}}, finding));
+    list.back()["callback"] = facts.of(finding.callback);
+    list.back()["topic"] = topic_at(system.timeline, finding.topic);
   }
   return list;
 }
 
 Json chains(const TracedSystem& system) {
+  const ResultFacts facts(system.timeline.begin_ns);
   Json list = Json::array();
   for (const ChainResult& chain : system.results.ros2.chains) {
     Json steps = Json::array();
     for (const ChainResult::Step& step : chain.steps) {
-      Json json{{"callback", step.callback_id}};
-      if (!step.topic.empty()) {
-        json["topic"] = topic_at(system.timeline, step.topic);
-        json["until_publish"] = durations_json(step.until_publish);
-        json["transfer"] = durations_json(step.transfer);
-        json["executor"] = durations_json(step.executor);
-        json["take"] = durations_json(step.take);
+      Json fact{{"callback", step.callback_id}};
+      if (step.has_message()) {
+        fact["topic"] = topic_at(system.timeline, step.topic);
       }
-      steps.push_back(std::move(json));
+      steps.push_back(facts.with(std::move(fact), step));
     }
-    list.push_back({{"name", chain.name},
-                    {"budget", optional_json(chain.budget_ns)},
-                    {"over_budget", chain.over_budget},
-                    {"steps", std::move(steps)},
-                    {"last_callback", durations_json(chain.last_callback)},
-                    {"response", durations_json(chain.response)},
-                    {"reaction", durations_json(chain.reaction)},
-                    {"age", durations_json(chain.age)},
-                    {"longest_end", chain.longest_end_ns - system.timeline.begin_ns},
-                    {"is_loop", chain.is_loop},
-                    {"doubtful", chain.doubtful}});
+    const Json begin{{"name", nullptr}, {"budget", nullptr}, {"over_budget", nullptr}, {"steps", std::move(steps)}};
+    list.push_back(facts.with(begin, chain));
   }
   return list;
 }

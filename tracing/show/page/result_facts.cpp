@@ -5,21 +5,26 @@ namespace tracing {
 
 namespace {
 
+// The process at a place in the overview; null if there is none.
+PageJson process_at(const timeline::Timeline& timeline, const std::optional<ProcessIndex>& place) {
+  for (std::size_t id = 0; place && id < timeline.processes.size(); ++id) {
+    if (timeline.processes[id].place == place) {
+      return id;
+    }
+  }
+  return nullptr;
+}
+
 PageJson starts(const TracedSystem& system) {
-  const std::int64_t begin_ns = system.timeline.begin_ns;
+  const ResultFacts facts(system.timeline.begin_ns);
   PageJson list = PageJson::array();
   for (const StartResult& start : system.results.starts) {
-    list.push_back({{"process", process_json(system.timeline, start.place)},
-                    {"name", start.process},
-                    {"file", start.file},
-                    {"line", start.line},
-                    {"spawn", start.spawn_ns ? PageJson(*start.spawn_ns - begin_ns) : PageJson(nullptr)},
-                    {"exec", start.exec_ns - begin_ns},
-                    {"init_after", optional_json(start.init_after_ns)},
-                    {"node_after", optional_json(start.node_after_ns)},
-                    {"ready_after", optional_json(start.ready_after_ns)},
-                    {"callback_after", optional_json(start.callback_after_ns)},
-                    {"publication_after", optional_json(start.publication_after_ns)}});
+    // The keys that the page has in another order than the report.
+    PageJson fact{{"process", process_at(system.timeline, start.place)}, {"name", start.process}};
+    for (const char* key : {"file", "line", "spawn", "exec", "init_after"}) {
+      fact[key] = nullptr;
+    }
+    list.push_back(facts.with(std::move(fact), start));
   }
   return list;
 }
@@ -29,47 +34,8 @@ PageJson startup(const TracedSystem& system) {
     return nullptr;
   }
   const StartupResult& startup = *system.results.startup;
-  PageJson path = PageJson::array();
-  for (const StartStep& step : startup.critical_path) {
-    path.push_back({{"process", step.process},
-                    {"what", step.what},
-                    {"begin", step.begin_ns - startup.begin_ns},
-                    {"end", step.end_ns - startup.begin_ns}});
-  }
-  return {{"duration", startup.ready_ns - startup.begin_ns}, {"path", std::move(path)}};
-}
-
-PageJson calls(const TracedSystem& system) {
-  PageJson list = PageJson::array();
-  for (const CallResult& call : system.results.ros2.calls) {
-    list.push_back({{"service", call.service},
-                    {"client", call.client},
-                    {"server", call.server},
-                    {"requests", call.requests},
-                    {"responses", call.responses},
-                    {"round_trip", durations_json(call.round_trip)},
-                    {"request", durations_json(call.request)},
-                    {"in_service", durations_json(call.in_service)},
-                    {"response", durations_json(call.response)}});
-  }
-  return list;
-}
-
-PageJson actions(const TracedSystem& system) {
-  PageJson list = PageJson::array();
-  for (const ActionResult& action : system.results.ros2.actions) {
-    list.push_back({{"name", action.name},
-                    {"client", action.client},
-                    {"server", action.server},
-                    {"goals", action.goals},
-                    {"answers", action.answers},
-                    {"results", action.results},
-                    {"cancels", action.cancels},
-                    {"feedback", action.feedback},
-                    {"acceptance", durations_json(action.acceptance)},
-                    {"execution", durations_json(action.execution)}});
-  }
-  return list;
+  return {{"duration", startup.ready_ns - startup.begin_ns},
+          {"path", ResultFacts(startup.begin_ns).of(startup.critical_path)}};
 }
 
 // Of lifecycle nodes whose processes asked for memory in the trace.
@@ -110,12 +76,12 @@ PageJson cost(const RecordedVerdict& verdict) {
   }
   PageJson processes = PageJson::array();
   for (const RecordedVerdict::ProcessCost& process : verdict.processes) {
-    processes.push_back({{"name", process.name},
-                         {"vpid", process.vpid},
-                         {"events", process.events},
-                         {"seconds", process.seconds},
-                         {"share", process.processor_share},
-                         {"ns_per_callback", process.ns_per_callback ? PageJson(*process.ns_per_callback) : nullptr}});
+    PageJson fact;
+    for (const char* key : {"name", "vpid", "events", "seconds"}) {
+      fact[key] = nullptr;
+    }
+    fact["share"] = process.processor_share;
+    processes.push_back(ResultFacts(0).with(std::move(fact), process));
   }
   return {{"ns_per_event", *verdict.ns_per_event}, {"processes", std::move(processes)}};
 }
@@ -123,10 +89,11 @@ PageJson cost(const RecordedVerdict& verdict) {
 }  // namespace
 
 PageJson result_facts(const TracedSystem& system) {
+  const ResultFacts facts(system.timeline.begin_ns);
   return {{"starts", starts(system)},
           {"startup", startup(system)},
-          {"calls", calls(system)},
-          {"actions", actions(system)},
+          {"calls", facts.of(system.results.ros2.calls)},
+          {"actions", facts.of(system.results.ros2.actions)},
           {"state_memory", state_memory(system)},
           {"callback_memory", callback_memory(system)},
           {"cost", cost(system.verdict)},

@@ -97,7 +97,7 @@ std::string finding_section(const Report& report, const ReportOptions& options) 
   for (const Finding& finding : findings) {
     const Style style = finding.weight >= 70 ? Style::kBad : finding.weight >= 40 ? Style::kWarning : Style::kPlain;
     constexpr std::size_t kTitle = 18;
-    const std::string title = fmt::format("  {:{}}", title_of(finding.kind), kTitle);
+    const std::string title = fmt::format("  {:{}}", finding.title(), kTitle);
     const std::size_t room = options.width - title.size();
     text += styled(title, style, options.color);
     // One line if it fits, else two, or one that is cut.
