@@ -32,6 +32,7 @@ enum ExitCode { kSuccess = 0, kFailure = 1, kUsage = 2, kComparisonFailed = 3 };
 
 struct Arguments {
   std::vector<std::string> directories;
+  std::vector<std::filesystem::path> paths;  // of these, each one once
   bool json = false;
   tracing::ReportOptions text;
   std::optional<std::size_t> top;
@@ -44,12 +45,8 @@ struct Arguments {
   tracing::ComparisonArguments comparison;
 };
 
-void print_error(const std::string& error) {
-  fmt::print(stderr, "{}", launch::command_error("launch report", error));
-}
-
-void print_error(const tracing::TraceReadError& error) {
-  fmt::print(stderr, "{}", launch::command_error("launch report", error.what(), error.remedy()));
+void print_error(const std::string& error, const std::string& remedy = "") {
+  fmt::print(stderr, "{}", launch::command_error("launch report", error, remedy));
 }
 
 // Throws when the text can't be written.
@@ -59,18 +56,6 @@ void print_out(const std::string& text) {
     return;
   }
   throw std::runtime_error(fmt::format("cannot write the output: {}", std::strerror(errno)));
-}
-
-// Each one once.
-std::vector<std::filesystem::path> directories(const Arguments& arguments) {
-  std::vector<std::filesystem::path> paths;
-  for (const std::string& directory : arguments.directories) {
-    const std::filesystem::path path = std::filesystem::weakly_canonical(directory);
-    if (std::find(paths.begin(), paths.end(), path) == paths.end()) {
-      paths.push_back(path);
-    }
-  }
-  return paths;
 }
 
 // What the terminal allows: as many columns as it has, and as many rows of each table as fit with all tables on it.
@@ -115,18 +100,17 @@ void say_what_is_open(const std::vector<std::filesystem::path>& open) {
 }
 
 int print_summary(const Arguments& arguments) {
-  const std::vector<std::filesystem::path> paths = directories(arguments);
   tracing::OverviewCounter counter;
-  tracing::TraceReader reader(paths);
+  tracing::TraceReader reader(arguments.paths);
   say_what_is_open(reader.open_directories());
   reader.read(counter);
-  print_out(summary_line(counter.overview(), tracing::read_verdicts(paths)) + "\n");
+  print_out(summary_line(counter.overview(), tracing::read_verdicts(arguments.paths)) + "\n");
   return kSuccess;
 }
 
 int print_recorded(const Arguments& arguments) {
   tracing::RecordedProcessCounter counter;
-  tracing::TraceReader reader(directories(arguments));
+  tracing::TraceReader reader(arguments.paths);
   reader.read(counter);
   print_out(counter.json() + "\n");
   return kSuccess;
@@ -166,8 +150,8 @@ std::vector<tracing::ChainDefinition> named_chains(const std::vector<std::filesy
 }
 
 int write_files(const Arguments& arguments) {
-  const std::vector<std::filesystem::path> paths = directories(arguments);
-  const tracing::WrittenFiles written = tracing::write_files(paths, arguments.files, named_chains(paths));
+  const tracing::WrittenFiles written =
+      tracing::write_files(arguments.paths, arguments.files, named_chains(arguments.paths));
   say_what_is_open(written.open);
   for (const std::string& line : written.lines) {
     print_out(line + "\n");
@@ -185,24 +169,23 @@ int report_live(const Arguments& arguments) {
   options.text = text_options(arguments);
   options.json = arguments.json;
   options.is_terminal = isatty(STDOUT_FILENO) == 1;
-  options.chains = [&arguments] { return named_chains(directories(arguments)); };
+  options.chains = [&arguments] { return named_chains(arguments.paths); };
   const bool is_session = arguments.directories.size() == 1 && !std::filesystem::is_directory(arguments.directories[0]);
   const bool is_whole = is_session ? report_live_session(arguments.directories[0], options)
-                                   : report_growing_directories(directories(arguments), options);
+                                   : report_growing_directories(arguments.paths, options);
   return is_whole ? kSuccess : kFailure;
 }
 
 int print_comparison(const Arguments& arguments) {
   tracing::ReportOptions options = text_options(arguments);
   options.top = arguments.top.value_or(10);
-  const tracing::ComparisonOutcome outcome =
-      tracing::compare_runs(arguments.comparison, directories(arguments), options);
+  const tracing::ComparisonOutcome outcome = tracing::compare_runs(arguments.comparison, arguments.paths, options);
   print_out(outcome.text);
   return outcome.failed ? kComparisonFailed : kSuccess;
 }
 
 int save_baseline(const Arguments& arguments) {
-  print_out(tracing::save_baseline(arguments.comparison, directories(arguments)) + "\n");
+  print_out(tracing::save_baseline(arguments.comparison, arguments.paths) + "\n");
   return kSuccess;
 }
 
@@ -226,12 +209,10 @@ void check_comparison(const CLI::App& app, const Arguments& arguments) {
 }
 
 int print_report(const Arguments& arguments) {
-  // The paths of the streams have this form, so that they can be shown relative to it.
-  const std::vector<std::filesystem::path> paths = directories(arguments);
-  tracing::TraceAnalysis analysis(nullptr, named_chains(paths));
-  tracing::Report report{paths.front(), {}, ""};
-  report.verdict = tracing::read_verdicts(paths);
-  tracing::TraceReader reader(paths);
+  tracing::TraceAnalysis analysis(nullptr, named_chains(arguments.paths));
+  tracing::Report report{arguments.paths.front(), {}, ""};
+  report.verdict = tracing::read_verdicts(arguments.paths);
+  tracing::TraceReader reader(arguments.paths);
   report.open = reader.open_directories();
   ExitCode exit_code = kSuccess;
   try {
@@ -243,7 +224,7 @@ int print_report(const Arguments& arguments) {
       throw;
     }
     report.error = error.what();
-    print_error(error);
+    print_error(error.what(), error.remedy());
     exit_code = kFailure;
   }
   report.lacks_descriptions = reader.lacks_descriptions();
@@ -331,18 +312,13 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0.1, 3600.0))
       ->needs(live);
   // Instead of printing a report; several may be given.
-  const auto file = [&](const char* name, std::filesystem::path& path, const char* type, const char* help) {
-    app.add_option(name, path, help)->type_name(type)->excludes(json)->excludes(summary)->excludes(live);
-  };
-  file("--html", arguments.files.html, "FILE", "Write a page for a browser: graph, time chart, plots, chains");
-  file("--perfetto", arguments.files.perfetto, "FILE",
-       "Write what ui.perfetto.dev reads (JSON of Chrome's trace events)");
-  file("--csv", arguments.files.csv, "DIR", "Write tables as CSV files to a directory");
-  file("--sql", arguments.files.sqlite, "FILE", "Write tables as an SQLite database");
-  file("--analysis-model", arguments.files.analysis_model, "DIR",
-       "Write the tables of tracetools_analysis as CSV files to a directory");
-  file("--dot", arguments.files.dot, "FILE", "Write the graph of nodes and topics for Graphviz");
-  file("--svg", arguments.files.svg, "FILE", "Write this graph as a picture, drawn by Graphviz");
+  for (const tracing::OutputForm& form : tracing::output_forms()) {
+    app.add_option(form.option, arguments.files.*form.file, form.help)
+        ->type_name(form.type)
+        ->excludes(json)
+        ->excludes(summary)
+        ->excludes(live);
+  }
   app.add_option("--top", arguments.top, "Rows of each table; 0: all")->option_text("N");
   app.add_option("--sort", arguments.text.sort, "What tables are sorted by: " + keys)
       ->option_text("KEY")
@@ -388,6 +364,13 @@ int main(int argc, char** argv) {
 
   arguments.comparison.json = arguments.json;
   try {
+    for (const std::string& directory : arguments.directories) {
+      // The paths of the streams have this form, so that they can be shown relative to it.
+      const std::filesystem::path path = std::filesystem::weakly_canonical(directory);
+      if (std::find(arguments.paths.begin(), arguments.paths.end(), path) == arguments.paths.end()) {
+        arguments.paths.push_back(path);
+      }
+    }
     if (arguments.live) {
       return report_live(arguments);
     }
@@ -405,10 +388,10 @@ int main(int argc, char** argv) {
     }
     return arguments.summary ? print_summary(arguments) : print_report(arguments);
   } catch (const tracing::TraceReadError& error) {
-    print_error(error);
+    print_error(error.what(), error.remedy());
     return kFailure;
   } catch (const std::exception& error) {
-    print_error(std::string(error.what()));
+    print_error(error.what());
     return kFailure;
   }
 }

@@ -20,7 +20,6 @@
 #include "programs/watch/traced_nodes.hpp"
 #include "tracing/decode/reader/trace_read_error.hpp"
 #include "tracing/show/live/live_view.hpp"
-#include "tracing/show/live/read_some.hpp"
 
 namespace {
 

@@ -14,7 +14,6 @@
 
 #include "tracing/show/report/comparison_report.hpp"
 #include "tracing/show/report/report_keys.hpp"
-#include "tracing/show/report/result_json.hpp"
 
 namespace tracing {
 namespace {

@@ -5,7 +5,6 @@
 #include "tracing/decode/reader/trace_read_error.hpp"
 #include "tracing/show/live/live_report.hpp"
 #include "tracing/show/live/live_view.hpp"
-#include "tracing/show/live/read_some.hpp"
 
 namespace tracing {
 

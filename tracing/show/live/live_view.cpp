@@ -223,4 +223,21 @@ void LiveView::clear() {
   }
 }
 
+LiveReader::State read_some(LiveReader& reader, TraceSink& sink) {
+  constexpr std::size_t kMostItems = 4096;
+  TraceItem item;
+  for (std::size_t i = 0; i < kMostItems; ++i) {
+    const LiveReader::State state = reader.next(item);
+    if (state != LiveReader::State::kItem) {
+      return state;
+    }
+    if (item.event != nullptr) {
+      sink.on_event(*item.event);
+    } else {
+      sink.on_loss(*item.loss);
+    }
+  }
+  return LiveReader::State::kItem;
+}
+
 }  // namespace tracing

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "tracing/decode/reader/live_reader.hpp"
+#include "tracing/decode/reader/trace_sink.hpp"
 #include "tracing/model/analysis/trace_analysis.hpp"
 #include "tracing/model/execution/duration_statistics.hpp"
 #include "tracing/show/report/report.hpp"
@@ -60,5 +62,9 @@ class LiveView : public ExecutionSink, public TraceSink {
   std::vector<Activity> subscriptions_;  // latency of messages, by ObjectId
   std::vector<Activity> callbacks_;      // duration, by ObjectId
 };
+
+// Gives what has come of a live session to a sink; not much more than is read in an instant, so that the caller can do
+// something else in between. Returns kItem when there may be more. Throws TraceReadError.
+LiveReader::State read_some(LiveReader& reader, TraceSink& sink);
 
 }  // namespace tracing

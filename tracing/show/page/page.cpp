@@ -3,9 +3,7 @@
 
 #include <stdexcept>
 
-#include "tracing/show/page/page_columns.hpp"
-#include "tracing/show/page/page_facts.hpp"
-#include "tracing/show/page/page_template.hpp"
+#include "tracing/show/page/page_parts.hpp"
 
 namespace tracing {
 

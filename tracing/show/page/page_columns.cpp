@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/show/page/page_columns.hpp"
-
 #include <algorithm>
 #include <unordered_map>
 #include <vector>
 
 #include "tracing/show/page/column_buffer.hpp"
+#include "tracing/show/page/page_parts.hpp"
 
 namespace tracing {
 

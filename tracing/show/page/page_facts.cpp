@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/show/page/page_facts.hpp"
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "tracing/model/findings/finding.hpp"
+#include "tracing/show/page/page_parts.hpp"
 #include "tracing/show/page/result_facts.hpp"
 
 namespace tracing {

@@ -10,7 +10,7 @@
 #include "tracing/model/findings/printable.hpp"
 #include "tracing/model/findings/quantity_text.hpp"
 #include "tracing/model/findings/result_labels.hpp"
-#include "tracing/show/report/duration_rows.hpp"
+#include "tracing/show/report/text_table.hpp"
 
 namespace tracing {
 

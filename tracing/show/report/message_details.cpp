@@ -3,7 +3,7 @@
 
 #include "tracing/model/findings/quantity_text.hpp"
 #include "tracing/show/report/details.hpp"
-#include "tracing/show/report/duration_rows.hpp"
+#include "tracing/show/report/text_table.hpp"
 
 namespace tracing {
 

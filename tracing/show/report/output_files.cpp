@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 
 #include "tracing/model/analysis/trace_analysis.hpp"
@@ -125,7 +127,35 @@ std::string write_page(const TracedSystem& system, const fs::path& path, std::si
   return note;
 }
 
+// A form of another tool, which is complete.
+template <void (*kExport)(const TracedSystem&, const fs::path&)>
+std::string write_whole(const TracedSystem& system, const fs::path& file, std::size_t) {
+  kExport(system, file);
+  return "";
+}
+
+const OutputForm kForms[] = {
+    {"--html", "FILE", "Write a page for a browser: graph, time chart, plots, chains", &OutputFiles::html, write_page},
+    {"--perfetto", "FILE", "Write what ui.perfetto.dev reads (JSON of Chrome's trace events)", &OutputFiles::perfetto,
+     write_whole<export_perfetto>},
+    {"--csv", "DIR", "Write tables as CSV files to a directory", &OutputFiles::csv, write_whole<export_csv>},
+    {"--sql", "FILE", "Write tables as an SQLite database", &OutputFiles::sqlite, write_whole<export_sqlite>},
+    {"--analysis-model", "DIR", "Write the tables of tracetools_analysis as CSV files to a directory",
+     &OutputFiles::analysis_model, nullptr},
+    {"--dot", "FILE", "Write the graph of nodes and topics for Graphviz", &OutputFiles::dot, write_whole<export_dot>},
+    {"--svg", "FILE", "Write this graph as a picture, drawn by Graphviz", &OutputFiles::svg, write_whole<export_svg>},
+};
+
 }  // namespace
+
+std::span<const OutputForm> output_forms() {
+  return kForms;
+}
+
+bool OutputFiles::needs_timeline() const {
+  return std::any_of(std::begin(kForms), std::end(kForms),
+                     [this](const OutputForm& form) { return form.write != nullptr && !(this->*form.file).empty(); });
+}
 
 WrittenFiles write_files(const std::vector<fs::path>& directories, const OutputFiles& files,
                          const std::vector<ChainDefinition>& chains, std::size_t most_in_page) {
@@ -134,29 +164,20 @@ WrittenFiles write_files(const std::vector<fs::path>& directories, const OutputF
   WrittenFiles written;
   written.error = system.error;
   written.open = system.open;
-  const auto write = [&](auto function, const fs::path& file) {
-    if (file.empty()) {
-      return;
-    }
-    const std::string note = function(file);
+  const auto add_line = [&written](const fs::path& file, const std::string& note) {
     std::error_code failed;
     const std::uintmax_t size = fs::file_size(file, failed);
     written.lines.push_back(failed ? file.string() : fmt::format("{}: {}{}", file.native(), format_size(size), note));
   };
-  const auto whole = [&system](auto function) {
-    return [&system, function](const fs::path& file) {
-      function(system, file);
-      return std::string();
-    };
-  };
-  write([&](const fs::path& file) { return write_page(system, file, most_in_page); }, files.html);
-  write(whole(export_perfetto), files.perfetto);
-  write(whole(export_csv), files.csv);
-  write(whole(export_sqlite), files.sqlite);
-  write(whole(export_dot), files.dot);
-  write(whole(export_svg), files.svg);
-  // It was written while the trace was read.
-  write([](const fs::path&) { return std::string(); }, files.analysis_model);
+  for (const OutputForm& form : kForms) {
+    const fs::path& file = files.*form.file;
+    if (form.write != nullptr && !file.empty()) {
+      add_line(file, form.write(system, file, most_in_page));
+    }
+  }
+  if (!files.analysis_model.empty()) {
+    add_line(files.analysis_model, "");
+  }
   return written;
 }
 

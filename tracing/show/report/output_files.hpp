@@ -6,12 +6,14 @@
 #include <filesystem>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "tracing/decode/reader/trace_reader.hpp"
 #include "tracing/model/chains/chain_definition.hpp"
 #include "tracing/model/selection/event_filter.hpp"
+#include "tracing/model/timeline/traced_system.hpp"
 
 namespace tracing {
 
@@ -31,10 +33,21 @@ struct OutputFiles {
 
   bool any() const { return needs_timeline() || !analysis_model.empty(); }
   // Any but analysis_model.
-  bool needs_timeline() const {
-    return !(html.empty() && perfetto.empty() && csv.empty() && sqlite.empty() && dot.empty() && svg.empty());
-  }
+  bool needs_timeline() const;
 };
+
+// A form of output: an option of `launch report`, and the file or directory that it names.
+struct OutputForm {
+  const char* option;
+  const char* type;
+  const char* help;
+  std::filesystem::path OutputFiles::*file;
+  // Returns what is to be told beside the size. nullptr: it is written while the trace is read.
+  std::string (*write)(const TracedSystem& system, const std::filesystem::path& file, std::size_t most_in_page);
+};
+
+// In the order of the help.
+std::span<const OutputForm> output_forms();
 
 struct WrittenFiles {
   std::vector<std::string> lines;  // for people: "trace.html: 1.2 MB", "trace.html: 13.9 MB, the first 12.3 s of 100 s"

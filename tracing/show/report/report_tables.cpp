@@ -5,6 +5,7 @@
 #include <fnmatch.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -43,6 +44,45 @@ Cell percent_cell(double part) {
   const Style style = part > 0.9 ? Style::kBad : part > 0.6 ? Style::kWarning : Style::kPlain;
   return {fmt::format("{:.2f} %", part * 100), style};
 }
+
+// A row for each result, and what a result has in each column.
+template <class Result>
+class ResultTable {
+ public:
+  using CellOf = std::function<Cell(const Result&)>;
+  using Durations = DurationSummary Result::*;
+
+  // As of ScreenTable.
+  ResultTable(const char* title, const char* key) : table_(title, {}, key) {}
+
+  void column(const char* title, CellOf cell) {
+    table_.add_column(title);
+    cells_.push_back(std::move(cell));
+  }
+  void count(const char* title, std::uint64_t Result::*count, Style style = Style::kPlain) {
+    column(title, [=](const Result& result) { return count_cell(result.*count, style); });
+  }
+  void time(const char* title, Durations took, std::int64_t DurationSummary::*value, Style style = Style::kPlain) {
+    column(title, [=](const Result& result) { return time_cell(result.*took, value, style); });
+  }
+  void times(Durations took, Style p99_style = Style::kPlain) {
+    time("p50", took, &DurationSummary::p50_ns);
+    time("p99", took, &DurationSummary::p99_ns, p99_style);
+    time("max", took, &DurationSummary::max_ns);
+  }
+
+  void add(Row row, const Result& result) {
+    for (const CellOf& cell : cells_) {
+      row.cells.push_back(cell(result));
+    }
+    table_.add(std::move(row));
+  }
+  std::string text(const ReportOptions& options) const { return table_.text(options); }
+
+ private:
+  std::vector<CellOf> cells_;
+  ScreenTable table_;
+};
 
 // "*" behind a result that lost events may have changed.
 std::string marked(std::string label, bool doubtful) {
@@ -94,34 +134,25 @@ bool is_chosen(const ChainResult& chain, const ReportOptions& options) {
 std::string chain_table(const TraceResults& results, const ReportOptions& options) {
   const Ros2Results& ros2 = results.ros2;
   const Hosts hosts(results.overview);
-  const bool with_budget = std::any_of(ros2.chains.begin(), ros2.chains.end(),
-                                       [](const ChainResult& chain) { return chain.budget_ns.has_value(); });
-  std::vector<std::string> columns{"count", "p50", "p99", "max", "reaction p99", "age max"};
-  if (with_budget) {
-    columns.insert(columns.begin() + 4, {"budget", "over"});
+  ResultTable<ChainResult> table("Chains", "");
+  table.column("count", [](const ChainResult& chain) { return count_cell(chain.response.count); });
+  table.times(&ChainResult::response, Style::kBold);
+  if (std::any_of(ros2.chains.begin(), ros2.chains.end(), [](const ChainResult& chain) { return !!chain.budget_ns; })) {
+    table.column("budget", [](const ChainResult& chain) {
+      return chain.budget_ns ? Cell{format_duration(static_cast<double>(*chain.budget_ns))} : Cell{"-"};
+    });
+    table.count("over", &ChainResult::over_budget, Style::kBad);
   }
-  ScreenTable table("Chains", columns, "");
+  table.time("reaction p99", &ChainResult::reaction, &DurationSummary::p99_ns);
+  table.time("age max", &ChainResult::age, &DurationSummary::max_ns);
   for (const ChainResult& chain : ros2.chains) {
     if (!is_chosen(chain, options)) {
       continue;
     }
     Row row{.label = marked(hosts.before(chain) + chain_label(chain), chain.doubtful)};
     row.remark = chain.name.empty() ? chain.steps.front().callback : topics_of(chain);
-    row.cells = {count_cell(chain.response.count),
-                 time_cell(chain.response, &DurationSummary::p50_ns),
-                 time_cell(chain.response, &DurationSummary::p99_ns, Style::kBold),
-                 time_cell(chain.response, &DurationSummary::max_ns),
-                 time_cell(chain.reaction, &DurationSummary::p99_ns),
-                 time_cell(chain.age, &DurationSummary::max_ns)};
-    if (with_budget) {
-      row.cells.insert(row.cells.begin() + 4, {Cell{"-"}, Cell{"-"}});
-      if (chain.budget_ns) {
-        row.cells[4] = Cell{format_duration(static_cast<double>(*chain.budget_ns))};
-        row.cells[5] = count_cell(chain.over_budget, Style::kBad);
-      }
-    }
     sort_by(row, chain.response);
-    table.add(std::move(row));
+    table.add(std::move(row), chain);
   }
   return table.text(options);
 }
@@ -130,14 +161,23 @@ std::string callback_table(const TraceResults& results, const ReportOptions& opt
   const bool with_memory =
       std::any_of(results.ros2.callbacks.begin(), results.ros2.callbacks.end(),
                   [](const CallbackResult& callback) { return callback.allocations.value_or(0) > 0; });
-  std::vector<std::string> columns{"rate", "count", "p50", "p99", "max", "jitter", "missed", "load"};
-  if (with_memory) {
-    columns.insert(columns.begin() + 5, "mallocs");
-  }
-  ScreenTable table("Callbacks", columns, "total");
   const Hosts hosts(results.overview);
   const double span =
       results.overview.begin_ns ? static_cast<double>(*results.overview.end_ns - *results.overview.begin_ns) : 0;
+  ResultTable<CallbackResult> table("Callbacks", "total");
+  table.column("rate", [](const CallbackResult& callback) { return rate_cell(callback.rate_hz); });
+  table.column("count", [](const CallbackResult& callback) { return count_cell(callback.durations.count); });
+  table.times(&CallbackResult::durations);
+  if (with_memory) {
+    table.column("mallocs",
+                 [](const CallbackResult& callback) { return count_cell(callback.allocations.value_or(0)); });
+  }
+  table.time("jitter", &CallbackResult::jitter, &DurationSummary::p99_ns);
+  table.count("missed", &CallbackResult::missed, Style::kWarning);
+  table.column("load", [span](const CallbackResult& callback) {
+    const DurationSummary& took = callback.durations;
+    return span > 0 && took.count > 0 ? percent_cell(took.mean_ns * static_cast<double>(took.count) / span) : Cell{"-"};
+  });
   for (const CallbackResult& callback : results.ros2.callbacks) {
     if (!matches(options.node, callback.node)) {
       continue;
@@ -148,21 +188,9 @@ std::string callback_table(const TraceResults& results, const ReportOptions& opt
     }
     Row row{.label = marked(hosts.before(callback.process) + callback_label(callback), callback.doubtful)};
     row.remark = short_symbol(callback.symbol);
-    const DurationSummary& took = callback.durations;
-    sort_by(row, took);
+    sort_by(row, callback.durations);
     row.rate = callback.rate_hz;
-    row.cells = {rate_cell(callback.rate_hz),
-                 count_cell(took.count),
-                 time_cell(took, &DurationSummary::p50_ns),
-                 time_cell(took, &DurationSummary::p99_ns),
-                 time_cell(took, &DurationSummary::max_ns),
-                 time_cell(callback.jitter, &DurationSummary::p99_ns),
-                 count_cell(callback.missed, Style::kWarning),
-                 span > 0 && took.count > 0 ? percent_cell(row.total / span) : Cell{"-"}};
-    if (with_memory) {
-      row.cells.insert(row.cells.begin() + 5, count_cell(callback.allocations.value_or(0)));
-    }
-    table.add(std::move(row));
+    table.add(std::move(row), callback);
   }
   return table.text(options);
 }
@@ -211,7 +239,14 @@ std::string executor_table(const TraceResults& results, const ReportOptions& opt
   if (!options.node.empty() || !options.topic.empty()) {
     return "";
   }
-  ScreenTable table("Executors", {"busy", "callbacks", "longest busy", "in"}, "total");
+  ResultTable<ExecutorResult> table("Executors", "total");
+  table.column("busy", [](const ExecutorResult& executor) { return percent_cell(executor.utilisation); });
+  table.count("callbacks", &ExecutorResult::callbacks);
+  table.column("longest busy", [](const ExecutorResult& executor) {
+    return executor.longest_busy_ns > 0 ? Cell{format_duration(static_cast<double>(executor.longest_busy_ns))}
+                                        : Cell{"-"};
+  });
+  table.column("in", [](const ExecutorResult& executor) { return Cell{shortened(executor.longest_callback, 40)}; });
   const Hosts hosts(results.overview);
   for (const ExecutorResult& executor : results.ros2.executors) {
     if (executor.callbacks == 0) {
@@ -221,10 +256,7 @@ std::string executor_table(const TraceResults& results, const ReportOptions& opt
     row.total = executor.utilisation;
     row.count = static_cast<double>(executor.callbacks);
     row.max = static_cast<double>(executor.longest_busy_ns);
-    row.cells = {percent_cell(executor.utilisation), count_cell(executor.callbacks),
-                 executor.longest_busy_ns > 0 ? Cell{format_duration(row.max)} : Cell{"-"},
-                 Cell{shortened(executor.longest_callback, 40)}};
-    table.add(std::move(row));
+    table.add(std::move(row), executor);
   }
   return table.text(options);
 }
@@ -234,7 +266,11 @@ std::string service_table(const TraceResults& results, const ReportOptions& opti
     return "";
   }
   const Hosts hosts(results.overview);
-  ScreenTable table("Services", {"calls", "unanswered", "p50", "p99", "max"}, "p99");
+  ResultTable<CallResult> table("Services", "p99");
+  table.count("calls", &CallResult::requests);
+  table.column("unanswered",
+               [](const CallResult& call) { return count_cell(call.requests - call.responses, Style::kBad); });
+  table.times(&CallResult::round_trip);
   for (const CallResult& call : results.ros2.calls) {
     if (is_of_action(call.service)) {
       continue;
@@ -246,11 +282,7 @@ std::string service_table(const TraceResults& results, const ReportOptions& opti
                                  call.client.empty() ? "?" : call.client)};
     sort_by(row, call.round_trip);
     row.count = static_cast<double>(call.requests);
-    row.cells = {count_cell(call.requests), count_cell(call.requests - call.responses, Style::kBad),
-                 time_cell(call.round_trip, &DurationSummary::p50_ns),
-                 time_cell(call.round_trip, &DurationSummary::p99_ns),
-                 time_cell(call.round_trip, &DurationSummary::max_ns)};
-    table.add(std::move(row));
+    table.add(std::move(row), call);
   }
   return table.text(options);
 }
@@ -260,7 +292,12 @@ std::string action_table(const TraceResults& results, const ReportOptions& optio
     return "";
   }
   const Hosts hosts(results.overview);
-  ScreenTable table("Actions", {"goals", "results", "cancels", "feedback", "p50", "p99", "max"}, "p99");
+  ResultTable<ActionResult> table("Actions", "p99");
+  table.count("goals", &ActionResult::goals);
+  table.count("results", &ActionResult::results);
+  table.count("cancels", &ActionResult::cancels, Style::kWarning);
+  table.count("feedback", &ActionResult::feedback);
+  table.times(&ActionResult::execution);
   for (const ActionResult& action : results.ros2.actions) {
     if (!matches(options.node, action.client) && !matches(options.node, action.server)) {
       continue;
@@ -269,14 +306,7 @@ std::string action_table(const TraceResults& results, const ReportOptions& optio
                                  action.client.empty() ? "?" : action.client)};
     sort_by(row, action.execution);
     row.count = static_cast<double>(action.goals);
-    row.cells = {count_cell(action.goals),
-                 count_cell(action.results),
-                 count_cell(action.cancels, Style::kWarning),
-                 count_cell(action.feedback),
-                 time_cell(action.execution, &DurationSummary::p50_ns),
-                 time_cell(action.execution, &DurationSummary::p99_ns),
-                 time_cell(action.execution, &DurationSummary::max_ns)};
-    table.add(std::move(row));
+    table.add(std::move(row), action);
   }
   return table.text(options);
 }

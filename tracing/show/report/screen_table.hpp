@@ -43,6 +43,7 @@ class ScreenTable {
   ScreenTable(std::string title, std::vector<std::string> columns, std::string key)
       : title_(std::move(title)), columns_(std::move(columns)), key_(std::move(key)) {}
 
+  void add_column(std::string title) { columns_.push_back(std::move(title)); }
   void add(Row row) { rows_.push_back(std::move(row)); }
 
   // Begins with an empty line; empty without rows.

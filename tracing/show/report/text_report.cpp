@@ -9,10 +9,10 @@
 #include "tracing/model/findings/printable.hpp"
 #include "tracing/model/findings/quantity_text.hpp"
 #include "tracing/show/report/details.hpp"
-#include "tracing/show/report/duration_rows.hpp"
 #include "tracing/show/report/report.hpp"
 #include "tracing/show/report/report_tables.hpp"
 #include "tracing/show/report/screen_table.hpp"
+#include "tracing/show/report/text_table.hpp"
 
 namespace tracing {
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Text in columns.
+// Text in columns, as the sections of details have it.
 #pragma once
 
 #include <string>
 #include <vector>
+
+#include "tracing/model/analysis/results.hpp"
 
 namespace tracing {
 
@@ -23,5 +25,13 @@ class TextTable {
   std::size_t label_width_;
   std::vector<std::size_t> widths_;
 };
+
+// The columns of durations after a label: first their titles, then the cells of one row.
+TextTable duration_table();
+const std::vector<std::string>& duration_titles();
+std::vector<std::string> duration_cells(const DurationSummary& took);
+
+// "/ping, ping [71]"
+std::string node_label(const std::string& node, ProcessIndex process, const TraceOverview& overview);
 
 }  // namespace tracing

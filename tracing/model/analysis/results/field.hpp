@@ -173,6 +173,11 @@ inline constexpr Field<DurationSummary> kDurationFields[] = {
      "false above 4,096 values; the percentiles are then exact to 0.2 %", trait::kNotOnPage},
 };
 
+// "vpid" beside the "process" that is an index.
+inline std::string vpid_key(std::string process_key) {
+  return process_key.replace(process_key.rfind("process"), std::string::npos, "vpid");
+}
+
 // A structure with rows.
 template <class Result>
 concept HasFields = requires { Result::kFields; };
