@@ -84,6 +84,7 @@ class Schema {
         }
         if (field.has(trait::kProcess)) {
           schema["properties"][vpid_key(field.name)] = of(std::optional<std::int64_t>{});
+          schema["required"].push_back(vpid_key(field.name));
         }
         schema["properties"][field.name] = type;
       });
@@ -97,6 +98,10 @@ class Schema {
 
   Json properties_;
 };
+
+bool contains(const Json& list, const Json& value) {
+  return std::find(list.begin(), list.end(), value) != list.end();
+}
 
 // What the file says, brought up to date. A key keeps its place and its limits in the file. A key that is new in an
 // object is not required: older reports lack it.
@@ -115,15 +120,22 @@ Json updated(const Json& file, const Json& now) {
           result[key].erase(name);
         }
       }
-    } else if (key == "required" || key == "enum") {
-      Json list = Json::array();
-      std::copy_if(file[key].begin(), file[key].end(), std::back_inserter(list), [&](const Json& one) {
-        return key == "required" || std::find(value.begin(), value.end(), one) != value.end();
-      });
-      std::copy_if(value.begin(), value.end(), std::back_inserter(list), [&](const Json& one) {
-        return key == "enum" && std::find(list.begin(), list.end(), one) == list.end();
-      });
-      result[key] = list;
+    } else if (key == "enum") {
+      result[key] = Json::array();
+      for (const Json& word : file[key]) {
+        if (contains(value, word)) {
+          result[key].push_back(word);
+        }
+      }
+      for (const Json& word : value) {
+        if (!contains(file[key], word)) {
+          result[key].push_back(word);
+        }
+      }
+    } else if (key == "required") {
+      for (const Json& name : file[key]) {
+        EXPECT_TRUE(!now.contains("properties") || contains(value, name)) << name << " is not in every result";
+      }
     } else if (key == "anyOf" && file[key].size() == value.size()) {
       for (std::size_t i = 0; i < value.size(); ++i) {
         result[key][i] = updated(file[key][i], value[i]);
