@@ -137,7 +137,8 @@ std::string chain_table(const TraceResults& results, const ReportOptions& option
   ResultTable<ChainResult> table("Chains", "");
   table.column("count", [](const ChainResult& chain) { return count_cell(chain.response.count); });
   table.times(&ChainResult::response, Style::kBold);
-  if (std::any_of(ros2.chains.begin(), ros2.chains.end(), [](const ChainResult& chain) { return !!chain.budget_ns; })) {
+  if (std::any_of(ros2.chains.begin(), ros2.chains.end(),
+                  [](const ChainResult& chain) { return chain.budget_ns.has_value(); })) {
     table.column("budget", [](const ChainResult& chain) {
       return chain.budget_ns ? Cell{format_duration(static_cast<double>(*chain.budget_ns))} : Cell{"-"};
     });
