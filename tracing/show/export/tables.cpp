@@ -80,18 +80,18 @@ Cell cell_of(const Value& value) {
 // For each list of results that has no names for other tables to refer to: a column for each field.
 template <class Result>
 Table result_table(std::string_view name, const std::vector<Result>& results) {
-  std::vector<const Field<Result>*> fields;
   std::vector<Column> columns;
   for (const Field<Result>& field : Result::kFields) {
     if (!field.has(trait::kNotInTables)) {
-      fields.push_back(&field);
       columns.push_back({field.name, field.member.is_text()});
     }
   }
-  return object_table(name, std::move(columns), results, [fields](const Result& result) {
+  return object_table(name, std::move(columns), results, [](const Result& result) {
     Row row;
-    for (const Field<Result>* field : fields) {
-      field->member.visit([&](auto member) { row.push_back(cell_of(std::invoke(member, result))); });
+    for (const Field<Result>& field : Result::kFields) {
+      if (!field.has(trait::kNotInTables)) {
+        field.member.visit([&](auto member) { row.push_back(cell_of(std::invoke(member, result))); });
+      }
     }
     return row;
   });

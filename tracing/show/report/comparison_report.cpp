@@ -27,19 +27,8 @@ std::string percent(double share) {
   return fmt::format("{:.6g} %", share * 100);
 }
 
-const char* title_of(Kind kind) {
-  switch (kind) {
-    case Kind::kCallback:
-      return "Callbacks";
-    case Kind::kHop:
-      return "Hops";
-    case Kind::kChain:
-      return "Chains";
-    case Kind::kCall:
-      break;
-  }
-  return "Calls of services";
-}
+// In the order of Kind.
+constexpr const char* kTitles[] = {"Callbacks", "Hops", "Chains", "Calls of services"};
 
 bool is_incomplete(const compare::Runs& side) {
   return std::any_of(side.runs.begin(), side.runs.end(),
@@ -136,7 +125,7 @@ std::string section(Kind kind, const std::vector<Change>& all, const ReportOptio
   std::stable_sort(subjects.begin(), subjects.end(),
                    [&](const auto& a, const auto& b) { return largest(a.second) > largest(b.second); });
   const std::size_t shown = options.top == 0 ? subjects.size() : std::min(options.top, subjects.size());
-  std::string title = title_of(kind);
+  std::string title = kTitles[static_cast<std::size_t>(kind)];
   if (shown < subjects.size()) {
     title += fmt::format(", {} of {}", shown, subjects.size());
   }
@@ -180,30 +169,50 @@ std::string lone_section(const char* title, const std::vector<Lone>& lone, const
   return text;
 }
 
+bool has_slower(const ComparisonReport& report) {
+  const std::vector<Change>& changes = report.comparison.changes;
+  return std::any_of(changes.begin(), changes.end(), [](const Change& one) { return one.is_slower(); });
+}
+
+bool has_faster(const ComparisonReport& report) {
+  const std::vector<Change>& changes = report.comparison.changes;
+  return std::any_of(changes.begin(), changes.end(), [](const Change& one) { return !one.is_slower(); });
+}
+
+struct FailWord {
+  const char* word;
+  bool (*applies)(const ComparisonReport& report);
+};
+constexpr FailWord kFailWords[] = {
+    {"slower", has_slower},
+    {"faster", has_faster},
+    {"changed", [](const ComparisonReport& report) { return !report.comparison.changes.empty(); }},
+    {"overall",
+     [](const ComparisonReport& report) { return report.comparison.overall && report.comparison.overall->ratio > 0; }},
+    {"gone", [](const ComparisonReport& report) { return !report.comparison.gone.empty(); }},
+    {"new", [](const ComparisonReport& report) { return !report.comparison.added.empty(); }},
+    {"incomplete",
+     [](const ComparisonReport& report) { return is_incomplete(report.before) || is_incomplete(report.after); }},
+};
+
 }  // namespace
 
 const std::vector<std::string>& fail_words() {
-  static const std::vector<std::string> words{"slower", "faster", "changed", "overall", "gone", "new", "incomplete"};
+  static const std::vector<std::string> words = [] {
+    std::vector<std::string> list;
+    for (const FailWord& one : kFailWords) {
+      list.emplace_back(one.word);
+    }
+    return list;
+  }();
   return words;
 }
 
 std::vector<std::string> failures(const ComparisonReport& report, const std::set<std::string>& fail_on) {
-  const std::vector<Change>& changes = report.comparison.changes;
-  const bool slower = std::any_of(changes.begin(), changes.end(), [](const Change& one) { return one.is_slower(); });
-  const bool faster = std::any_of(changes.begin(), changes.end(), [](const Change& one) { return !one.is_slower(); });
-  const std::optional<compare::Overall>& overall = report.comparison.overall;
-  const std::map<std::string, bool> applies{
-      {"slower", slower},
-      {"faster", faster},
-      {"changed", slower || faster},
-      {"overall", overall && overall->ratio > 0},
-      {"gone", !report.comparison.gone.empty()},
-      {"new", !report.comparison.added.empty()},
-      {"incomplete", is_incomplete(report.before) || is_incomplete(report.after)}};
   std::vector<std::string> failed;
-  for (const std::string& word : fail_words()) {
-    if (fail_on.contains(word) && applies.at(word)) {
-      failed.push_back(word);
+  for (const FailWord& one : kFailWords) {
+    if (fail_on.contains(one.word) && one.applies(report)) {
+      failed.emplace_back(one.word);
     }
   }
   return failed;

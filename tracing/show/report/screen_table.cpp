@@ -11,57 +11,33 @@ namespace {
 
 constexpr std::size_t kLeastLabel = 24;
 
-double value_of(const Row& row, const std::string& key) {
-  if (key == "total") {
-    return row.total;
-  }
-  if (key == "count") {
-    return row.count;
-  }
-  if (key == "rate") {
-    return row.rate;
-  }
-  if (key == "p50") {
-    return row.p50;
-  }
-  if (key == "p99") {
-    return row.p99;
-  }
-  return row.max;
-}
+struct SortKey {
+  const char* name;
+  double Row::*value;  // nullptr: the label
+};
+constexpr SortKey kSortKeys[] = {{"total", &Row::total}, {"count", &Row::count}, {"rate", &Row::rate},
+                                 {"p50", &Row::p50},     {"p99", &Row::p99},     {"max", &Row::max},
+                                 {"name", nullptr}};
 
 }  // namespace
 
 const std::vector<std::string>& sort_keys() {
-  static const std::vector<std::string> keys{"total", "count", "rate", "p50", "p99", "max", "name"};
-  return keys;
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list;
+    for (const SortKey& key : kSortKeys) {
+      list.emplace_back(key.name);
+    }
+    return list;
+  }();
+  return names;
 }
 
 std::string styled(const std::string& text, Style style, bool color) {
   if (!color || style == Style::kPlain || text.empty()) {
     return text;
   }
-  const char* code = "";
-  switch (style) {
-    case Style::kBold:
-      code = "1";
-      break;
-    case Style::kGood:
-      code = "32";
-      break;
-    case Style::kBad:
-      code = "31";
-      break;
-    case Style::kWarning:
-      code = "33";
-      break;
-    case Style::kDim:
-      code = "2";
-      break;
-    case Style::kPlain:
-      break;
-  }
-  return fmt::format("\033[{}m{}\033[0m", code, text);
+  static constexpr int kCodes[] = {0, 1, 32, 31, 33, 2};  // in the order of Style
+  return fmt::format("\033[{}m{}\033[0m", kCodes[static_cast<std::size_t>(style)], text);
 }
 
 std::string shortened(const std::string& text, std::size_t width) {
@@ -83,11 +59,13 @@ std::string ScreenTable::text(const ReportOptions& options) const {
   for (const Row& row : rows_) {
     rows.push_back(&row);
   }
-  const std::string& key = options.sort.empty() ? key_ : options.sort;
-  if (!key.empty()) {
-    std::stable_sort(rows.begin(), rows.end(), [&key](const Row* a, const Row* b) {
-      return key == "name" ? a->label < b->label : value_of(*a, key) > value_of(*b, key);
-    });
+  const std::string& name = options.sort.empty() ? key_ : options.sort;
+  for (const SortKey& key : kSortKeys) {
+    if (key.name == name) {
+      std::stable_sort(rows.begin(), rows.end(), [&key](const Row* a, const Row* b) {
+        return key.value == nullptr ? a->label < b->label : a->*key.value > b->*key.value;
+      });
+    }
   }
   const std::size_t shown = options.top == 0 || options.all ? rows.size() : std::min(options.top, rows.size());
 
