@@ -27,7 +27,7 @@ bool matches(const std::string& pattern, const ProcessSpec& spec) {
 }
 
 bool may_block(const tracing::TraceConfig& config) {
-  return config.blocking_timeout_ust != 0 ||
+  return config.ust.blocking_timeout != 0 ||
          std::any_of(config.channels.begin(), config.channels.end(),
                      [](const tracing::ChannelConfig& channel) { return channel.blocking_timeout != 0; });
 }
@@ -48,7 +48,7 @@ void TraceScope::expect(const std::vector<ProcessSpec>& processes) {
   const auto processors = static_cast<std::size_t>(::get_nprocs_conf());
   tracing::TraceConfig& config = run_.config();
   if (choices_.auto_buffers) {
-    config.subbuffer_size_ust = tracing::sufficient_subbuffer_size(config, traced, processors);
+    config.ust.subbuffer_size = tracing::sufficient_subbuffer_size(config, traced, processors);
   }
   if (std::string warning = tracing::buffer_warning(config, traced, processors); !warning.empty()) {
     run_.warn(std::move(warning));

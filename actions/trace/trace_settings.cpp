@@ -30,6 +30,10 @@ template <typename Member>
 auto at(Member Config::*member) {
   return [member](TraceRequest& request) -> SettingPlace { return &(request.config.*member); };
 }
+template <typename Member>
+auto at(Member tracing::ChannelBuffers::*member) {
+  return [member](TraceRequest& request) -> SettingPlace { return &(request.config.ust.*member); };
+}
 template <typename Member, typename Struct>
 auto of_choices(Member Struct::*member) {
   return [member](TraceRequest& request) -> SettingPlace { return &(request.choices.*member); };
@@ -178,9 +182,9 @@ std::vector<Setting<TraceRequest>> make_trace_settings() {
                               "record these nodes and processes only, by name; * matches any text"),
        .perform = [](const Fields& fields, Scope& scope,
                      TraceRequest& request) { request.choices.nodes = perform_names(fields, "nodes", scope); }},
-      {.attribute = {"subbuffer-size-ust", Type::kInteger, false, fmt::format("{}", defaults.subbuffer_size_ust),
+      {.attribute = {"subbuffer-size-ust", Type::kInteger, false, fmt::format("{}", defaults.ust.subbuffer_size),
                      "bytes"},
-       .place = at(&Config::subbuffer_size_ust),
+       .place = at(&tracing::ChannelBuffers::subbuffer_size),
        .shown = "subbuffer-size-ust",
        .option = {"--subbuffer-size-ust", "BYTES", "size of a sub-buffer of the userspace channel"}},
       {.attribute = extension("subbuffers", Type::kText, "fixed",
@@ -191,18 +195,18 @@ std::vector<Setting<TraceRequest>> make_trace_settings() {
        .place = at(&Config::init_channel),
        .shown = "init-channel",
        .option = {"--init-channel", "", "record initialisation events into a channel of their own, ros2_init"}},
-      {.attribute = extension("subbuffer-count-ust", Type::kInteger, fmt::format("{}", defaults.subbuffer_count_ust),
+      {.attribute = extension("subbuffer-count-ust", Type::kInteger, fmt::format("{}", defaults.ust.subbuffer_count),
                               "sub-buffers for each processor"),
-       .place = at(&Config::subbuffer_count_ust),
+       .place = at(&tracing::ChannelBuffers::subbuffer_count),
        .shown = "subbuffer-count-ust",
        .option = {"--subbuffer-count-ust", "NUMBER",
-                  fmt::format("number of sub-buffers for each processor (default: {})", defaults.subbuffer_count_ust)}},
-      {.attribute = extension("read-timer-ust", Type::kInteger, fmt::format("{}", defaults.read_timer_ust),
+                  fmt::format("number of sub-buffers for each processor (default: {})", defaults.ust.subbuffer_count)}},
+      {.attribute = extension("read-timer-ust", Type::kInteger, fmt::format("{}", defaults.ust.read_timer),
                               "microseconds between two reads of the buffers; 0: traced processes wake the reader"),
-       .place = at(&Config::read_timer_ust),
+       .place = at(&tracing::ChannelBuffers::read_timer),
        .shown = "read-timer-ust",
        .option = {"--read-timer-ust", "MICROSECONDS",
-                  fmt::format("time between two reads of the buffers (default: {})", defaults.read_timer_ust)}},
+                  fmt::format("time between two reads of the buffers (default: {})", defaults.ust.read_timer)}},
       {.attribute =
            extension("switch-timer-ust", Type::kInteger, fmt::format("{}; 0 in snapshot mode", tracing::kSwitchTimer),
                      "microseconds until a part-full sub-buffer is written; 0: never"),
@@ -224,7 +228,7 @@ std::vector<Setting<TraceRequest>> make_trace_settings() {
                   "when buffers are full lose the oldest events, not the newest (default: in snapshot mode only)"}},
       {.attribute = extension("blocking-timeout-ust", Type::kInteger, "0",
                               "microseconds that a traced thread waits for room before an event is lost; -1: for ever"),
-       .place = at(&Config::blocking_timeout_ust),
+       .place = at(&tracing::ChannelBuffers::blocking_timeout),
        .shown = "blocking-timeout-ust",
        .option = {"--blocking-timeout-ust", "MICROSECONDS",
                   "time that a traced thread waits for room before it loses an event; -1: for ever; its process needs "

@@ -152,7 +152,7 @@ struct Bench {
     fmt::print("  consumer, of one processor         {:8.1f} %\n", 100 * cpu / took);
     fmt::print("  end, after the last node           {:8.1f} ms\n", ended);
     const std::string buffers = fmt::format("{} events/s, {} x {} KiB", load.events_per_second,
-                                            config.subbuffer_count_ust, config.subbuffer_size_ust / 1024);
+                                            config.ust.subbuffer_count, config.ust.subbuffer_size / 1024);
     if (seconds > 0) {
       benchmarks::report({buffers + ", lost",
                           "%",
@@ -177,9 +177,9 @@ int main(int argc, char** argv) {
   argument(1, bench.load.nodes);
   argument(2, bench.load.events_per_second);
   argument(3, bench.load.seconds);
-  argument(4, bench.config.subbuffer_size_ust);
-  argument(5, bench.config.subbuffer_count_ust);
-  argument(6, bench.config.read_timer_ust);
+  argument(4, bench.config.ust.subbuffer_size);
+  argument(5, bench.config.ust.subbuffer_count);
+  argument(6, bench.config.ust.read_timer);
   if (argc > 7) {
     bench.config.url = argv[7];
   }

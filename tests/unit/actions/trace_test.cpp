@@ -34,7 +34,7 @@ TEST(Trace, DefaultsAreThoseOfRos2TracingButForTheBuffers) {
   EXPECT_TRUE(std::get<Words>(settings.at("syscalls").value).empty());
   EXPECT_THAT(std::get<Words>(settings.at("context-fields").value), ElementsAre("procname", "vpid", "vtid"));
   EXPECT_EQ(std::get<std::int64_t>(settings.at("subbuffer-size-ust").value),
-            static_cast<std::int64_t>(tracing::TraceConfig().subbuffer_size_ust));
+            static_cast<std::int64_t>(tracing::TraceConfig().ust.subbuffer_size));
   EXPECT_EQ(std::get<std::int64_t>(settings.at("subbuffer-size-kernel").value), 131072);
   EXPECT_FALSE(std::get<bool>(settings.at("append-trace").value));
   EXPECT_FALSE(std::get<bool>(settings.at("fail-on-loss").value));

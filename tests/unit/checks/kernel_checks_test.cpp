@@ -14,14 +14,15 @@ using tracing::testing::error_of;
 
 // What is left is the plan's; an error, or the warning.
 std::string unknown_names(const std::vector<std::string>& patterns, const std::vector<std::string>& syscalls) {
-  ChannelPlan plan{.domain = LTTNG_DOMAIN_KERNEL};
+  ChannelPlan plan;
+  plan.domain = LTTNG_DOMAIN_KERNEL;
   for (const std::string& pattern : patterns) {
     plan.events.push_back({.pattern = pattern});
   }
   plan.syscalls = syscalls;
   std::string warning;
   const std::string error = error_of([&] {
-    std::vector<ChannelPlan> plans = {plan, {.domain = LTTNG_DOMAIN_UST}};
+    std::vector<ChannelPlan> plans = {plan, ChannelPlan()};
     warning = tracing::drop_unknown_kernel_names(plans, {"irq_handler_entry", "sched_switch"}, {"openat"});
     EXPECT_EQ(plans.size(), 2U);
     for (const auto& rule : plans.front().events) {
@@ -51,7 +52,8 @@ TEST(KernelChecks, NothingToRecordIsAnError) {
 }
 
 TEST(KernelChecks, AChannelWithoutAnyKnownNameIsDropped) {
-  std::vector<ChannelPlan> plans(2, {.domain = LTTNG_DOMAIN_KERNEL});
+  std::vector<ChannelPlan> plans(2);
+  plans[0].domain = plans[1].domain = LTTNG_DOMAIN_KERNEL;
   plans[0].events.push_back({.pattern = "net_*"});
   plans[1].events.push_back({.pattern = "sched_switch"});
   EXPECT_EQ(tracing::drop_unknown_kernel_names(plans, {"sched_switch"}, {}),
@@ -62,7 +64,9 @@ TEST(KernelChecks, AChannelWithoutAnyKnownNameIsDropped) {
 
 TEST(KernelChecks, TheContextFieldThatCrashesTheKernelIsRefused) {
   const auto error_with = [](lttng_domain_type domain, const std::string& version) {
-    const ChannelPlan plan{.domain = domain, .context_fields = {"tid", "prio"}};
+    ChannelPlan plan;
+    plan.domain = domain;
+    plan.context_fields = {"tid", "prio"};
     return error_of([&] { tracing::check_kernel_context_fields({plan}, version); });
   };
   EXPECT_EQ(error_with(LTTNG_DOMAIN_KERNEL, "2.13.9"),

@@ -46,7 +46,7 @@ TEST(TraceOptions, OfTheBuffersAndTheDestination) {
                   "--tracefile-size", "65536", "--tracefile-count", "3", "--url", "net://host", "--live-timer", "1000"})
           .config;
   EXPECT_EQ(config.overwrite_ust, true);
-  EXPECT_EQ(config.blocking_timeout_ust, -1);
+  EXPECT_EQ(config.ust.blocking_timeout, -1);
   EXPECT_EQ(config.buffers_ust, tracing::BufferOwner::kProcess);
   EXPECT_EQ(config.tracefile_size, 65536u);
   EXPECT_EQ(config.tracefile_count, 3u);
@@ -85,7 +85,7 @@ TEST(TraceOptions, AreAllTakenByTheInteractiveForm) {
   EXPECT_THAT(options.config.context_fields_ust, ElementsAre("vpid"));
   EXPECT_THAT(options.config.context_fields_kernel, ElementsAre("vpid"));
   EXPECT_TRUE(options.list_names && options.config.append_trace && options.config.snapshot_mode);
-  EXPECT_EQ(options.config.subbuffer_size_ust, 65536u);
+  EXPECT_EQ(options.config.ust.subbuffer_size, 65536u);
   EXPECT_EQ(options.config.subbuffer_size_kernel, 262144u);
 }
 

@@ -13,15 +13,15 @@ using tracing::TraceConfig;
 
 TraceConfig small_buffers() {
   TraceConfig config;
-  config.subbuffer_size_ust = 32768;
-  config.subbuffer_count_ust = 2;
-  config.read_timer_ust = 200;
+  config.ust.subbuffer_size = 32768;
+  config.ust.subbuffer_count = 2;
+  config.ust.read_timer = 200;
   return config;
 }
 
 TEST(BufferEstimate, DefaultsHoldAHundredNodesOnTwoProcessors) {
   EXPECT_EQ(buffer_warning(TraceConfig(), 100, 2), "");
-  EXPECT_EQ(sufficient_subbuffer_size(TraceConfig(), 100, 2), TraceConfig().subbuffer_size_ust);
+  EXPECT_EQ(sufficient_subbuffer_size(TraceConfig(), 100, 2), TraceConfig().ust.subbuffer_size);
 }
 
 TEST(BufferEstimate, TheBuffersOfRos2TracingHoldAFewNodes) {
@@ -35,7 +35,7 @@ TEST(BufferEstimate, ASufficientSizeIsNotWarnedOf) {
   for (const std::size_t nodes : {1u, 50u, 500u, 2000u}) {
     for (const std::size_t processors : {1u, 4u, 64u}) {
       TraceConfig config;
-      config.subbuffer_size_ust = sufficient_subbuffer_size(config, nodes, processors);
+      config.ust.subbuffer_size = sufficient_subbuffer_size(config, nodes, processors);
       EXPECT_EQ(buffer_warning(config, nodes, processors), "") << nodes << " nodes, " << processors << " processors";
     }
   }

@@ -75,13 +75,13 @@ TEST(ChannelPlan, HasAKernelChannelForSystemCalls) {
 
 TEST(ChannelPlan, RoundsSubbuffersUpToAPageAndAPowerOfTwo) {
   TraceConfig config;
-  config.subbuffer_size_ust = 1;
+  config.ust.subbuffer_size = 1;
   std::vector<std::string> warnings;
   EXPECT_EQ(tracing::plan_channels(config, warnings)[0].subbuffer_size, static_cast<std::uint64_t>(getpagesize()));
-  config.subbuffer_size_ust = 65537;
+  config.ust.subbuffer_size = 65537;
   EXPECT_EQ(tracing::plan_channels(config, warnings)[0].subbuffer_size, 131072u);
   EXPECT_EQ(warnings.size(), 2u);
-  config.subbuffer_size_ust = ~std::uint64_t{0};
+  config.ust.subbuffer_size = ~std::uint64_t{0};
   EXPECT_EQ(error_of([&] { tracing::plan_channels(config, warnings); }),
             "sub-buffer size of 18446744073709551615 bytes for the ust domain is too large\n");
 }

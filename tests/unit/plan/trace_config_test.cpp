@@ -22,9 +22,9 @@ TEST(TraceConfig, DefaultsAreThoseOfRos2TracingButForTheBuffers) {
   EXPECT_TRUE(config.syscalls.empty());
   EXPECT_THAT(config.context_fields_ust, testing::ElementsAre("procname", "vpid", "vtid"));
   EXPECT_EQ(config.context_fields_kernel, config.context_fields_ust);
-  EXPECT_EQ(config.subbuffer_size_ust, 1048576u);
-  EXPECT_EQ(config.subbuffer_count_ust, 4u);
-  EXPECT_EQ(config.read_timer_ust, 50'000u);
+  EXPECT_EQ(config.ust.subbuffer_size, 1048576u);
+  EXPECT_EQ(config.ust.subbuffer_count, 4u);
+  EXPECT_EQ(config.ust.read_timer, 50'000u);
   EXPECT_EQ(config.subbuffer_size_kernel, 131072u);
   EXPECT_FALSE(config.append_trace || config.snapshot_mode || config.dual_session);
 }

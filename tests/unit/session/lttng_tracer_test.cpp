@@ -176,7 +176,7 @@ TEST_F(LttngTracer, AppendedTraceIsReadTogetherWithTheEarlierOnes) {
 
 TEST_F(LttngTracer, OddSubbufferSizesAreRoundedUpWithAWarning) {
   TraceConfig config = config_named("run");
-  config.subbuffer_size_ust = 10000;
+  config.ust.subbuffer_size = 10000;
   EXPECT_THAT(tracer->start(config).warnings,
               testing::ElementsAre("sub-buffer size of 10000 bytes for the ust domain is rounded up to 16384: LTTng "
                                    "needs a power of two, at least a page"));
@@ -197,8 +197,8 @@ TEST_F(LttngTracer, ChannelHasTheAttributesOfRos2TracingButForItsBuffers) {
 
 TEST_F(LttngTracer, ChannelHasTheNumberAndTimersThatWereAskedFor) {
   TraceConfig config = config_named("run");
-  config.subbuffer_count_ust = 7;
-  config.read_timer_ust = 50'000;
+  config.ust.subbuffer_count = 7;
+  config.ust.read_timer = 50'000;
   config.switch_timer_ust = 1'000'000;
   EXPECT_THAT(
       tracer->start(config).warnings,
@@ -234,7 +234,7 @@ TEST_F(LttngTracer, InitialisationEventsHaveAChannelOfTheirOwnWhereAskedFor) {
 
 TEST_F(LttngTracer, LossesEqualWhatTheTraceSays) {
   TraceConfig config = config_named("flood");
-  config.subbuffer_size_ust = 4096;
+  config.ust.subbuffer_size = 4096;
   tracer->start(config);
   constexpr int kEvents = 200000;
   TracedApp flood(kEvents, 200);

@@ -273,7 +273,7 @@ TEST_F(RobustControl, LittleSharedMemoryMakesTheBuffersSmallerWithAWarning) {
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_THAT(warnings[0], HasSubstr("sub-buffers are made smaller"));
   const auto size = trace_test::list_session("run").channel("ros2").subbuffer_size;
-  EXPECT_LT(size, TraceConfig().subbuffer_size_ust);
+  EXPECT_LT(size, TraceConfig().ust.subbuffer_size);
   TracedApp(20, 100).end();
   tracer->finish(config(), never);
   EXPECT_EQ(read_trace(config().trace_directory()).events.at("ros2:rclcpp_callback_register"), 20);

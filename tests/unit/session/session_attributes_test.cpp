@@ -71,9 +71,9 @@ TEST_F(SessionAttributes, DefaultsOfTheUserspaceChannel) {
   const ListedChannel& channel = session.channel("ros2");
   const TraceConfig defaults;
   EXPECT_FALSE(channel.overwrite);
-  EXPECT_EQ(channel.subbuffer_size, defaults.subbuffer_size_ust);
-  EXPECT_EQ(channel.subbuffer_count, defaults.subbuffer_count_ust);
-  EXPECT_EQ(channel.read_timer, defaults.read_timer_ust);
+  EXPECT_EQ(channel.subbuffer_size, defaults.ust.subbuffer_size);
+  EXPECT_EQ(channel.subbuffer_count, defaults.ust.subbuffer_count);
+  EXPECT_EQ(channel.read_timer, defaults.ust.read_timer);
   EXPECT_EQ(channel.switch_timer, 5'000'000u);
   EXPECT_EQ(channel.blocking_timeout, 0);
   EXPECT_EQ(channel.tracefile_size, 0u);
@@ -84,9 +84,9 @@ TEST_F(SessionAttributes, DefaultsOfTheUserspaceChannel) {
 
 TEST_F(SessionAttributes, BufferAttributesOfTheUserspaceChannel) {
   TraceConfig asked = config();
-  asked.subbuffer_size_ust = 65536;
-  asked.subbuffer_count_ust = 8;
-  asked.read_timer_ust = 12345;
+  asked.ust.subbuffer_size = 65536;
+  asked.ust.subbuffer_count = 8;
+  asked.ust.read_timer = 12345;
   asked.switch_timer_ust = 500'000;
   asked.overwrite_ust = true;
   asked.tracefile_size = 1 << 20;
@@ -106,10 +106,10 @@ TEST_F(SessionAttributes, BufferAttributesOfTheUserspaceChannel) {
 
 TEST_F(SessionAttributes, BlockingTimeouts) {
   TraceConfig asked = config();
-  asked.blocking_timeout_ust = 1500;
+  asked.ust.blocking_timeout = 1500;
   EXPECT_EQ(session_of(asked).channel("ros2").blocking_timeout, 1500);
   asked.session_name = "forever";
-  asked.blocking_timeout_ust = -1;
+  asked.ust.blocking_timeout = -1;
   EXPECT_EQ(session_of(asked).channel("ros2").blocking_timeout, -1);
 }
 
@@ -120,7 +120,7 @@ TEST_F(SessionAttributes, SnapshotSessionsOverwrite) {
   EXPECT_TRUE(session.snapshot);
   EXPECT_TRUE(session.channel("ros2").overwrite);
   EXPECT_EQ(session.channel("ros2").switch_timer, 0u) << "a part-full sub-buffer would be room that is wasted";
-  EXPECT_EQ(session.channel("ros2").subbuffer_count, asked.subbuffer_count_ust);
+  EXPECT_EQ(session.channel("ros2").subbuffer_count, asked.ust.subbuffer_count);
 }
 
 TEST_F(SessionAttributes, EventRulesWithFilterExclusionsAndLevels) {
@@ -173,7 +173,7 @@ TEST_F(SessionAttributes, FurtherChannelsHaveTheirOwnEventsAndBuffers) {
   EXPECT_EQ(first.switch_timer, 888'000u);
   EXPECT_TRUE(first.overwrite);
   const ListedChannel& second = session.channel("mine");
-  EXPECT_EQ(second.subbuffer_size, asked.subbuffer_size_ust) << "as the main channel";
+  EXPECT_EQ(second.subbuffer_size, asked.ust.subbuffer_size) << "as the main channel";
   EXPECT_EQ(second.blocking_timeout, 10);
   const std::vector<std::string> rest = session.channel("ros2").event_names();
   EXPECT_EQ(rest.size(), 42u - 3u + 1u) << "default events are taken once; and those of the launcher";
@@ -190,9 +190,9 @@ TEST_F(SessionAttributes, FurtherChannelsHaveTheirOwnEventsAndBuffers) {
 
 TEST_F(SessionAttributes, BlockingChannelsLoseNothing) {
   TraceConfig asked = config();
-  asked.subbuffer_size_ust = 4096;
-  asked.subbuffer_count_ust = 2;
-  asked.blocking_timeout_ust = -1;
+  asked.ust.subbuffer_size = 4096;
+  asked.ust.subbuffer_count = 2;
+  asked.ust.blocking_timeout = -1;
   setenv("LTTNG_UST_ALLOW_BLOCKING", "1", 1);
   tracer->start(asked);
   constexpr int kEvents = 400;  // ten times what the buffers hold; a waiting thread looks again after 100 ms
@@ -205,7 +205,7 @@ TEST_F(SessionAttributes, BlockingChannelsLoseNothing) {
 
 TEST_F(SessionAttributes, NoMoreTraceFilesAreKeptThanAskedFor) {
   TraceConfig asked = config();
-  asked.subbuffer_size_ust = 4096;
+  asked.ust.subbuffer_size = 4096;
   asked.tracefile_size = 16384;
   asked.tracefile_count = 2;
   tracer->start(asked);
@@ -246,13 +246,13 @@ TEST_F(SessionAttributes, WhatExcludesEachOtherIsAnErrorAndLeavesNoSession) {
     change(asked);
     return start_error(asked);
   };
-  EXPECT_EQ(error_with([](TraceConfig& c) { c.overwrite_ust = true, c.blocking_timeout_ust = 5; }),
+  EXPECT_EQ(error_with([](TraceConfig& c) { c.overwrite_ust = true, c.ust.blocking_timeout = 5; }),
             "channel 'ros2' both overwrites and blocks\n"
             "a channel that overwrites always has room: leave one of them out");
   EXPECT_EQ(error_with([](TraceConfig& c) { c.snapshot_mode = true, c.overwrite_ust = false; }),
             "channel 'ros2' of a snapshot session must overwrite\n"
             "leave the overwrite attribute out: a snapshot is of the newest events");
-  EXPECT_EQ(error_with([](TraceConfig& c) { c.blocking_timeout_ust = -2; }),
+  EXPECT_EQ(error_with([](TraceConfig& c) { c.ust.blocking_timeout = -2; }),
             "blocking timeout of -2 microseconds for channel 'ros2'\n-1 waits for ever, 0 never");
   EXPECT_EQ(error_with([](TraceConfig& c) { c.tracefile_count = 2; }),
             "a number of trace files is given without their size\nadd tracefile-size");
@@ -284,7 +284,7 @@ TEST_F(SessionAttributes, WhatExcludesEachOtherIsAnErrorAndLeavesNoSession) {
 
 TEST_F(SessionAttributes, TraceFilesSmallerThanASubbufferAreRoundedUpWithAWarning) {
   TraceConfig asked = config();
-  asked.subbuffer_size_ust = 65536;
+  asked.ust.subbuffer_size = 65536;
   asked.tracefile_size = 4096;
   EXPECT_THAT(tracer->start(asked).warnings,
               ElementsAre("trace files of 4096 bytes are rounded up to 65536, a sub-buffer of channel 'ros2'"));
@@ -294,7 +294,7 @@ TEST_F(SessionAttributes, TraceFilesSmallerThanASubbufferAreRoundedUpWithAWarnin
 
 TEST_F(SessionAttributes, ASavedSessionIsLoadedAsItWas) {
   TraceConfig asked = config();
-  asked.subbuffer_size_ust = 65536;
+  asked.ust.subbuffer_size = 65536;
   asked.events_ust = {"ros2:rclcpp_callback_register if callback <= 7"};
   tracer->start(asked);
   const std::string directory = sandbox.directory() / "saved";

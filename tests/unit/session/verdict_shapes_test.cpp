@@ -46,11 +46,11 @@ struct Configuration {
     std::string text = kShapeNames[static_cast<int>(shape)];
     text += config.buffers_ust == tracing::BufferOwner::kProcess ? ", pid" : ", uid";
     text += config.overwrite_ust.value_or(false) ? ", overwrite" : ", discard";
-    text += ", " + std::to_string(config.subbuffer_count_ust) + " x " + std::to_string(config.subbuffer_size_ust);
+    text += ", " + std::to_string(config.ust.subbuffer_count) + " x " + std::to_string(config.ust.subbuffer_size);
     if (config.tracefile_size != 0) {
       text += ", files " + std::to_string(config.tracefile_count) + " x " + std::to_string(config.tracefile_size);
     }
-    return text + ", read timer " + std::to_string(config.read_timer_ust) + ", processes " + std::to_string(processes) +
+    return text + ", read timer " + std::to_string(config.ust.read_timer) + ", processes " + std::to_string(processes) +
            " x " + std::to_string(bursts) + " x " + std::to_string(events) + " of " + std::to_string(bytes);
   }
 };
@@ -63,11 +63,11 @@ Configuration configuration_of(unsigned seed, TraceConfig base) {
   TraceConfig& config = chosen.config = std::move(base);
   config.buffers_ust = random() % 2 == 0 ? tracing::BufferOwner::kProcess : tracing::BufferOwner::kUser;
   config.overwrite_ust = random() % 2 == 0;
-  config.subbuffer_size_ust = one_of({4096, 8192, 16384, 262144});
-  config.subbuffer_count_ust = one_of({2, 4});
-  config.read_timer_ust = static_cast<std::uint32_t>(one_of({0, 1000, 50'000}));
+  config.ust.subbuffer_size = one_of({4096, 8192, 16384, 262144});
+  config.ust.subbuffer_count = one_of({2, 4});
+  config.ust.read_timer = static_cast<std::uint32_t>(one_of({0, 1000, 50'000}));
   if (chosen.shape != Shape::kSnapshot && random() % 2 == 0) {
-    config.tracefile_size = config.subbuffer_size_ust * one_of({1, 2, 4});
+    config.tracefile_size = config.ust.subbuffer_size * one_of({1, 2, 4});
     config.tracefile_count = one_of({0, 2, 3, 3});
   }
   config.snapshot_mode = chosen.shape == Shape::kSnapshot;

@@ -42,7 +42,8 @@ class CalibrationSession {
       plan.events = {{.pattern = "launch_probe:measured"}};
       plan.context_fields = context_fields;
       plan.subbuffer_size = kSubbufferSize;
-      plan.subbuffer_count = defaults.subbuffer_count_ust;
+      plan.subbuffer_count = defaults.ust.subbuffer_count;
+      plan.read_timer = 0;  // nobody reads
       plan.overwrite = true;
       enable_channel(name_, plan);
       enable_events(name_, plan);

@@ -69,6 +69,7 @@ bool records_an_event(const std::vector<std::string>& context_fields, const fs::
   plan.context_fields = context_fields;
   plan.subbuffer_size = static_cast<std::uint64_t>(getpagesize());
   plan.subbuffer_count = 2;
+  plan.read_timer = 0;
   enable_channel(session.name(), plan);
   enable_events(session.name(), plan);
   add_contexts(session.name(), plan);

@@ -16,7 +16,7 @@ inline constexpr std::uint64_t kBytesPerEvent = 100;   // with the three context
 // How much longer than its read timer the consumer may be kept from reading, on a busy machine.
 inline constexpr double kConsumerDelay = 0.15;  // seconds
 
-// Bytes of a userspace sub-buffer, a power of two, so that `config.subbuffer_count_ust` of them for each of
+// Bytes of a userspace sub-buffer, a power of two, so that `config.ust.subbuffer_count` of them for each of
 // `processors` hold the events of `nodes`. Never less than the default.
 std::uint64_t sufficient_subbuffer_size(const TraceConfig& config, std::size_t nodes, std::size_t processors);
 

@@ -17,20 +17,16 @@ namespace tracing {
 std::string domain_name(lttng_domain_type domain);
 
 // One channel of a session and everything that is recorded into it.
-struct ChannelPlan {
+struct ChannelPlan : ChannelBuffers {
   lttng_domain_type domain = LTTNG_DOMAIN_UST;
   BufferOwner buffers = BufferOwner::kUser;  // of userspace
   std::string channel;
   std::vector<EventRule> events;
   std::vector<std::string> syscalls;
   std::vector<std::string> context_fields;
-  std::uint64_t subbuffer_size = 0;   // bytes
-  std::uint64_t subbuffer_count = 0;  // for each processor
-  std::uint32_t read_timer = 0;       // µs
-  std::uint32_t switch_timer = 0;     // µs
-  bool overwrite = false;             // keep the newest events rather than the oldest: what a snapshot needs
-  std::int64_t blocking_timeout = 0;  // µs; -1: for ever
-  std::uint64_t tracefile_size = 0;   // bytes
+  std::uint32_t switch_timer = 0;    // µs
+  bool overwrite = false;            // keep the newest events rather than the oldest: what a snapshot needs
+  std::uint64_t tracefile_size = 0;  // bytes
   std::uint64_t tracefile_count = 0;
 };
 

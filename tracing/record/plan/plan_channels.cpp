@@ -99,7 +99,7 @@ std::vector<std::string> main_events(const TraceConfig& config) {
 }
 
 ChannelPlan userspace_plan(const TraceConfig& config) {
-  ChannelPlan plan;
+  ChannelPlan plan{config.ust};
   plan.buffers = config.buffers_ust;
   plan.channel = kUserspaceChannel;
   plan.events = rules(main_events(config));
@@ -117,12 +117,8 @@ ChannelPlan userspace_plan(const TraceConfig& config) {
     plan.events.push_back({.pattern = kNoStateDump});
   }
   plan.context_fields = config.context_fields_ust;
-  plan.subbuffer_size = config.subbuffer_size_ust;
-  plan.subbuffer_count = config.subbuffer_count_ust;
-  plan.read_timer = config.read_timer_ust;
   plan.switch_timer = config.switch_timer();
   plan.overwrite = config.overwrite_ust.value_or(config.records_snapshots());
-  plan.blocking_timeout = config.blocking_timeout_ust;
   plan.tracefile_size = config.tracefile_size;
   plan.tracefile_count = config.tracefile_count;
   return plan;

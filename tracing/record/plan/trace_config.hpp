@@ -18,6 +18,17 @@ const std::vector<std::string>& default_context_fields();
 // The relay daemon of a live session without a url.
 inline constexpr const char* kLocalRelayDaemon = "net://127.0.0.1";
 
+// How a channel keeps its events. The defaults are those of the main userspace channel: they hold 200,000 events/s of
+// 100 nodes on two busy processors (docs/trace_control.md), where the 2 x 32 KiB and 200 µs of ros2_tracing lose events
+// and keep the reader polling.
+struct ChannelBuffers {
+  std::uint64_t subbuffer_size = 1 << 20;  // bytes, a power of two
+  std::uint64_t subbuffer_count = 4;       // for each processor, a power of two
+  std::uint32_t read_timer = 50'000;  // µs between two looks of the consumer into the buffers; 0: it is woken instead
+  // µs that a traced thread waits for room in its buffers before an event is lost; 0: it never waits, -1: for ever.
+  std::int64_t blocking_timeout = 0;
+};
+
 // A channel beside the default channel of each domain, for events that need buffers of their own.
 struct ChannelConfig {
   std::string name;
@@ -30,7 +41,7 @@ struct ChannelConfig {
   std::optional<std::uint32_t> read_timer = {};    // µs
   std::optional<std::uint32_t> switch_timer = {};  // µs
   std::optional<bool> overwrite = {};
-  std::int64_t blocking_timeout = 0;  // as TraceConfig::blocking_timeout_ust
+  std::int64_t blocking_timeout = 0;  // as ChannelBuffers::blocking_timeout
 };
 
 // The owner of userspace buffers: a user, for all processes together, or each process.
@@ -50,20 +61,13 @@ struct TraceConfig {
   std::vector<std::string> syscalls;
   std::vector<std::string> context_fields_ust = default_context_fields();
   std::vector<std::string> context_fields_kernel = default_context_fields();
-  // Buffers that hold 200,000 events/s of 100 nodes on two busy processors (docs/trace_control.md), where the
-  // 2 x 32 KiB and 200 µs of ros2_tracing lose events and keep the reader polling.
-  std::uint64_t subbuffer_size_ust = 1 << 20;  // bytes, rounded up to a power of two
+  ChannelBuffers ust;  // of the main userspace channel
   std::uint64_t subbuffer_size_kernel = 32 * 4096;
-  bool init_channel = false;              // initialisation events in a channel of their own, `ros2_init`
-  std::uint64_t subbuffer_count_ust = 4;  // for each processor, a power of two
-  std::uint32_t read_timer_ust =
-      50'000;  // µs between two looks of the consumer into the buffers; 0: it is woken instead
+  bool init_channel = false;  // initialisation events in a channel of their own, `ros2_init`
   // µs after which a sub-buffer is written though it is not full; 0: never; unset: kSwitchTimer, never in a snapshot
   // session, which writes nothing by itself.
   std::optional<std::uint32_t> switch_timer_ust = {};
   std::optional<bool> overwrite_ust = {};  // lose the oldest events, not the newest; unset: in a snapshot session only
-  // µs that a traced thread waits for room in its buffers before an event is lost; 0: it never waits, -1: for ever.
-  std::int64_t blocking_timeout_ust = 0;
   BufferOwner buffers_ust = BufferOwner::kUser;
   std::uint64_t tracefile_size = 0;   // bytes after which a stream goes on in a further file; 0: one file
   std::uint64_t tracefile_count = 0;  // files of a stream that are kept, the oldest is overwritten; 0: all

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 // In sub-buffers of the userspace channel: ten as in ros2_tracing, or all where there are more processors than that is
 // enough for. LTTng refuses less than one for each.
 std::uint64_t largest_snapshot(const TraceConfig& config) {
-  return std::max<std::uint64_t>(10, static_cast<std::uint64_t>(get_nprocs_conf()) * config.subbuffer_count_ust);
+  return std::max<std::uint64_t>(10, static_cast<std::uint64_t>(get_nprocs_conf()) * config.ust.subbuffer_count);
 }
 
 constexpr int kWaitForever = -1;
@@ -77,7 +77,7 @@ void add_snapshot_output(const TraceConfig& config) {
     check_lttng(lttng_snapshot_output_set_local_path(url.c_str(), output.get()), doing);
   }
   const std::uint64_t size =
-      config.snapshot_size != 0 ? config.snapshot_size : largest_snapshot(config) * config.subbuffer_size_ust;
+      config.snapshot_size != 0 ? config.snapshot_size : largest_snapshot(config) * config.ust.subbuffer_size;
   check_lttng(lttng_snapshot_output_set_size(size, output.get()), doing);
   check_lttng(lttng_snapshot_add_output(config.lttng_session_name().c_str(), output.get()), doing);
 }
