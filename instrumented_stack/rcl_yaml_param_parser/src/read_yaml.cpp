@@ -13,10 +13,13 @@
 
 #include "node_pattern.hpp"
 #include "scalar.hpp"
-#include "wrong.hpp"
 
 namespace rcl_yaml {
 namespace {
+
+[[noreturn]] void wrong(const std::string& what) {
+  throw std::invalid_argument(what);
+}
 
 constexpr std::string_view kParametersKey = "ros__parameters";
 

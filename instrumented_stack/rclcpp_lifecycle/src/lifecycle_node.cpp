@@ -191,4 +191,12 @@ std::vector<std::shared_ptr<ManagedEntityInterface>> LifecycleNode::managed_enti
   return living;
 }
 
+void SimpleManagedEntity::on_activate() {
+  activated_ = true;
+}
+
+void SimpleManagedEntity::on_deactivate() {
+  activated_ = false;
+}
+
 }  // namespace rclcpp_lifecycle

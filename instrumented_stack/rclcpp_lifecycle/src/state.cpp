@@ -2,6 +2,9 @@
 #include "rclcpp_lifecycle/state.hpp"
 
 #include <stdexcept>
+#include <utility>
+
+#include "rclcpp_lifecycle/transition.hpp"
 
 namespace rclcpp_lifecycle {
 
@@ -17,6 +20,21 @@ State::State(const rcl_lifecycle_state_t* rcl_lifecycle_state) {
   }
   id_ = static_cast<uint8_t>(rcl_lifecycle_state->id);
   label_ = rcl_lifecycle_state->label;
+}
+
+Transition::Transition(uint8_t id, const std::string& label) : id_(id), label_(label) {}
+
+Transition::Transition(uint8_t id, const std::string& label, State&& start, State&& goal)
+    : id_(id), label_(label), start_(std::move(start)), goal_(std::move(goal)) {}
+
+Transition::Transition(const rcl_lifecycle_transition_t* rcl_lifecycle_transition) {
+  if (rcl_lifecycle_transition == nullptr) {
+    throw std::invalid_argument("rcl_lifecycle_transition_handle is null");
+  }
+  id_ = static_cast<uint8_t>(rcl_lifecycle_transition->id);
+  label_ = rcl_lifecycle_transition->label;
+  start_ = State(rcl_lifecycle_transition->start);
+  goal_ = State(rcl_lifecycle_transition->goal);
 }
 
 }  // namespace rclcpp_lifecycle

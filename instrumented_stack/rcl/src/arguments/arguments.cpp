@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "arguments/arguments_impl.hpp"
-#include "arguments/wrong.hpp"
 #include "rcl/error_handling.h"
 #include "rcutils/logging.h"
 

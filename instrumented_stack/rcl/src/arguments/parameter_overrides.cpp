@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "arguments/arguments_impl.hpp"
-#include "arguments/wrong.hpp"
 
 namespace rcl {
 namespace {

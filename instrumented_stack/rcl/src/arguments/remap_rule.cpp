@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "arguments/remap_rule.hpp"
+#include "arguments/arguments_impl.hpp"
 
 #include <cctype>
 #include <stdexcept>
 
-#include "arguments/wrong.hpp"
 #include "names/names.hpp"
 
 namespace rcl {

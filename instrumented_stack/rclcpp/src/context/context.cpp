@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "rclcpp/contexts/default_context.hpp"
 #include "rclcpp/detail/rcl_arguments.hpp"
 #include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/exceptions.hpp"
@@ -214,6 +215,11 @@ std::vector<Context::SharedPtr> get_contexts() {
     }
   }
   return contexts;
+}
+
+contexts::DefaultContext::SharedPtr contexts::get_global_default_context() {
+  static const auto context = std::make_shared<DefaultContext>();
+  return context;
 }
 
 }  // namespace rclcpp

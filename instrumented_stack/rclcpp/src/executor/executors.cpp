@@ -15,6 +15,16 @@ ExecutorOptions options_for(node_interfaces::NodeBaseInterface& node) {
 
 }  // namespace
 
+[[gnu::hot]] void executors::SingleThreadedExecutor::spin() {
+  const SpinningScope scope(*this, "spin()");
+  while (context_->is_valid() && spinning_) {
+    AnyExecutable any_executable;
+    if (get_next_executable(any_executable)) {
+      execute_any_executable(any_executable);
+    }
+  }
+}
+
 void spin(node_interfaces::NodeBaseInterface::SharedPtr node) {
   executors::SingleThreadedExecutor executor(options_for(*node));
   executor.add_node(node);

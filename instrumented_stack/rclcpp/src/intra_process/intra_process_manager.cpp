@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <limits>
 #include <mutex>
+#include <stdexcept>
 
 #include "rclcpp/detail/require_ok.hpp"
+#include "rclcpp/detail/resolve_use_intra_process.hpp"
 
 namespace rclcpp::experimental {
 
@@ -126,3 +128,18 @@ void IntraProcessManager::connect(PublisherEntry& entry, uint64_t subscription_i
 }
 
 }  // namespace rclcpp::experimental
+
+namespace rclcpp {
+
+void detail::require_intra_process_qos(const QoS& qos, const std::string& topic_name) {
+  if (qos.history() != HistoryPolicy::KeepLast) {
+    throw std::invalid_argument("intraprocess communication on topic '" + topic_name +
+                                "' allowed only with keep last history qos policy");
+  }
+  if (qos.depth() == 0) {
+    throw std::invalid_argument("intraprocess communication on topic '" + topic_name +
+                                "' is not allowed with a zero qos history depth value");
+  }
+}
+
+}  // namespace rclcpp

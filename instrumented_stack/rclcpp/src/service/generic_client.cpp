@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "rclcpp/create_generic_client.hpp"
 #include "rclcpp/detail/message_memory.hpp"
 #include "rclcpp/logging.hpp"
 
@@ -60,6 +61,16 @@ void GenericClient::handle_response(const rmw_request_id_t& request_header, std:
     with_callback.promise.set_value(std::move(response));
     with_callback.callback(std::move(with_callback.future));
   }
+}
+
+GenericClient::SharedPtr create_generic_client(std::shared_ptr<node_interfaces::NodeBaseInterface> node_base,
+                                               std::shared_ptr<node_interfaces::NodeGraphInterface> /*node_graph*/,
+                                               std::shared_ptr<node_interfaces::NodeServicesInterface> node_services,
+                                               const std::string& service_name, const std::string& service_type,
+                                               const QoS& qos, CallbackGroup::SharedPtr group) {
+  auto client = std::make_shared<GenericClient>(node_base.get(), service_name, service_type, qos);
+  node_services->add_client(client, group);
+  return client;
 }
 
 }  // namespace rclcpp

@@ -44,9 +44,9 @@ int64_t difference(int64_t a, int64_t b, const std::string& what) {
 // Seconds rounded down, plus the remaining nanoseconds, as messages require. What a message can't hold becomes the
 // largest or the smallest value of its fields.
 template <typename MessageT>
-MessageT to_message(int64_t nanoseconds) {
-  int64_t seconds = nanoseconds / kNanosecondsPerSecond;
-  int64_t rest = nanoseconds % kNanosecondsPerSecond;
+MessageT to_message(int64_t total_nanoseconds) {
+  int64_t seconds = total_nanoseconds / kNanosecondsPerSecond;
+  int64_t rest = total_nanoseconds % kNanosecondsPerSecond;
   if (rest < 0) {
     rest += kNanosecondsPerSecond;
     --seconds;

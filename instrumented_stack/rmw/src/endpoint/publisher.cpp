@@ -18,7 +18,6 @@
 #include "participant/participant.hpp"
 #include "process/end_of_process.hpp"
 #include "qos/qos.hpp"
-#include "qos/traced_qos.hpp"
 #include "rmw/error_handling.h"
 #include "tracetools/tracetools.h"
 #include "types/dds_gid.hpp"

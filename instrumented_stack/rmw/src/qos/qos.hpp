@@ -2,6 +2,8 @@
 // Converts between ROS profiles and the quality of service of Fast DDS, as rmw_fastrtps_cpp does.
 #pragma once
 
+#include <cstdint>
+
 #include "rmw/types.h"
 
 namespace eprosima::fastdds::dds {
@@ -32,5 +34,17 @@ rmw_qos_profile_t profile_of(const eprosima::fastdds::dds::ReaderQos& qos);
 
 // Infinite if Fast DDS cannot express the duration, beyond 68 years.
 eprosima::fastrtps::Time_t to_dds(const rmw_time_t& time);
+
+// What ros2_ext:rmw_publisher_qos and rmw_subscription_qos record of a profile.
+struct TracedQos {
+  explicit TracedQos(const rmw_qos_profile_t& profile)
+      : reliable(profile.reliability == RMW_QOS_POLICY_RELIABILITY_RELIABLE),
+        history_depth(profile.history == RMW_QOS_POLICY_HISTORY_KEEP_ALL ? 0 : profile.depth),
+        transient_local(profile.durability == RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL) {}
+
+  bool reliable;
+  std::uint64_t history_depth;  // 0: all messages are kept
+  bool transient_local;
+};
 
 }  // namespace rmw_fastrtps
