@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "arguments/arguments_impl.hpp"
-
 #include <cctype>
 #include <stdexcept>
 
+#include "arguments/arguments_impl.hpp"
 #include "names/names.hpp"
 
 namespace rcl {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Records events of plain fields (record_functions.hpp) as LTTng's generated probes do, with one function for all events.
-// LTTng's macros generate a probe for each event, and a function that calls it. At the rate of messages the code of
-// each has to come from memory again, and that takes longer than to run it.
+// Records events of plain fields (record_functions.hpp) as LTTng's generated probes do, with one function for all
+// events. LTTng's macros generate a probe for each event, and a function that calls it. At the rate of messages the
+// code of each has to come from memory again, and that takes longer than to run it.
 
 #include <lttng/ust-events.h>
 
