@@ -14,8 +14,8 @@ using testing::TemporaryDirectory;
 using testing::Thread;
 using testing::TraceWriter;
 
-constexpr std::int64_t kEpoch = 1'767'225'600'000'000'000;
-constexpr Thread kNode{71, 74, "node"};
+constexpr std::int64_t kTraceBegin = 1'767'225'600'000'000'000;
+constexpr Thread kSleeper{71, 74, "node"};
 constexpr Thread kStress{90, 90, "stress"};
 constexpr Thread kIdle{0, 0, "swapper/0"};
 
@@ -23,14 +23,14 @@ class Scheduler : public ::testing::Test {
  protected:
   // `state`: 0 when the previous thread could go on.
   void switches(std::int64_t time, const Thread& previous, std::int64_t state, const Thread& next) {
-    scheduler_.switches(0, kEpoch + time, previous, state, next);
+    scheduler_.switches(0, kTraceBegin + time, previous, state, next);
   }
   void wakes(std::int64_t time, const Thread& waker, const Thread& woken) {
-    scheduler_.wakes(0, kEpoch + time, waker, woken);
+    scheduler_.wakes(0, kTraceBegin + time, waker, woken);
   }
   template <class Struct>
   void writes(std::int64_t time, const Struct& event) {
-    writer_.write(0, kEpoch + time, kNode, event);
+    writer_.write(0, kTraceBegin + time, kSleeper, event);
   }
   CallbackResult result() {
     writer_.finish();
@@ -41,7 +41,7 @@ class Scheduler : public ::testing::Test {
 
   struct Intervals : ExecutionSink {
     void on_thread_state(const ThreadInterval& interval) override {
-      if (interval.thread.vtid == kNode.vtid) {
+      if (interval.thread.vtid == kSleeper.vtid) {
         states.push_back(interval.state);
       }
     }
@@ -56,15 +56,15 @@ class Scheduler : public ::testing::Test {
 };
 
 TEST_F(Scheduler, DividesTheTimeOfACallback) {
-  switches(100, kNode, 1, kIdle);
-  wakes(200, kIdle, kNode);
-  switches(210, kIdle, 0, kNode);
+  switches(100, kSleeper, 1, kIdle);
+  wakes(200, kIdle, kSleeper);
+  switches(210, kIdle, 0, kSleeper);
   writes(1'000, ros2::CallbackStart{0xcb, false});
-  switches(1'100, kNode, 0, kStress);  // preempted
-  switches(9'100, kStress, 0, kNode);
-  switches(9'200, kNode, 1, kStress);  // sleeps
-  wakes(9'500, kStress, kNode);
-  switches(9'520, kStress, 1, kNode);
+  switches(1'100, kSleeper, 0, kStress);  // preempted
+  switches(9'100, kStress, 0, kSleeper);
+  switches(9'200, kSleeper, 1, kStress);  // sleeps
+  wakes(9'500, kStress, kSleeper);
+  switches(9'520, kStress, 1, kSleeper);
   writes(10'000, ros2::CallbackEnd{0xcb});
   const CallbackResult callback = result();
   EXPECT_EQ(callback.durations.max_ns, 9'000);

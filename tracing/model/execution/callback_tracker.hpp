@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pairs the starts and ends of callbacks and measures the time between.
+// Pairs the starts and ends of callbacks, measures the time between, and tells a sink the instances.
 //
 // An instance is identified by process, thread and callback: a reentrant callback may run in several threads at once
 // with the same address, and callbacks of two processes may have the same address.
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "tracing/model/execution/duration_statistics.hpp"
+#include "tracing/model/execution/execution_sink.hpp"
 #include "tracing/model/objects/object_model.hpp"
 
 namespace tracing {
@@ -30,21 +30,27 @@ struct CallbackRecord {
 
 class CallbackTracker {
  public:
-  // `thread`: the callbacks that run in the event's thread, innermost last. The caller keeps it between events. The
-  // result is an earlier instance that will have no end.
-  std::optional<ActiveCallback> start(std::vector<ActiveCallback>& thread, const ActiveCallback& callback);
-  // The instance that ended. An end without a start is ignored; it occurs at the begin of a trace.
-  std::optional<ActiveCallback> end(std::vector<ActiveCallback>& thread, ros2::Handle address, std::int64_t time_ns);
-  // Counts the callbacks that still run in a thread when the trace ends.
-  void abandon(const std::vector<ActiveCallback>& thread);
+  // The sink must outlive this object.
+  explicit CallbackTracker(ExecutionSink& sink) : sink_(sink) {}
+
+  // `active`: the callbacks that run in the thread, innermost last. The caller keeps them between events.
+  void start(const ThreadId& thread, std::vector<ActiveCallback>& active, const ActiveCallback& callback);
+  // An end without a start is only counted; it occurs at the begin of a trace.
+  void end(const ThreadId& thread, std::vector<ActiveCallback>& active, ros2::Handle address, std::int64_t time_ns);
+  // The callbacks still run when the trace ends.
+  void abandon(const ThreadId& thread, const std::vector<ActiveCallback>& active, std::int64_t time_ns);
 
   // Indexed by the callback's ObjectId; may be shorter than the model's list.
   const std::vector<CallbackRecord>& records() const { return records_; }
+  std::uint64_t ends_without_begin() const { return ends_without_begin_; }
 
  private:
   CallbackRecord& record(ObjectId callback);
+  void tell(const ThreadId& thread, const ActiveCallback& callback, std::int64_t end_ns, bool nested, bool finished);
 
+  ExecutionSink& sink_;
   std::vector<CallbackRecord> records_;
+  std::uint64_t ends_without_begin_ = 0;
 };
 
 }  // namespace tracing

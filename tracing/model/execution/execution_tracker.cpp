@@ -3,9 +3,19 @@
 
 namespace tracing {
 
-void ExecutionTracker::start(std::optional<ActiveExecution>& thread, const Served& served, std::int64_t time_ns) {
+void ExecutionTracker::start(std::optional<ActiveExecution>& thread, const Origin& origin,
+                             const ros2::ExecutionEvent& event) {
+  Served served{origin.process, event.kind, kNoObject, 0};
+  if (event.kind == ros2::ExecutionEvent::Kind::kService) {
+    served.id = model_.service(origin.process, event.handle);
+  } else if (event.kind == ros2::ExecutionEvent::Kind::kClient) {
+    served.id = model_.client(origin.process, event.handle);
+  }
+  if (served.id == kNoObject) {
+    served.address = event.handle;
+  }
   ++records_[served].count;
-  thread = ActiveExecution{served, time_ns};
+  thread = ActiveExecution{served, origin.time_ns};
 }
 
 void ExecutionTracker::end(std::optional<ActiveExecution>& thread, ros2::ExecutionEvent::Kind kind,

@@ -40,14 +40,18 @@ struct ExecutionRecord {
 
 class ExecutionTracker {
  public:
-  // The caller keeps `thread` between events.
-  void start(std::optional<ActiveExecution>& thread, const Served& served, std::int64_t time_ns);
+  // The model must outlive this object.
+  explicit ExecutionTracker(const ObjectModel& model) : model_(model) {}
+
+  // An executor serves the object of the event next. The caller keeps `thread` between events.
+  void start(std::optional<ActiveExecution>& thread, const Origin& origin, const ros2::ExecutionEvent& event);
   // Ends an execution of this kind; ignored when the thread has none.
   void end(std::optional<ActiveExecution>& thread, ros2::ExecutionEvent::Kind kind, std::int64_t time_ns);
 
   const std::map<Served, ExecutionRecord>& records() const { return records_; }
 
  private:
+  const ObjectModel& model_;
   std::map<Served, ExecutionRecord> records_;
 };
 

@@ -25,31 +25,31 @@ struct LifecycleRecord {
   AllocationCount of_process = {};
 };
 
-// The sinks may be null.
 class LifecycleTracker {
  public:
-  // The counter must outlive this object.
-  explicit LifecycleTracker(const AllocationCounter& allocations) : allocations_(allocations) {}
+  // Tells the sink each stay in a state. All must outlive this object.
+  LifecycleTracker(const ObjectModel& model, const AllocationCounter& allocations, ExecutionSink& sink)
+      : model_(model), allocations_(allocations), sink_(sink) {}
 
   // A new state machine is unconfigured; ROS 2 records no event for that. The state dump of a living one is ignored.
-  void begin(const Origin& origin, ros2::Handle state_machine, ObjectId node, ExecutionSink* sink);
-  void change(const Origin& origin, ros2::Handle state_machine, std::string_view from, std::string_view to,
-              ExecutionSink* sink);
+  void on(const Origin& origin, const ros2::RclLifecycleStateMachineInit& event);
+  void on(const Origin& origin, const ros2::RclLifecycleTransition& event);
   // The current state, from a state dump. The time before is unknown.
-  void state(const Origin& origin, ros2::Handle state_machine, std::string_view state, ExecutionSink* sink);
+  void state(const Origin& origin, ros2::Handle state_machine, std::string_view state);
   // The object at the address ends; the node stays in the list of intervals.
-  void end(const Origin& origin, ros2::Handle state_machine, ExecutionSink* sink);
-  void finish(std::int64_t end_ns, ExecutionSink* sink);
+  void end(const Origin& origin, ros2::Handle state_machine);
+  void finish(std::int64_t end_ns);
 
   const std::vector<LifecycleRecord>& records() const { return records_; }  // in the order of their ends
 
  private:
   using Key = std::pair<ProcessId, ros2::Handle>;
   void enter(LifecycleRecord& current, ProcessId process, ObjectId node, std::string_view state, std::int64_t time_ns);
-  void leave(LifecycleRecord& current, ProcessId process, std::int64_t time_ns, bool ended, ExecutionSink* sink);
+  void leave(LifecycleRecord& current, ProcessId process, std::int64_t time_ns, bool ended);
 
+  const ObjectModel& model_;
   const AllocationCounter& allocations_;
-
+  ExecutionSink& sink_;
   std::map<Key, LifecycleRecord> current_;
   std::vector<LifecycleRecord> records_;
 };

@@ -33,43 +33,63 @@ ServiceMatcher::Call& ServiceMatcher::begin(const Key& key) {
   return found->second;
 }
 
-void ServiceMatcher::send_request(ObjectId client, const ros2::Gid& gid, std::int64_t sequence_number,
-                                  std::int64_t time_ns) {
-  const Key key{gid, sequence_number};
+// A client without its rmw_client_init gets an identity of its own, so that its requests are still found when its
+// responses come.
+ros2::Gid ServiceMatcher::gid_of(ObjectId client) const {
+  ros2::Gid gid = model_.clients()[client].gid;
+  if (gid.size == 0) {
+    std::memcpy(gid.bytes.data(), &client, sizeof client);
+  }
+  return gid;
+}
+
+void ServiceMatcher::on(const Origin& origin, const ros2::RmwSendRequest& event) {
+  const ObjectId client = model_.rmw_client(origin.process, event.rmw_client_handle);
+  if (client == kNoObject) {
+    ++unknown_clients_;
+    return;
+  }
+  const Key key{gid_of(client), event.sequence_number};
   Call& call = begin(key);
   call.client = client;
-  call.sent_ns = time_ns;
+  call.sent_ns = origin.time_ns;
   if (call.received_ns) {
     end_now(key);
   }
 }
 
-void ServiceMatcher::take_request(ObjectId service, const ros2::Gid& gid, std::int64_t sequence_number,
-                                  std::int64_t time_ns) {
-  Call& call = begin({gid, sequence_number});
+void ServiceMatcher::on(const Origin& origin, const ros2::RmwTakeRequest& event) {
+  if (!event.taken) {
+    return;
+  }
+  Call& call = begin({event.client_gid, event.sequence_number});
   if (call.taken_ns) {
     return;
   }
-  call.service = service;
-  call.taken_ns = time_ns;
+  call.service = model_.rmw_service(origin.process, event.rmw_service_handle);
+  call.taken_ns = origin.time_ns;
 }
 
-void ServiceMatcher::send_response(ObjectId service, const ros2::Gid& gid, std::int64_t sequence_number,
-                                   std::int64_t time_ns) {
-  const auto call = calls_.find({gid, sequence_number});
-  if (call == calls_.end() || call->second.service != service || call->second.answered_ns) {
+void ServiceMatcher::on(const Origin& origin, const ros2::RmwSendResponse& event) {
+  const auto call = calls_.find({event.client_gid, event.sequence_number});
+  if (call == calls_.end() || call->second.answered_ns ||
+      call->second.service != model_.rmw_service(origin.process, event.rmw_service_handle)) {
     return;
   }
-  call->second.answered_ns = time_ns;
+  call->second.answered_ns = origin.time_ns;
 }
 
-void ServiceMatcher::take_response(const ros2::Gid& gid, std::int64_t sequence_number, std::int64_t time_ns) {
-  const Key key{gid, sequence_number};
+void ServiceMatcher::on(const Origin& origin, const ros2::RmwTakeResponse& event) {
+  const ObjectId client = model_.rmw_client(origin.process, event.rmw_client_handle);
+  if (!event.taken || client == kNoObject) {
+    return;
+  }
+  const Key key{gid_of(client), event.sequence_number};
   const auto call = calls_.find(key);
   if (call == calls_.end()) {
     return;
   }
-  call->second.received_ns = time_ns;
+  call->second.received_ns = origin.time_ns;
   if (call->second.sent_ns) {
     end_now(key);
   }
@@ -90,13 +110,13 @@ void ServiceMatcher::finish() {
 }
 
 void ServiceMatcher::end(const Call& call) {
-  if (sink_ != nullptr && call.sent_ns && call.received_ns) {
-    sink_->on_call({.client = call.client,
-                    .service = call.service,
-                    .sent_ns = *call.sent_ns,
-                    .taken_ns = call.taken_ns.value_or(0),
-                    .answered_ns = call.answered_ns.value_or(0),
-                    .received_ns = *call.received_ns});
+  if (call.sent_ns && call.received_ns) {
+    sink_.on_call({.client = call.client,
+                   .service = call.service,
+                   .sent_ns = *call.sent_ns,
+                   .taken_ns = call.taken_ns.value_or(0),
+                   .answered_ns = call.answered_ns.value_or(0),
+                   .received_ns = *call.received_ns});
   }
   CallRecord& record = records_[{call.client, call.service}];
   ++record.requests;

@@ -31,23 +31,25 @@ struct CallRecord {
 
 class ServiceMatcher {
  public:
-  // Tells `sink`, unless it is null, each call whose response was taken.
-  explicit ServiceMatcher(ExecutionSink* sink = nullptr) : sink_(sink) {}
+  // Tells the sink each call whose response was taken. Both must outlive this object.
+  ServiceMatcher(const ObjectModel& model, ExecutionSink& sink) : model_(model), sink_(sink) {}
 
   // A call without a response is remembered until this many newer calls have begun. That bounds the memory.
   static constexpr std::size_t kRemembered = 16'384;
 
+  void on(const Origin& origin, const ros2::RmwSendRequest& event);
   // When several services take a request, the first one is the one that is called.
-  void send_request(ObjectId client, const ros2::Gid& gid, std::int64_t sequence_number, std::int64_t time_ns);
-  void take_request(ObjectId service, const ros2::Gid& gid, std::int64_t sequence_number, std::int64_t time_ns);
-  void send_response(ObjectId service, const ros2::Gid& gid, std::int64_t sequence_number, std::int64_t time_ns);
-  void take_response(const ros2::Gid& gid, std::int64_t sequence_number, std::int64_t time_ns);
+  void on(const Origin& origin, const ros2::RmwTakeRequest& event);
+  void on(const Origin& origin, const ros2::RmwSendResponse& event);
+  void on(const Origin& origin, const ros2::RmwTakeResponse& event);
   // To be called at the end of the trace: calls without a response will get none.
   void finish();
 
   // Client and service; kNoObject for one that is not in the trace.
   using Pair = std::pair<ObjectId, ObjectId>;
   const std::map<Pair, CallRecord>& records() const { return records_; }
+  // Requests of clients whose creation is not in the trace.
+  std::uint64_t unknown_clients() const { return unknown_clients_; }
 
  private:
   struct Key {
@@ -67,14 +69,17 @@ class ServiceMatcher {
     std::optional<std::int64_t> received_ns;
   };
 
+  ros2::Gid gid_of(ObjectId client) const;
   Call& begin(const Key& key);
   void end_now(const Key& key);  // a key of calls_
   void end(const Call& call);
 
-  ExecutionSink* sink_;
+  const ObjectModel& model_;
+  ExecutionSink& sink_;
   std::unordered_map<Key, Call, HashKey> calls_;  // calls that have no response yet, or no client in the trace
   std::deque<Key> oldest_first_;                  // the keys of calls_, and of some calls that have ended
   std::map<Pair, CallRecord> records_;
+  std::uint64_t unknown_clients_ = 0;
 };
 
 }  // namespace tracing

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/model/analysis/join/event_join.hpp"
+
+namespace tracing {
+
+void EventJoin::on_event(const Origin& origin, const ros2::AnyEvent& event) {
+  last_ns_ = origin.time_ns;
+  std::visit([&](const auto& known) { handle(origin, known); }, event);
+}
+
+// An event goes to the functions below or to the first part that has an overload for it. Some events need neither.
+template <class Event>
+void EventJoin::handle(const Origin& origin, const Event& event) {
+  if constexpr (requires { on(origin, event); }) {
+    on(origin, event);
+  } else if constexpr (requires { model_.on(origin, event); }) {
+    model_.on(origin, event);
+  } else if constexpr (requires { messages_.on(origin, thread(origin), event); }) {
+    messages_.on(origin, thread(origin), event);
+  } else if constexpr (requires { messages_.on(origin, event); }) {
+    messages_.on(origin, event);
+  } else if constexpr (requires { calls_.on(origin, event); }) {
+    calls_.on(origin, event);
+  } else if constexpr (requires { lifecycle_.on(origin, event); }) {
+    lifecycle_.on(origin, event);
+  }
+}
+
+void EventJoin::on(const Origin& origin, const ros2::CallbackStart& event) {
+  ThreadState& running = thread(origin);
+  const ObjectId id = model_.callback(origin.process, event.callback);
+  callbacks_.start({origin.process, origin.vtid}, running.active_callbacks,
+                   {event.callback, id, origin.time_ns, event.is_intra_process});
+  messages_.on_callback(origin, running, id, event.is_intra_process);
+}
+
+void EventJoin::on(const Origin& origin, const ros2::CallbackEnd& event) {
+  callbacks_.end({origin.process, origin.vtid}, thread(origin).active_callbacks, event.callback, origin.time_ns);
+}
+
+void EventJoin::on(const Origin& origin, const ros2::RmwSendResponse& event) {
+  calls_.on(origin, event);
+  executions_.end(thread(origin).execution, ros2::ExecutionEvent::Kind::kService, origin.time_ns);
+}
+
+void EventJoin::on(const Origin& origin, const ros2::RclcppExecutorGetNextReady&) {
+  ThreadState& spinning = thread(origin);
+  spinning.execution.reset();
+  const ThreadId thread{origin.process, origin.vtid};
+  if (spinning.woken_ns != 0) {
+    sink_.on_executor_look({thread, origin.time_ns});
+    return;
+  }
+  spinning.woken_ns = origin.time_ns;
+  if (spinning.free_ns != 0) {
+    sink_.on_executor_wait({thread, spinning.free_ns, origin.time_ns});
+  }
+}
+
+void EventJoin::on(const Origin& origin, const ros2::RclcppExecutorWaitForWork&) {
+  ThreadState& spinning = thread(origin);
+  spinning.execution.reset();
+  messages_.give_to_none(origin, spinning);
+  spinning.free_ns = origin.time_ns;
+  spinning.woken_ns = 0;
+}
+
+void EventJoin::on(const Origin& origin, const ros2::RclcppExecutorExecute&) {
+  thread(origin).execution.reset();
+}
+
+void EventJoin::on_execution(const Origin& origin, const ros2::ExecutionEvent& event) {
+  using Kind = ros2::ExecutionEvent::Kind;
+  ThreadState& running = thread(origin);
+  const ThreadId thread{origin.process, origin.vtid};
+  if (event.kind == Kind::kClientCallbackStart) {
+    const ObjectId callback = model_.client_callback(origin.process, event.handle);
+    callbacks_.start(thread, running.active_callbacks, {event.handle, callback, origin.time_ns, false});
+  } else if (event.kind == Kind::kClientCallbackEnd) {
+    callbacks_.end(thread, running.active_callbacks, event.handle, origin.time_ns);
+    executions_.end(running.execution, Kind::kClient, origin.time_ns);
+  } else {
+    executions_.start(running.execution, origin, event);
+  }
+}
+
+void EventJoin::on_end(const Origin& origin, const ros2::ObjectEnd& end) {
+  last_ns_ = origin.time_ns;
+  if (end.kind == ros2::ObjectEnd::Kind::kRclLifecycleStateMachine) {
+    lifecycle_.end(origin, end.handle);
+  }
+  model_.on(origin, end);
+}
+
+void EventJoin::finish() {
+  for (auto& [id, state] : threads_) {
+    callbacks_.abandon(id, state.active_callbacks, last_ns_);
+    messages_.give_to_none({last_ns_, id.process, id.vtid}, state);
+  }
+  threads_.clear();
+  lifecycle_.finish(last_ns_);
+  messages_.finish();
+  calls_.finish();
+}
+
+}  // namespace tracing

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/model/analysis/join/message_join.hpp"
+
+namespace tracing {
+
+void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::RclcppPublish& event) {
+  thread.rclcpp_message = event.message;
+  thread.rclcpp_ns = origin.time_ns;
+}
+
+void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::RclPublish& event) {
+  thread.rcl_publisher = event.publisher_handle;
+  thread.rcl_message = event.message;
+  thread.rcl_ns = origin.time_ns;
+}
+
+void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::RmwPublish& event) {
+  RmwLookup publisher = model_.rmw_publisher(origin.process, event.rmw_publisher_handle);
+  if (publisher.kind == RmwHandle::kUnknown) {
+    // ros2_tracing before 8.0 records only the message: its rcl_publish came just before, in the same thread.
+    if (thread.rcl_message == event.message) {
+      publisher.id = model_.publisher(origin.process, thread.rcl_publisher);
+      if (publisher.id != kNoObject) {
+        publisher.kind = RmwHandle::kKnown;
+      }
+    }
+  }
+  if (publisher.kind == RmwHandle::kInternal) {
+    ++counts_.internal;
+  } else if (publisher.kind == RmwHandle::kUnknown) {
+    ++counts_.unknown;
+    ++counts_.unknown_publications;
+  } else {
+    Publication publication{.number = ++counts_.publications,
+                            .topic = model_.publishers()[publisher.id].topic,
+                            .publisher = publisher.id,
+                            .thread = {origin.process, origin.vtid},
+                            .published_ns = origin.time_ns};
+    if (event.message != 0 && thread.rcl_message == event.message) {
+      publication.rcl_ns = thread.rcl_ns;
+    }
+    if (event.message != 0 && thread.rclcpp_message == event.message) {
+      publication.rclcpp_ns = thread.rclcpp_ns;
+    }
+    messages_.publish(publication, event.timestamp);
+    sink_.on_publication(publication);
+  }
+  // The message of an earlier publication may have had the same address.
+  thread.rcl_message = thread.rclcpp_message = 0;
+}
+
+void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::RmwTake& event) {
+  if (thread.taken) {
+    tell_taken(origin, thread, kNoObject);
+  }
+  if (!event.taken) {
+    return;
+  }
+  const RmwLookup subscription = model_.rmw_subscription(origin.process, event.rmw_subscription_handle);
+  if (subscription.kind == RmwHandle::kInternal) {
+    ++counts_.internal;
+  } else if (subscription.kind == RmwHandle::kUnknown) {
+    ++counts_.unknown;
+  } else {
+    const ObjectId topic = model_.subscriptions()[subscription.id].topic;
+    thread.taken = messages_.take(subscription.id, topic, event.source_timestamp, origin.time_ns);
+  }
+}
+
+void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::RclcppIntraPublish& event) {
+  thread.intra_process.reset();
+  const ObjectId publisher = model_.publisher(origin.process, event.publisher_handle);
+  if (publisher == kNoObject) {
+    ++counts_.unknown;
+    ++counts_.unknown_publications;
+    return;
+  }
+  thread.intra_process = Publication{.number = ++counts_.publications,
+                                     .topic = model_.publishers()[publisher].topic,
+                                     .publisher = publisher,
+                                     .thread = {origin.process, origin.vtid},
+                                     .published_ns = origin.time_ns,
+                                     .intra_process = true};
+  sink_.on_publication(*thread.intra_process);
+}
+
+void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::RclcppRingBufferEnqueue& event) {
+  buffers_.enqueue(origin, event, thread.intra_process);
+}
+
+void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::RclcppRingBufferDequeue& event) {
+  if (thread.buffered) {
+    tell_buffered(origin, thread, kNoObject);
+  }
+  thread.buffered = buffers_.dequeue(origin, event);
+  thread.buffered_ns = origin.time_ns;
+}
+
+void MessageJoin::on_callback(const Origin& origin, ThreadState& thread, ObjectId callback, bool intra_process) {
+  if (intra_process) {
+    if (thread.buffered) {
+      tell_buffered(origin, thread, callback);
+    }
+    return;
+  }
+  if (!thread.taken) {
+    return;
+  }
+  // The next callback of the thread gets the message. If it belongs to another subscription, the callback was disabled.
+  const CallbackObject& next = model_.callbacks()[callback];
+  const bool gets_it =
+      next.owner == CallbackObject::Owner::kUnknown || model_.subscription_of(next) == thread.taken->subscription;
+  if (gets_it) {
+    messages_.deliver(*thread.taken, origin.time_ns);
+  }
+  tell_taken(origin, thread, gets_it ? callback : kNoObject);
+}
+
+void MessageJoin::give_to_none(const Origin& origin, ThreadState& thread) {
+  if (thread.taken) {
+    tell_taken(origin, thread, kNoObject);
+  }
+  if (thread.buffered) {
+    tell_buffered(origin, thread, kNoObject);
+  }
+}
+
+void MessageJoin::tell_taken(const Origin& origin, ThreadState& thread, ObjectId callback) {
+  sink_.on_message({.publication = thread.taken->publication,
+                    .subscription = thread.taken->subscription,
+                    .taking_thread = {origin.process, origin.vtid},
+                    .taken_ns = thread.taken->taken_ns,
+                    .executor_free_ns = thread.free_ns,
+                    .executor_woken_ns = thread.woken_ns,
+                    .callback = callback,
+                    .callback_begin_ns = callback == kNoObject ? 0 : origin.time_ns});
+  thread.taken.reset();
+}
+
+void MessageJoin::tell_buffered(const Origin& origin, ThreadState& thread, ObjectId callback) {
+  const ObjectId subscription = model_.subscription_of_object(origin.process, thread.buffered->subscription_object);
+  if (subscription != kNoObject) {
+    MessageFlow flow{.publication = thread.buffered->publication,
+                     .subscription = subscription,
+                     .taking_thread = {origin.process, origin.vtid},
+                     .taken_ns = thread.buffered_ns,
+                     .executor_free_ns = thread.free_ns,
+                     .executor_woken_ns = thread.woken_ns,
+                     .callback = callback,
+                     .callback_begin_ns = callback == kNoObject ? 0 : origin.time_ns};
+    flow.publication.topic = model_.subscriptions()[subscription].topic;
+    flow.publication.intra_process = true;
+    sink_.on_message(flow);
+  }
+  thread.buffered.reset();
+}
+
+void MessageJoin::link(const Origin& origin, const std::vector<ros2::Handle>& subscriptions,
+                       const std::vector<ros2::Handle>& publishers) {
+  MessageLink link;
+  for (const ros2::Handle handle : subscriptions) {
+    const ObjectId subscription = model_.subscription(origin.process, handle);
+    if (subscription != kNoObject) {
+      link.subscriptions.push_back(subscription);
+    }
+  }
+  for (const ros2::Handle handle : publishers) {
+    const ObjectId publisher = model_.publisher(origin.process, handle);
+    if (publisher != kNoObject) {
+      link.publishers.push_back(publisher);
+    }
+  }
+  sink_.on_message_link(link);
+}
+
+}  // namespace tracing

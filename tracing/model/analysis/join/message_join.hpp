@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Joins the events of each message, through the middleware or within the process, and tells a sink its way.
+//
+// A publication is what the publish functions of one thread say one after another. A message goes from there to the
+// thread that takes it, and to the next callback of that thread.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "tracing/decode/reader/ros2_events.hpp"
+#include "tracing/model/analysis/join/thread_state.hpp"
+#include "tracing/model/execution/execution_sink.hpp"
+#include "tracing/model/messages/intra_process_matcher.hpp"
+#include "tracing/model/messages/message_matcher.hpp"
+#include "tracing/model/objects/object_model.hpp"
+
+namespace tracing {
+
+struct MessageCounts {
+  std::uint64_t publications = 0;          // those that the sink was told
+  std::uint64_t internal = 0;              // published or taken by the middleware for itself
+  std::uint64_t unknown = 0;               // published or taken by objects whose initialisation is not in the trace
+  std::uint64_t unknown_publications = 0;  // part of unknown
+};
+
+class MessageJoin {
+ public:
+  // Both must outlive this object.
+  MessageJoin(const ObjectModel& model, ExecutionSink& sink) : model_(model), sink_(sink) {}
+
+  // `thread`: that of the event. The caller keeps it between events.
+  void on(const Origin& origin, ThreadState& thread, const ros2::RclcppPublish& event);
+  void on(const Origin& origin, ThreadState& thread, const ros2::RclPublish& event);
+  void on(const Origin& origin, ThreadState& thread, const ros2::RmwPublish& event);
+  void on(const Origin& origin, ThreadState& thread, const ros2::RmwTake& event);
+  void on(const Origin& origin, ThreadState& thread, const ros2::RclcppIntraPublish& event);
+  void on(const Origin& origin, ThreadState& thread, const ros2::RclcppRingBufferEnqueue& event);
+  void on(const Origin& origin, ThreadState& thread, const ros2::RclcppRingBufferDequeue& event);
+  void on(const Origin& origin, const ros2::RclcppRingBufferClear& event) { buffers_.clear(origin, event); }
+  void on(const Origin& origin, const ros2::RclcppConstructRingBuffer& event) { buffers_.on(origin, event); }
+  void on(const Origin& origin, const ros2::RclcppBufferToIpb& event) { buffers_.on(origin, event); }
+  void on(const Origin& origin, const ros2::RclcppIpbToSubscription& event) { buffers_.on(origin, event); }
+  void on(const Origin& origin, const ros2::MessageLinkPeriodicAsync& event) { link(origin, event.subs, event.pubs); }
+  void on(const Origin& origin, const ros2::MessageLinkPartialSync& event) { link(origin, event.subs, event.pubs); }
+
+  // The thread begins a callback, which gets the message that the thread has taken.
+  void on_callback(const Origin& origin, ThreadState& thread, ObjectId callback, bool intra_process);
+  // No callback of the thread gets what it has taken.
+  void give_to_none(const Origin& origin, ThreadState& thread);
+  // At the end of the trace.
+  void finish() { messages_.finish(); }
+
+  const MessageCounts& counts() const { return counts_; }
+  const MessageMatcher& through_middleware() const { return messages_; }
+  const IntraProcessMatcher& within_processes() const { return buffers_; }
+
+ private:
+  // The thread gives its message to `callback`, or to none.
+  void tell_taken(const Origin& origin, ThreadState& thread, ObjectId callback);
+  void tell_buffered(const Origin& origin, ThreadState& thread, ObjectId callback);
+  void link(const Origin& origin, const std::vector<ros2::Handle>& subscriptions,
+            const std::vector<ros2::Handle>& publishers);
+
+  const ObjectModel& model_;
+  ExecutionSink& sink_;
+  MessageMatcher messages_;
+  IntraProcessMatcher buffers_;
+  MessageCounts counts_;
+};
+
+}  // namespace tracing

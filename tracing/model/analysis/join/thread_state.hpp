@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is known of a thread between two of its events. Every part of the join has its members here, so that an event
+// needs one search for its thread.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "tracing/model/execution/callback_tracker.hpp"
+#include "tracing/model/execution/execution_tracker.hpp"
+#include "tracing/model/messages/intra_process_matcher.hpp"
+#include "tracing/model/messages/message_matcher.hpp"
+
+namespace tracing {
+
+struct ThreadState {
+  std::vector<ActiveCallback> active_callbacks;  // innermost last
+  std::optional<ActiveExecution> execution;
+
+  // Of the executor that spins in this thread.
+  std::int64_t free_ns = 0;   // its last wait for work began
+  std::int64_t woken_ns = 0;  // that wait ended; 0: not yet
+
+  // The thread's last rclcpp_publish and rcl_publish, which its rmw_publish follows.
+  ros2::Handle rclcpp_message = 0;
+  std::int64_t rclcpp_ns = 0;
+  ros2::Handle rcl_publisher = 0;
+  ros2::Handle rcl_message = 0;
+  std::int64_t rcl_ns = 0;
+  std::optional<Publication> intra_process;  // the thread's last publication within the process
+
+  // Messages that are not yet given to a callback.
+  std::optional<TakenMessage> taken;
+  std::optional<BufferedMessage> buffered;  // from a ring buffer
+  std::int64_t buffered_ns = 0;
+};
+
+}  // namespace tracing

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Makes the results of each subject from what the parts of the analysis have counted and measured. To be called at the
+// end of the trace, when these parts are finished.
+//
+// A file of this folder has the functions of one subject.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "tracing/model/analysis/join/event_join.hpp"
+#include "tracing/model/analysis/results.hpp"
+#include "tracing/model/execution/allocation_counter.hpp"
+#include "tracing/model/execution/callback_timing.hpp"
+#include "tracing/model/execution/executor_load.hpp"
+#include "tracing/model/messages/chain_tracker.hpp"
+#include "tracing/model/messages/delivery_statistics.hpp"
+
+namespace tracing {
+
+// Whom results tell of: objects, and the processes that they belong to.
+class Subjects {
+ public:
+  // `places`: where each process is in `processes`. Empty lists leave it where it is. `model` and `processes` must
+  // outlive this object.
+  Subjects(const ObjectModel& model, std::vector<std::optional<ProcessIndex>> places,
+           const std::vector<ProcessResult>& processes)
+      : model_(model), places_(std::move(places)), processes_(processes) {}
+
+  const ObjectModel& model() const { return model_; }
+  ProcessIndex place_of(ProcessId process) const {
+    return process < places_.size() ? places_[process].value_or(process) : process;
+  }
+  // Whether events may be missing.
+  bool is_doubtful(ProcessIndex process) const { return process < processes_.size() && processes_[process].doubtful; }
+  bool is_doubtful_node(ObjectId node) const {
+    return node != kNoObject && is_doubtful(place_of(model_.nodes()[node].process));
+  }
+
+ private:
+  const ObjectModel& model_;
+  std::vector<std::optional<ProcessIndex>> places_;
+  const std::vector<ProcessResult>& processes_;
+};
+
+// In a second, from the first to the last one.
+constexpr double rate(std::uint64_t count, std::int64_t first_ns, std::int64_t last_ns) {
+  return count < 2 || last_ns <= first_ns
+             ? 0
+             : static_cast<double>(count - 1) * 1e9 / static_cast<double>(last_ns - first_ns);
+}
+
+std::vector<CallbackResult> callback_results(const Subjects& subjects, const CallbackTracker& callbacks,
+                                             const CallbackTiming& timing);
+
+std::vector<TopicResult> topic_results(const Subjects& subjects, const MessageMatcher& messages,
+                                       const DeliveryStatistics& deliveries);
+std::vector<SubscriptionResult> subscription_results(const Subjects& subjects, const DeliveryStatistics& deliveries,
+                                                     const IntraProcessMatcher& buffers);
+// Messages that newer ones have pushed out of ring buffers, by subscription.
+std::map<ObjectId, std::uint64_t> overwritten_in_buffers(const ObjectModel& model, const IntraProcessMatcher& buffers);
+
+std::vector<CallResult> call_results(const Subjects& subjects, const ServiceMatcher& calls);
+
+std::vector<ExecutionResult> execution_results(const Subjects& subjects, const ExecutionTracker& executions);
+std::vector<ExecutorResult> executor_results(const Subjects& subjects, const ExecutorLoad& executors);
+
+// Fills in what `results` tell of chains.
+void add_chain_results(const Subjects& subjects, const ChainTracker& chains, Ros2Results& results);
+
+std::vector<NodeResult> node_results(const Subjects& subjects, const std::vector<CallbackResult>& callbacks);
+std::vector<LifecycleResult> lifecycle_results(const Subjects& subjects, const LifecycleTracker& lifecycle,
+                                               const AllocationCounter& allocations);
+
+std::vector<UnmatchedResult> unmatched_results(const ObjectModel& model, const EventJoin& join,
+                                               const DeliveryStatistics& deliveries);
+
+}  // namespace tracing
