@@ -278,11 +278,12 @@ std::vector<std::string> ProcessFields::launch_prefix(Scope& scope, const std::s
 
 OutputRouting ProcessFields::output(LaunchContext& context) const {
   const Environment& environment = context.initial_environment();
-  const auto everywhere = environment.find("OVERRIDE_LAUNCH_PROCESS_OUTPUT");
-  const bool overridden = everywhere != environment.end() && !everywhere->second.empty();
-  const std::string mode = overridden ? everywhere->second
-                           : output_  ? output_->perform(context.scope())
-                                      : std::string("log");
+  const auto variable = environment.find("OVERRIDE_LAUNCH_PROCESS_OUTPUT");
+  const std::string everywhere = !context.wishes().process_output.empty() ? context.wishes().process_output
+                                 : variable != environment.end()          ? variable->second
+                                                                          : "";
+  const bool overridden = !everywhere.empty();
+  const std::string mode = overridden ? everywhere : output_ ? output_->perform(context.scope()) : std::string("log");
   const std::optional<OutputRouting> routing = OutputRouting::from_mode(mode);
   if (!routing) {
     throw LaunchError(fmt::format("'{}' is not a valid output mode, expected screen, log, both, own_log or full", mode),

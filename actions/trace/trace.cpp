@@ -38,7 +38,7 @@ class Trace : public Action {
       perform_settings(channel_settings(), *channel, scope, request.config.channels.emplace_back());
     }
     find_faults(request.config, context);
-    complete_choices(request.choices, scope);
+    complete_choices(request.choices, context);
     request.config.snapshot_mode = request.config.snapshot_mode || request.choices.flight_recorder();
     context.requests().scopes.push_back(
         std::make_unique<TraceScope>(std::move(request), tracing::make_lttng_tracer(), context.own_prefix(), where()));
@@ -59,15 +59,14 @@ class Trace : public Action {
     }
   }
 
-  void complete_choices(TraceChoices& choices, Scope& scope) const {
+  void complete_choices(TraceChoices& choices, LaunchContext& context) const {
     if (!fields_.has("report")) {
-      const auto asked = scope.environment.find("LAUNCH_TRACE_REPORT");  // launch --report
-      choices.report = asked != scope.environment.end() && asked->second == "1";
+      choices.report = context.wishes().report;
     } else if (choices.report && fields_.has("url")) {
       throw LaunchError("report needs the trace on this machine, but url sends it to a relay daemon",
                         fields_.text("url").where(), "leave out report, and use launch report where the trace is");
     }
-    choices.chains = perform_chains(chains_, scope);
+    choices.chains = perform_chains(chains_, context.scope());
     for (std::size_t i = 0; i < chains_.size(); ++i) {
       const tracing::ChainDefinition& chain = choices.chains[i];
       for (const std::string& node : chain.nodes) {

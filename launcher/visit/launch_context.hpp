@@ -42,6 +42,15 @@ class LaunchContext {
   const Environment& initial_environment() const { return initial_environment_; }
   const std::string& own_prefix() const { return own_prefix_; }
 
+  // What the command line asks of the whole launch. It is not in the environment, because processes and the launches
+  // within them inherit that.
+  struct Wishes {
+    std::string process_output;  // of every process, by `launch -a`; empty: what the launch file says
+    bool report = false;         // a page of each trace that does not say otherwise, by `launch --report`
+  };
+  void set_wishes(Wishes wishes) { wishes_ = std::move(wishes); }
+  const Wishes& wishes() const { return wishes_; }
+
   // Levels for the loggers of nodes, by `launch --log-level`; the node is a name or a shell pattern.
   struct NodeLogLevel {
     std::string node;  // empty: every node
@@ -140,6 +149,7 @@ class LaunchContext {
   MessageSink messages_;
   Scope scope_;
   Requests requests_;
+  Wishes wishes_;
   std::vector<NodeLogLevel> log_levels_;
   bool plan_only_ = false;
   bool takes_tests_ = false;

@@ -85,6 +85,7 @@ void set_arguments(const CommandLine& command, LaunchContext& context) {
     levels.push_back({node, level});
   }
   context.set_log_levels(std::move(levels));
+  context.set_wishes({.process_output = command.show_all_output ? "both" : "", .report = command.report});
   Scope& scope = context.scope();
   for (const auto& [name, value] : command.arguments) {
     scope.configurations.insert_or_assign(name, value);
@@ -259,12 +260,6 @@ std::string dry_run(const CommandLine& command, LaunchContext& context, const La
 
 int run_command(const CommandLine& command, Environment environment,
                 std::shared_ptr<const LaunchDescription> description) {
-  if (command.show_all_output) {
-    environment.insert_or_assign("OVERRIDE_LAUNCH_PROCESS_OUTPUT", "both");
-  }
-  if (command.report) {
-    environment.insert_or_assign("LAUNCH_TRACE_REPORT", "1");
-  }
   if (command.debug) {
     show_python_tracebacks();
   }

@@ -73,6 +73,16 @@ TEST_F(OutputOptions, ColoursCanBeForced) {
   EXPECT_THAT(output("0"), HasSubstr("\n[ERROR] [launch.user]: text\n"));
 }
 
+// A launch within the launch, and any program that knows such variables, would take them for itself.
+TEST_F(OutputOptions, AreNoVariablesOfTheProcesses) {
+  const std::string file = write(R"xml(<executable cmd="env" name="a"/>)xml");
+  const CommandResult result = run_command({LAUNCH_PROGRAM, "-a", file});
+  EXPECT_THAT(result.out, HasSubstr("\n[a-1] PATH="));
+  EXPECT_THAT(result.out, Not(HasSubstr("OVERRIDE_LAUNCH")));
+  const CommandResult planned = run_command({LAUNCH_PROGRAM, "-a", "--report", "--dry-run=json", file});
+  EXPECT_THAT(planned.out, Not(HasSubstr("LAUNCH_")));
+}
+
 TEST_F(OutputOptions, LogLevelsAreForAllNodesOrForSome) {
   const std::string file = write(R"xml(<node pkg="demo_nodes" exec="talker" name="a"/>
 <node pkg="demo_nodes" exec="listener" name="b" namespace="/left"/>
