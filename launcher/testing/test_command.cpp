@@ -20,6 +20,7 @@
 #include "base/environment/home_directory.hpp"
 #include "base/environment/own_environment.hpp"
 #include "base/environment/own_prefix.hpp"
+#include "base/terminal/terminal.hpp"
 #include "launcher/language/introspection.hpp"
 #include "launcher/substitution/package_index.hpp"
 #include "launcher/substitution/template_parser.hpp"
@@ -78,7 +79,7 @@ std::vector<TestCase> list_all(const Options& options, const Registry& registry,
         fmt::print(stderr, "{}",
                    render(check_arguments(options.target.arguments, description,
                                           find_arguments(description, registry, scope), Severity::kWarning),
-                          ::isatty(STDERR_FILENO) != 0, "launch test"));
+                          shows_colour(STDERR_FILENO), "launch test"));
       }
       std::move(found.begin(), found.end(), std::back_inserter(tests));
     } catch (const LaunchError& error) {

@@ -3,29 +3,21 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <limits>
 
+#include "base/terminal/terminal.hpp"
+
 namespace launch {
 
-namespace {
-
-constexpr std::size_t kNarrow = 80;
-
-std::size_t width_of(std::FILE* stream) {
-  winsize size{};
-  return ::ioctl(::fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : kNarrow;
-}
-
-}  // namespace
-
-TestReport::TestReport(std::FILE* stream) : stream_(stream), is_terminal_(::isatty(::fileno(stream)) != 0) {}
+TestReport::TestReport(std::FILE* stream)
+    : stream_(stream),
+      has_progress_(takes_control_sequences(::fileno(stream))),
+      has_colour_(shows_colour(::fileno(stream))) {}
 
 void TestReport::on_progress(std::size_t ended, std::size_t all, const std::vector<std::string>& running) {
-  if (!is_terminal_) {
+  if (!has_progress_) {
     return;
   }
   clear_line();
@@ -35,7 +27,7 @@ void TestReport::on_progress(std::size_t ended, std::size_t all, const std::vect
   std::string text =
       fmt::format("[{}{}]{} {}", ended, all == std::numeric_limits<std::size_t>::max() ? "" : fmt::format("/{}", all),
                   failed_ == 0 ? "" : fmt::format(" {} failed,", failed_), fmt::join(running, ", "));
-  text.resize(std::min(text.size(), width_of(stream_) - 1));
+  text.resize(std::min(text.size(), terminal_columns(::fileno(stream_)) - 1));
   fmt::print(stream_, "{}", text);
   std::fflush(stream_);
   has_line_ = true;
@@ -51,10 +43,10 @@ void TestReport::clear_line() {
 void TestReport::on_result(const TestResult& result) {
   clear_line();
   const char* const word = result.passed() ? "PASS" : "FAIL";
-  const char* const colour = !is_terminal_ ? "" : result.passed() ? "\x1b[32m" : "\x1b[31m";
+  const char* const colour = !has_colour_ ? "" : result.passed() ? "\x1b[32m" : "\x1b[31m";
   const std::string attempts = result.attempts == 1 ? "" : fmt::format("  ({} attempts)", result.attempts);
   const std::string faults = result.faults.empty() ? "" : fmt::format("  ({})", fault_count_text(result));
-  fmt::print(stream_, "{}{}{}  {}  {:.2f} s{}{}\n", colour, word, is_terminal_ ? "\x1b[0m" : "", result.title(),
+  fmt::print(stream_, "{}{}{}  {}  {:.2f} s{}{}\n", colour, word, has_colour_ ? "\x1b[0m" : "", result.title(),
              result.seconds, faults, attempts);
   if (result.passed()) {
     if (!result.earlier.empty()) {

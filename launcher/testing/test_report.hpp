@@ -26,7 +26,8 @@ class TestReport final : public QueueObserver {
   void clear_line();
 
   std::FILE* stream_;
-  bool is_terminal_;
+  bool has_progress_;
+  bool has_colour_;
   bool has_line_ = false;
   std::size_t failed_ = 0;
   std::size_t flaky_ = 0;

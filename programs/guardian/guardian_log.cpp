@@ -9,7 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <cstdlib>
+
+#include "base/terminal/terminal.hpp"
 
 namespace launch {
 namespace {
@@ -39,8 +40,7 @@ void GuardianLog::open(const std::string& path) {
 }
 
 void GuardianLog::erase_status_line() {
-  const char* const type = std::getenv("TERM");
-  if (type != nullptr && std::string_view(type) != "dumb" && ::tcgetpgrp(STDOUT_FILENO) == ::getpgrp()) {
+  if (takes_control_sequences(STDOUT_FILENO) && ::tcgetpgrp(STDOUT_FILENO) == ::getpgrp()) {
     write_to_screen("\r\033[K");
   }
 }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/diagnostics/command_error.hpp"
+#include "base/terminal/terminal.hpp"
 
 namespace launch {
 
@@ -60,8 +61,8 @@ void ResultOutput::note_error() {
   }
 }
 
-bool ResultOutput::is_terminal() const {
-  return file_ != nullptr && ::isatty(::fileno(file_)) != 0;
+bool ResultOutput::has_colour() const {
+  return file_ != nullptr && shows_colour(::fileno(file_));
 }
 
 }  // namespace launch

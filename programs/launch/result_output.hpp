@@ -21,7 +21,7 @@ class ResultOutput {
   void print(std::string_view text);
   // False if something could not be written, which it reports. To be called behind the last print().
   bool finish();
-  bool is_terminal() const;
+  bool has_colour() const;
 
  private:
   void note_error();

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "base/terminal/terminal_colour.hpp"
+#include "base/terminal/terminal.hpp"
 
 namespace launch {
 

@@ -2,7 +2,6 @@
 // `launch report DIRECTORY`: reads a trace and prints a report, or compares traces. `launch` executes this program, so
 // that the launcher itself doesn't keep the reading libraries in memory while a system runs.
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -11,13 +10,13 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <optional>
 #include <stdexcept>
 
 #include "base/diagnostics/command_error.hpp"
+#include "base/terminal/terminal.hpp"
 #include "tracing/model/analysis/trace_analysis.hpp"
 #include "tracing/show/live/live_report.hpp"
 #include "tracing/show/report/comparison_command.hpp"
@@ -64,21 +63,17 @@ tracing::ReportOptions text_options(const Arguments& arguments) {
   if (arguments.chain.size() == 2) {
     options.chain = {arguments.chain[0], arguments.chain[1]};
   }
-  winsize size{};
+  options.color = launch::shows_colour(STDOUT_FILENO);
   if (isatty(STDOUT_FILENO) == 1) {
-    const char* const no_color = std::getenv("NO_COLOR");
-    const char* const terminal = std::getenv("TERM");
-    options.color =
-        (no_color == nullptr || *no_color == '\0') && terminal != nullptr && terminal != std::string("dumb");
     constexpr std::size_t kLeastWidth = 60;
-    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
-      options.width = std::max<std::size_t>(size.ws_col, kLeastWidth);
+    const auto [columns, lines] = launch::terminal_size(STDOUT_FILENO);
+    if (columns > 0) {
+      options.width = std::max(columns, kLeastWidth);
     }
     // The head, the findings, and a blank and a title for each table; then the prompt.
     constexpr std::size_t kTables = 4;
     constexpr std::size_t kOtherLines = 4 + 7 + 2 * kTables + 1;
     constexpr std::size_t kSecondLines = 5;  // of findings
-    const std::size_t lines = size.ws_row;
     options.compact = lines > 0 && lines < kOtherLines + kSecondLines + 3 * kTables;
     const std::size_t others = options.compact ? kOtherLines : kOtherLines + kSecondLines;
     if (lines > 0) {
@@ -168,7 +163,7 @@ int report_live(const Arguments& arguments) {
   options.interval = std::chrono::nanoseconds(static_cast<std::int64_t>(arguments.interval_s * 1e9));
   options.text = text_options(arguments);
   options.json = arguments.json;
-  options.is_terminal = isatty(STDOUT_FILENO) == 1;
+  options.is_terminal = launch::takes_control_sequences(STDOUT_FILENO);
   options.chains = [&arguments] { return named_chains(arguments.paths); };
   const bool is_session = arguments.directories.size() == 1 && !std::filesystem::is_directory(arguments.directories[0]);
   const bool is_whole = is_session ? report_live_session(arguments.directories[0], options)

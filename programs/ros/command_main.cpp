@@ -13,7 +13,7 @@
 
 #include "base/diagnostics/command_error.hpp"
 #include "base/diagnostics/diagnostic.hpp"
-#include "base/terminal/terminal_colour.hpp"
+#include "base/terminal/terminal.hpp"
 #include "base/text/nearest_name.hpp"
 #include "programs/ros/verb.hpp"
 

@@ -3,8 +3,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <stdlib.h>
-#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -12,6 +10,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <utility>
+
+#include "base/terminal/terminal.hpp"
 
 namespace launch {
 namespace {
@@ -32,16 +32,9 @@ bool is_writable(int fd, std::chrono::milliseconds timeout) {
 constexpr std::string_view kEraseToEnd = "\033[K";
 constexpr std::string_view kEraseLine = "\r\033[K";
 
-bool is_terminal(int fd) {
-  const char* const type = ::getenv("TERM");
-  return ::isatty(fd) != 0 && type != nullptr && std::string_view(type) != "dumb";
-}
-
 // The text in less columns than the terminal has: the cursor stays in the line.
 std::string fit_to_terminal(std::string_view text, int fd) {
-  constexpr std::size_t kUsualColumns = 80;
-  winsize size{};
-  std::size_t columns = ::ioctl(fd, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : kUsualColumns;
+  std::size_t columns = terminal_columns(fd);
   std::string fitted;
   for (const char c : text) {
     const bool begins_character = (static_cast<unsigned char>(c) & 0xc0) != 0x80;
@@ -64,7 +57,7 @@ Screen::Screen(int fd, EventLoop* loop, Limits limits) : loop_(loop), limits_(li
   if (::fstat(fd, &status) != 0) {
     return;  // the first write tells that it is gone
   }
-  terminal_ = is_terminal(fd);
+  terminal_ = takes_control_sequences(fd);
   if (S_ISSOCK(status.st_mode)) {
     kind_ = Kind::kSocket;
   } else if (S_ISFIFO(status.st_mode) || ::isatty(fd) != 0) {

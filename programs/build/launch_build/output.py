@@ -18,7 +18,7 @@ class Output(Observer):
     def __init__(self, number: int):
         self._number, self._ended = number, 0
         self._running: Dict[str, Package] = {}
-        self._terminal = sys.stdout.isatty()
+        self._terminal = sys.stdout.isatty() and os.environ.get('TERM', '') not in ('', 'dumb')
         self._status = False
         self.builder: Optional[Builder] = None
 

@@ -170,7 +170,7 @@ int check_command(const std::vector<std::string>& words, const Registry& registr
   } else if (format == "sarif") {
     result.print(diagnostics_as_sarif(found));
   } else {
-    result.print(diagnostics_as_text(found, result.is_terminal()));
+    result.print(diagnostics_as_text(found, result.has_colour()));
     result.print(fmt::format("{}: {}, {}\n", counted(files.size(), "file"), counted(errors, "error"),
                              counted(found.size() - errors, "warning")));
   }

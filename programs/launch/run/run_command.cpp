@@ -21,7 +21,7 @@
 #include "base/files/unique_fd.hpp"
 #include "base/monotonic_clock.hpp"
 #include "base/processes/process_mark.hpp"
-#include "base/terminal/terminal_colour.hpp"
+#include "base/terminal/terminal.hpp"
 #include "launcher/control/control_socket.hpp"
 #include "launcher/control/launch_control.hpp"
 #include "launcher/language/introspection.hpp"
