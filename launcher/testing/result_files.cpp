@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "base/text/utf8.hpp"
-#include "programs/launch/describe/xml_text.hpp"
+#include "base/text/xml_text.hpp"
 
 namespace launch {
 

@@ -13,10 +13,10 @@
 #include "base/environment/home_directory.hpp"
 #include "base/environment/own_prefix.hpp"
 #include "base/environment/test_run_variables.hpp"
+#include "launcher/invocation/find_launch_file.hpp"
 #include "launcher/testing/checks/trace_check.hpp"
 #include "launcher/visit/launch_plan.hpp"
 #include "launcher/visit/process_table.hpp"
-#include "programs/launch/run/find_launch_file.hpp"
 
 namespace launch {
 

@@ -24,13 +24,13 @@
 #include "launcher/process/process_messages.hpp"
 #include "launcher/ros/ros_client_process.hpp"
 #include "launcher/run/launch_service.hpp"
+#include "launcher/run/scopes/launch_tracepoints.hpp"
 #include "launcher/run/system_test/test_disks.hpp"
 #include "launcher/run/system_test/test_network.hpp"
 #include "launcher/testing/artefacts.hpp"
 #include "launcher/testing/run_judge.hpp"
 #include "launcher/testing/test_result.hpp"
 #include "launcher/testing/trace_session.hpp"
-#include "programs/launch/run/launch_tracepoints.hpp"
 #include "tracing/record/lttng/session_daemon.hpp"
 
 namespace launch {

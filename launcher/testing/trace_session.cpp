@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "programs/launch/describe/xml_text.hpp"
+#include "base/text/xml_text.hpp"
 
 namespace launch {
 

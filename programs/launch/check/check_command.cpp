@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "programs/launch/check/check_command.hpp"
-
+// `launch check`: finds the errors of launch files without running them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,14 +7,17 @@
 #include <memory>
 #include <optional>
 
+#include "actions/builtin_actions.hpp"
+#include "base/environment/own_environment.hpp"
 #include "base/environment/own_prefix.hpp"
+#include "launcher/invocation/find_launch_file.hpp"
 #include "launcher/substitution/package_index.hpp"
+#include "programs/command_line/result_output.hpp"
+#include "programs/command_line/subcommand.hpp"
 #include "programs/launch/check/check_launch_file.hpp"
 #include "programs/launch/check/diagnostic_output.hpp"
 #include "programs/launch/check/finding_table.hpp"
-#include "programs/launch/result_output.hpp"
-#include "programs/launch/run/find_launch_file.hpp"
-#include "programs/launch/subcommand.hpp"
+#include "programs/launch/command_functions.hpp"
 
 namespace launch {
 
@@ -73,7 +75,7 @@ std::vector<std::string> files_of(const std::vector<std::string>& words, const S
     found.insert(found.end(), error.diagnostics().begin(), error.diagnostics().end());
   };
   try {
-    return find_launch_files(words, scope);
+    return find_launch_files(words, scope, listed_command_names());
   } catch (LaunchError& error) {
     std::error_code ignored;
     if (words.size() == 1 || (words.size() == 2 && !std::filesystem::exists(words.front(), ignored))) {
@@ -84,7 +86,7 @@ std::vector<std::string> files_of(const std::vector<std::string>& words, const S
   std::vector<std::string> files;
   for (const std::string& word : words) {
     try {
-      const std::vector<std::string> file = find_launch_files({word}, scope);
+      const std::vector<std::string> file = find_launch_files({word}, scope, listed_command_names());
       files.insert(files.end(), file.begin(), file.end());
     } catch (LaunchError& error) {
       note(error);
@@ -115,7 +117,9 @@ struct Choice {
 
 }  // namespace
 
-int check_command(const std::vector<std::string>& words, const Registry& registry, const Environment& environment) {
+int check_command(const std::vector<std::string>& words) {
+  const Registry registry = builtin_actions();
+  const Environment environment = own_environment();
   std::string format = "text";
   CheckOptions options;
   LaunchTarget target;

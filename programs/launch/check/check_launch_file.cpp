@@ -9,15 +9,12 @@
 
 #include "base/diagnostics/read_source_file.hpp"
 #include "base/environment/own_prefix.hpp"
+#include "launcher/invocation/argument_check.hpp"
+#include "launcher/invocation/find_launch_file.hpp"
 #include "launcher/language/introspection.hpp"
 #include "launcher/substitution/unrun_commands.hpp"
 #include "launcher/visit/launch_plan.hpp"
-#include "programs/launch/check/plan_findings.hpp"
-#include "programs/launch/check/recorded_findings.hpp"
-#include "programs/launch/check/stray_text.hpp"
-#include "programs/launch/check/strict_ros2.hpp"
-#include "programs/launch/run/argument_check.hpp"
-#include "programs/launch/run/find_launch_file.hpp"
+#include "programs/launch/check/finders.hpp"
 
 namespace launch {
 

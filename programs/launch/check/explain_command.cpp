@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "programs/launch/check/explain_command.hpp"
-
+// `launch explain`: tells what the findings of `launch check` mean.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <string>
 #include <string_view>
 
+#include "programs/command_line/result_output.hpp"
+#include "programs/command_line/subcommand.hpp"
 #include "programs/launch/check/finding_table.hpp"
-#include "programs/launch/result_output.hpp"
-#include "programs/launch/subcommand.hpp"
+#include "programs/launch/command_functions.hpp"
 
 namespace launch {
 
@@ -88,7 +88,15 @@ std::string page() {
 
 }  // namespace
 
-int explain_command(const std::vector<std::string>& words) {
+Words finding_words(const Words& /*words*/) {
+  Words ids;
+  for (const FindingInfo& info : finding_table()) {
+    ids.push_back(finding_id(info.finding));
+  }
+  return ids;
+}
+
+int explain_command(const Words& words) {
   std::string id;
   bool markdown = false;
   Subcommand command("launch explain",

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "programs/launch/check/plan_findings.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <fnmatch.h>
@@ -14,7 +12,7 @@
 
 #include "launcher/substitution/unrun_commands.hpp"
 #include "launcher/visit/process_table.hpp"
-#include "programs/launch/check/planned_process_findings.hpp"
+#include "programs/launch/check/finders.hpp"
 
 namespace launch {
 

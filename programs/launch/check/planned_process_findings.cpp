@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "programs/launch/check/planned_process_findings.hpp"
-
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -14,6 +12,7 @@
 #include "base/text/remap_name.hpp"
 #include "launcher/process/spawn/program_search.hpp"
 #include "launcher/substitution/unrun_commands.hpp"
+#include "programs/launch/check/finders.hpp"
 
 namespace launch {
 

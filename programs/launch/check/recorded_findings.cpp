@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "programs/launch/check/recorded_findings.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +9,8 @@
 
 #include "base/text/nearest_name.hpp"
 #include "base/text/remap_name.hpp"
-#include "programs/launch/run/node_names.hpp"
+#include "launcher/plan/node_names.hpp"
+#include "programs/launch/check/finders.hpp"
 
 namespace launch {
 

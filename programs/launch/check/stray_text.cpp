@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "programs/launch/check/stray_text.hpp"
-
 #include <algorithm>
 #include <cstdint>
 #include <string_view>
+
+#include "programs/launch/check/finders.hpp"
 
 namespace launch {
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "programs/launch/check/strict_ros2.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <string>
 
 #include "launcher/frontend/frontend.hpp"
+#include "programs/launch/check/finders.hpp"
 
 namespace launch {
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "programs/launch/describe/reference.hpp"
-
 #include <fmt/format.h>
 
 #include "launcher/substitution/template_parser.hpp"
+#include "programs/launch/describe/descriptions.hpp"
 
 namespace launch {
 

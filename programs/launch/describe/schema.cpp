@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "programs/launch/describe/schema.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "programs/launch/describe/xml_text.hpp"
+#include "base/text/xml_text.hpp"
+#include "programs/launch/describe/descriptions.hpp"
 
 namespace launch {
 

@@ -12,7 +12,7 @@
 #include <utility>
 #include <variant>
 
-#include "programs/launch/run/node_names.hpp"
+#include "launcher/plan/node_names.hpp"
 
 namespace launch {
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "programs/launch/graph/graph_command.hpp"
-
+// `launch graph`: draws what a launch file would run.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -8,13 +7,15 @@
 #include <fstream>
 #include <utility>
 
+#include "actions/builtin_actions.hpp"
+#include "base/environment/own_environment.hpp"
 #include "base/environment/own_prefix.hpp"
+#include "launcher/invocation/find_launch_file.hpp"
 #include "launcher/visit/launch_plan.hpp"
+#include "programs/command_line/result_output.hpp"
+#include "programs/command_line/subcommand.hpp"
+#include "programs/launch/command_functions.hpp"
 #include "programs/launch/graph/graph.hpp"
-#include "programs/launch/graph/trace_graph.hpp"
-#include "programs/launch/result_output.hpp"
-#include "programs/launch/run/find_launch_file.hpp"
-#include "programs/launch/subcommand.hpp"
 
 namespace launch {
 
@@ -41,7 +42,7 @@ LaunchPlan plan_with_left_out(LaunchContext& context, const LaunchDescription& d
 
 }  // namespace
 
-int graph_command(const std::vector<std::string>& words, const Registry& registry, const Environment& environment) {
+int graph_command(const std::vector<std::string>& words) {
   std::string format = "dot";
   std::string output;
   LaunchTarget target;
@@ -81,27 +82,23 @@ int graph_command(const std::vector<std::string>& words, const Registry& registr
     return kWrongCommandLine;
   }
   ResultOutput result("launch graph");
-  try {
-    LaunchContext context(registry, environment, own_prefix(), [](auto, auto, auto) {});
-    for (const auto& [name, value] : target.arguments) {
-      context.scope().configurations.insert_or_assign(name, value);
-    }
-    const auto description =
-        load_launch_files(find_launch_files(target.words, context.scope()), registry, context.scope());
-    std::vector<Requests> left_out;
-    const LaunchPlan plan = plan_with_left_out(context, *description, left_out);
-    const LaunchGraph graph = graph_of(plan, left_out);
-    const std::string text = format == "svg" ? graph_as_svg(graph) : graph_as_dot(graph);
-    if (output.empty()) {
-      result.print(text);
-    } else if (!(std::ofstream(output) << text)) {
-      throw LaunchError(fmt::format("'{}' can't be written", output), {});
-    }
-    return result.finish() ? 0 : 1;
-  } catch (const LaunchError& error) {
-    print_errors(error, "launch graph");
-    return 1;
+  const Registry registry = builtin_actions();
+  LaunchContext context(registry, own_environment(), own_prefix(), [](auto, auto, auto) {});
+  for (const auto& [name, value] : target.arguments) {
+    context.scope().configurations.insert_or_assign(name, value);
   }
+  const auto description = load_launch_files(find_launch_files(target.words, context.scope(), listed_command_names()),
+                                             registry, context.scope());
+  std::vector<Requests> left_out;
+  const LaunchPlan plan = plan_with_left_out(context, *description, left_out);
+  const LaunchGraph graph = graph_of(plan, left_out);
+  const std::string text = format == "svg" ? graph_as_svg(graph) : graph_as_dot(graph);
+  if (output.empty()) {
+    result.print(text);
+  } else if (!(std::ofstream(output) << text)) {
+    throw LaunchError(fmt::format("'{}' can't be written", output), {});
+  }
+  return result.finish() ? 0 : 1;
 }
 
 }  // namespace launch

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "programs/launch/graph/trace_graph.hpp"
-
 #include <fmt/format.h>
 #include <poll.h>
 #include <stdlib.h>
@@ -17,7 +15,8 @@
 #include "base/diagnostics/command_error.hpp"
 #include "base/environment/own_prefix.hpp"
 #include "base/processes/spawn.hpp"
-#include "programs/launch/result_output.hpp"
+#include "programs/command_line/result_output.hpp"
+#include "programs/launch/graph/graph.hpp"
 
 namespace launch {
 

@@ -3,8 +3,8 @@
 """
 Writes the man pages from what `launch … --help` prints: write_man_pages.py LAUNCH DIRECTORY
 
-The help is the only description of commands and options. This file adds what no help has: exit codes, environment,
-signals.
+The help is the only description of commands and options. `launch list-commands` tells which commands there are, and their
+exit codes. This file adds what no help has: environment, signals.
 """
 
 import re
@@ -12,19 +12,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-EXIT_STATUS = {
-    'launch': '0 after a run in which nothing has failed, 1 after an error of the launch, 2 after a wrong command line, 3 '
-              'if a process has failed that nobody had asked to end, or a component could not be loaded; 128+N if a '
-              'second signal N has cut the end short. If a process with "required" ended the system, the status is that '
-              'of the process, or 128+N if signal N ended it.',
-    'launch check': '0 without errors, 1 when a launch file has an error, 2 after a wrong command line. With --werror, '
-                    'warnings are errors.',
-    'launch run': 'That of the program, or 128+N if signal N ended it; 1 if it could not be started, 2 after a wrong '
-                  'command line.',
-    'launch report': None,  # its help tells
-    'launch trace read': None,
-}
-USUAL_STATUS = '0 without errors, 1 after an error, 2 after a wrong command line.'
 MORE = {'launch': [
     ('ENVIRONMENT', [
         ('AMENT_PREFIX_PATH', 'Where packages are searched for, besides the prefix in which launch is installed.'),
@@ -94,7 +81,7 @@ def entries_text(entries):
     return ''.join(f'.TP\n.B {escaped(names)}\n{escaped(text)}\n' for names, text in entries if text)
 
 
-def page(command, help_, others, verbs):
+def page(command, status, help_, others, verbs):
     name = command.replace(' ', '-')
     summary = re.split(r'[.:](?: |$)', help_.description)[0]
     text = f'.TH {name.upper()} 1 "" "launch" "User commands"\n'
@@ -111,22 +98,21 @@ def page(command, help_, others, verbs):
         text += '.SH NOTES\n.nf\n' + ''.join(f'{escaped(line)}\n' for line in help_.footer) + '.fi\n'
     for heading, entries in MORE.get(command, []):
         text += f'.SH {heading}\n' + entries_text(entries)
-    status = EXIT_STATUS.get(command, USUAL_STATUS)
     if status:
         text += f'.SH EXIT STATUS\n{escaped(status)}\n'
     return text + '.SH SEE ALSO\n' + ',\n'.join(f'.BR {escaped(other.replace(" ", "-"))} (1)' for other in others) + '\n'
 
 
 def main(launch, directory):
-    top = Help(help_of(launch, 'launch'))
-    named = [match[1] for line in top.footer if (match := re.match(r'  launch ([a-z]+) .*  ', line))]
-    commands = ['launch', *(f'launch {name}' for name in named), 'launch trace read']
-    for command in commands:
+    listed = subprocess.run([launch, 'list-commands'], capture_output=True, text=True, check=True).stdout
+    rows = (line.split('\t') for line in listed.splitlines())
+    commands = {f'launch {name}'.strip(): status for name, status in rows}
+    for command, status in commands.items():
         help_ = Help(help_of(launch, command))
         verbs = [(verb, Help(help_of(launch, f'{command} {verb}'))) for verb, _ in help_.section('Subcommands')
                  if f'{command} {verb}' not in commands]
         others = [other for other in commands if other != command]
-        (Path(directory) / f'{command.replace(" ", "-")}.1').write_text(page(command, help_, others, verbs))
+        (Path(directory) / f'{command.replace(" ", "-")}.1').write_text(page(command, status, help_, others, verbs))
 
 
 if __name__ == '__main__':

@@ -24,24 +24,23 @@
 #include "base/terminal/terminal.hpp"
 #include "launcher/control/control_socket.hpp"
 #include "launcher/control/launch_control.hpp"
+#include "launcher/invocation/argument_check.hpp"
+#include "launcher/invocation/find_launch_file.hpp"
 #include "launcher/language/introspection.hpp"
+#include "launcher/plan/dry_run.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/isolation/isolation.hpp"
 #include "launcher/process/process_messages.hpp"
 #include "launcher/python/interpreter/python_module.hpp"
 #include "launcher/ros/ros_client_process.hpp"
 #include "launcher/run/launch_service.hpp"
+#include "launcher/run/scopes/launch_tracepoints.hpp"
 #include "launcher/run/user/status_line.hpp"
 #include "launcher/visit/launch_plan.hpp"
-#include "programs/launch/plan/dry_run.hpp"
-#include "programs/launch/plan/print_description.hpp"
-#include "programs/launch/plan/shell_script.hpp"
-#include "programs/launch/result_output.hpp"
-#include "programs/launch/run/argument_check.hpp"
-#include "programs/launch/run/find_launch_file.hpp"
-#include "programs/launch/run/launch_tracepoints.hpp"
+#include "programs/command_line/result_output.hpp"
+#include "programs/command_line/subcommand.hpp"
+#include "programs/launch/commands.hpp"
 #include "programs/launch/run/trace_every_launch.hpp"
-#include "programs/launch/subcommand.hpp"
 
 namespace launch {
 
@@ -296,7 +295,7 @@ int run_command(const CommandLine& command, Environment environment,
     const std::int64_t begin = monotonic_time();
     std::vector<std::string> files;
     if (description == nullptr) {
-      files = find_launch_files(command.target, context.scope());
+      files = find_launch_files(command.target, context.scope(), listed_command_names());
       description = load_launch_files(files, registry, context.scope());
     }
     if (!command.arguments.empty()) {

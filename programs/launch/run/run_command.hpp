@@ -6,7 +6,7 @@
 
 #include "launcher/language/launch_description.hpp"
 #include "launcher/substitution/scope.hpp"
-#include "programs/launch/command_line.hpp"
+#include "programs/launch/run/command_line.hpp"
 
 namespace launch {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "programs/launch/run/run_program.hpp"
-
+// `launch run PACKAGE PROGRAM [ARGUMENT …]`: runs a program of a package on this terminal, as `ros2 run` does, and ends
+// what it has started when it ends. The exit code is that of the program, or 128+N if signal N ended it.
 #include <fmt/format.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -19,6 +19,7 @@
 #include <system_error>
 
 #include "base/diagnostics/diagnostic.hpp"
+#include "base/environment/own_environment.hpp"
 #include "base/environment/own_prefix.hpp"
 #include "base/processes/process_mark.hpp"
 #include "base/processes/spawn.hpp"
@@ -27,8 +28,9 @@
 #include "launcher/substitution/package_index.hpp"
 #include "launcher/substitution/template_parser.hpp"
 #include "launcher/visit/launch_context.hpp"
+#include "programs/command_line/subcommand.hpp"
+#include "programs/launch/command_functions.hpp"
 #include "programs/launch/run/run_command.hpp"
-#include "programs/launch/subcommand.hpp"
 
 namespace launch {
 namespace {
@@ -172,7 +174,7 @@ int run_traced(const std::string& name, std::vector<std::string> argv, const Env
 
 }  // namespace
 
-int run_program_command(const std::vector<std::string>& words, const Environment& environment) {
+int run_program_command(const std::vector<std::string>& words) {
   std::vector<std::string> names;
   std::string prefix;
   bool trace = false;
@@ -192,23 +194,17 @@ int run_program_command(const std::vector<std::string>& words, const Environment
                usage_error("launch run", "no program given", "launch run PACKAGE PROGRAM [ARGUMENT ...]"));
     return kWrongCommandLine;
   }
-  try {
-    std::vector<std::string> argv = split_shell_words(prefix, {});
-    argv.push_back(find_program(names[0], names[1], environment));
-    argv.insert(argv.end(), own.arguments.begin(), own.arguments.end());
-    return trace ? run_traced(names[1], std::move(argv), environment)
-                 : run_on_terminal(names[1], std::move(argv), environment);
-  } catch (const LaunchError& error) {
-    print_errors(error, "launch run");
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}", command_error("launch run", error.what()));
-  }
-  return 1;
+  const Environment environment = own_environment();
+  std::vector<std::string> argv = split_shell_words(prefix, {});
+  argv.push_back(find_program(names[0], names[1], environment));
+  argv.insert(argv.end(), own.arguments.begin(), own.arguments.end());
+  return trace ? run_traced(names[1], std::move(argv), environment)
+               : run_on_terminal(names[1], std::move(argv), environment);
 }
 
-std::vector<std::string> run_program_completions(const std::vector<std::string>& words,
-                                                 const Environment& environment) {
-  if (words.empty() || !split({words.begin(), words.end() - 1}).arguments.empty()) {
+std::vector<std::string> run_program_words(const std::vector<std::string>& line) {
+  const std::vector<std::string> words(line.begin() + 1, line.end());  // behind "run"
+  if (!split({words.begin(), words.end() - 1}).arguments.empty()) {
     return {};
   }
   if (words.back().starts_with("-")) {
@@ -222,6 +218,7 @@ std::vector<std::string> run_program_completions(const std::vector<std::string>&
       names.push_back(words[i]);
     }
   }
+  const Environment environment = own_environment();
   PackageIndex packages(own_prefix());
   return names.empty()       ? packages.packages(environment)
          : names.size() == 1 ? packages.executables(names.front(), environment)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `launch events` and `launch logs`: what happens in a running launch, and what its processes print.
 #include <fmt/format.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,9 +10,10 @@
 #include <fstream>
 #include <set>
 
+#include "base/environment/own_environment.hpp"
 #include "launcher/control/control_client.hpp"
-#include "programs/launch/steer/commands.hpp"
-#include "programs/launch/subcommand.hpp"
+#include "programs/command_line/subcommand.hpp"
+#include "programs/launch/command_functions.hpp"
 
 namespace launch {
 namespace {
@@ -50,16 +52,17 @@ std::deque<std::string> past_lines(const std::string& log, std::size_t size,
 
 }  // namespace
 
-int events_command(const std::string& name, const std::vector<std::string>& words, const Environment& environment) {
+int events_command(const std::vector<std::string>& words) {
+  ::signal(SIGPIPE, SIG_DFL);  // `launch events | head` ends quietly
   std::string wanted;
   bool follow = false;
-  Subcommand command("launch " + name, "Prints what happens in a running launch as JSON lines, until it ends.");
+  Subcommand command("launch events", "Prints what happens in a running launch as JSON lines, until it ends.");
   command.take_flag("-f,--follow", follow, "accepted, the command always follows");
   command.take_text("--launch", wanted, kLaunchHelp);
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;
   }
-  ControlClient launch = choose_launch(environment, wanted);
+  ControlClient launch = choose_launch(own_environment(), wanted);
   launch.ask("events");
   while (const std::optional<Json> event = launch.next()) {
     fmt::print("{}\n", event->dump());
@@ -68,12 +71,13 @@ int events_command(const std::string& name, const std::vector<std::string>& word
   return 0;
 }
 
-int logs_command(const std::string& name, const std::vector<std::string>& words, const Environment& environment) {
+int logs_command(const std::vector<std::string>& words) {
+  ::signal(SIGPIPE, SIG_DFL);
   std::vector<std::string> names;
   std::string wanted;
   bool follow = false;
   std::string most = "all";
-  Subcommand command("launch " + name, "Prints what the processes of a running launch have printed.");
+  Subcommand command("launch logs", "Prints what the processes of a running launch have printed.");
   command.take_words("NAME", names, false, "processes, also as patterns such as 'camera*'; all if there is none");
   command.take_flag("-f,--follow", follow, "go on with what they print from now on, until the launch ends");
   command.take_text("-n,--lines", most, "only the last lines, so many");
@@ -86,12 +90,12 @@ int logs_command(const std::string& name, const std::vector<std::string>& words,
     const bool is_number = !most.empty() && most.size() <= 9 &&
                            std::all_of(most.begin(), most.end(), [](char c) { return c >= '0' && c <= '9'; });
     if (!is_number) {
-      fmt::print(stderr, "{}", usage_error("launch " + name, "--lines needs a number"));
+      fmt::print(stderr, "{}", usage_error("launch logs", "--lines needs a number"));
       return kWrongCommandLine;
     }
     count = std::stoul(most);
   }
-  ControlClient launch = choose_launch(environment, wanted);
+  ControlClient launch = choose_launch(own_environment(), wanted);
   const Json asked = launch.ask({{"do", "ps"}, {"processes", names}});
   std::set<std::string, std::less<>> labels;
   for (const Json& process : asked["processes"]) {

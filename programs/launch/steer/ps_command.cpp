@@ -2,6 +2,7 @@
 // `launch ps`: the processes of the launches that run.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <signal.h>
 
 #include <algorithm>
 #include <array>
@@ -13,13 +14,14 @@
 #include <utility>
 #include <vector>
 
+#include "base/environment/own_environment.hpp"
 #include "launcher/control/control_client.hpp"
 #include "launcher/control/control_protocol.hpp"
 #include "launcher/control/process_usage.hpp"
 #include "launcher/control/ps_answer.hpp"
-#include "programs/launch/steer/commands.hpp"
+#include "programs/command_line/subcommand.hpp"
+#include "programs/launch/command_functions.hpp"
 #include "programs/launch/steer/process_text.hpp"
-#include "programs/launch/subcommand.hpp"
 
 namespace launch {
 namespace {
@@ -99,18 +101,19 @@ std::vector<ControlClient> launches(const Environment& environment, const std::s
 
 }  // namespace
 
-int ps_command(const std::string& name, const std::vector<std::string>& words, const Environment& environment) {
+int ps_command(const std::vector<std::string>& words) {
+  ::signal(SIGPIPE, SIG_DFL);
   std::vector<std::string> names;
   std::string wanted;
   bool as_json = false;
-  Subcommand command("launch " + name, "Lists the processes of the launches that run.");
+  Subcommand command("launch ps", "Lists the processes of the launches that run.");
   command.take_words("NAME", names, false, "processes, also as patterns such as 'camera*'; all if there is none");
   command.take_text("--launch", wanted, "number or file of the launch; all if it is missing");
   command.take_flag("--json", as_json, "print JSON, see docs/control.md");
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;
   }
-  std::vector<ControlClient> asked = launches(environment, wanted);
+  std::vector<ControlClient> asked = launches(own_environment(), wanted);
   std::vector<std::string> tables;
   Json answers = Json::array();
   int exit_code = asked.empty() ? 1 : 0;

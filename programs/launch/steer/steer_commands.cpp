@@ -8,14 +8,16 @@
 
 #include <cstdio>
 #include <set>
+#include <utility>
 
 #include "base/diagnostics/diagnostic.hpp"
+#include "base/environment/own_environment.hpp"
 #include "base/files/unique_fd.hpp"
 #include "launcher/control/control_client.hpp"
 #include "launcher/language/exit_code_filter.hpp"
-#include "programs/launch/steer/commands.hpp"
+#include "programs/command_line/subcommand.hpp"
+#include "programs/launch/command_functions.hpp"
 #include "programs/launch/steer/process_text.hpp"
-#include "programs/launch/subcommand.hpp"
 
 namespace launch {
 namespace {
@@ -66,9 +68,7 @@ bool tell(const std::string& name, const std::string& process, const Json& event
   return false;
 }
 
-}  // namespace
-
-int steer_command(const std::string& name, const std::vector<std::string>& words, const Environment& environment) {
+int steer(const std::string& name, const std::vector<std::string>& words) {
   std::vector<std::string> names;
   std::string wanted;
   bool no_wait = false;
@@ -79,7 +79,7 @@ int steer_command(const std::string& name, const std::vector<std::string>& words
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;
   }
-  ControlClient launch = choose_launch(environment, wanted);
+  ControlClient launch = choose_launch(own_environment(), wanted);
   if (!no_wait) {
     launch.ask("events");
   }
@@ -103,11 +103,25 @@ int steer_command(const std::string& name, const std::vector<std::string>& words
   return failed ? 1 : exit_code;
 }
 
-int signal_command(const std::string& name, const std::vector<std::string>& words, const Environment& environment) {
+}  // namespace
+
+int stop_command(const std::vector<std::string>& words) {
+  return steer("stop", words);
+}
+
+int start_command(const std::vector<std::string>& words) {
+  return steer("start", words);
+}
+
+int restart_command(const std::vector<std::string>& words) {
+  return steer("restart", words);
+}
+
+int signal_command(const std::vector<std::string>& words) {
   std::string process;
   std::string signal;
   std::string wanted;
-  Subcommand command("launch " + name, "Sends a signal to processes of a running launch, with their groups.");
+  Subcommand command("launch signal", "Sends a signal to processes of a running launch, with their groups.");
   command.take_text("NAME", process, kNamesHelp);
   command.take_text("SIGNAL", signal, "its name or number, such as SIGUSR1, USR1 or 10");
   command.take_text("--launch", wanted, kLaunchHelp);
@@ -115,34 +129,34 @@ int signal_command(const std::string& name, const std::vector<std::string>& word
     return *exit_code;
   }
   if (process.empty() || signal.empty()) {
-    fmt::print(stderr, "{}", usage_error("launch " + name, "NAME and SIGNAL are required"));
+    fmt::print(stderr, "{}", usage_error("launch signal", "NAME and SIGNAL are required"));
     return kWrongCommandLine;
   }
   const int number = signal_number(signal);
   if (number == 0) {
     fmt::print(stderr, "{}",
-               usage_error("launch " + name, fmt::format("there is no signal '{}'", signal),
+               usage_error("launch signal", fmt::format("there is no signal '{}'", signal),
                            did_you_mean(signal, signal_names())));
     return kWrongCommandLine;
   }
-  ControlClient launch = choose_launch(environment, wanted);
+  ControlClient launch = choose_launch(own_environment(), wanted);
   const Json outcome = launch.ask({{"do", "signal"}, {"processes", {process}}, {"signal", std::to_string(number)}});
   for (const Json& done : outcome["done"]) {
     fmt::print("{} got SIG{}\n", done.get<std::string>(), ::sigabbrev_np(number));
   }
-  return report(name, outcome);
+  return report("signal", outcome);
 }
 
-int shutdown_command(const std::string& name, const std::vector<std::string>& words, const Environment& environment) {
+int shutdown_command(const std::vector<std::string>& words) {
   std::string wanted;
   bool no_wait = false;
-  Subcommand command("launch " + name, "Ends a running launch as Ctrl-C does, and waits until nothing of it is left.");
+  Subcommand command("launch shutdown", "Ends a running launch as Ctrl-C does, and waits until nothing of it is left.");
   command.take_text("--launch", wanted, kLaunchHelp);
   command.take_flag("--no-wait", no_wait, "only ask, don't wait until it has happened");
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;
   }
-  ControlClient launch = choose_launch(environment, wanted);
+  ControlClient launch = choose_launch(own_environment(), wanted);
   // The process that the user has started ends last.
   const UniqueFd whole(static_cast<int>(::syscall(SYS_pidfd_open, launch.pid(), 0)));
   launch.ask("shutdown");
@@ -153,6 +167,28 @@ int shutdown_command(const std::string& name, const std::vector<std::string>& wo
     fmt::print("launch {} has ended\n", launch.pid());
   }
   return 0;
+}
+
+Words process_words(const Words& /*words*/) {
+  std::set<std::string> names;  // labels and others
+  for (FoundLaunch& found : find_launches(own_environment())) {
+    try {
+      const Json answer = ControlClient(std::move(found)).ask("ps");
+      for (const Json& process : answer["processes"]) {
+        names.insert(process["name"].get<std::string>());
+        for (const Json& name : process["names"]) {
+          names.insert(name.get<std::string>());
+        }
+      }
+    } catch (const ControlError&) {
+      // Its names are not to be had.
+    }
+  }
+  return {names.begin(), names.end()};
+}
+
+Words signal_words(const Words& words) {
+  return words.size() > 2 ? signal_names() : process_words(words);
 }
 
 }  // namespace launch

@@ -22,7 +22,7 @@
 #include "base/files/pipe.hpp"
 #include "base/processes/spawn.hpp"
 #include "launcher/control/control_client.hpp"
-#include "programs/launch/steer/commands.hpp"
+#include "programs/launch/command_functions.hpp"
 
 namespace launch {
 namespace {
@@ -139,9 +139,9 @@ bool can_be_asked(pid_t pid, const Environment& environment) {
   return false;
 }
 
-void show_top(pid_t pid, const Environment& environment) {
+void show_top(pid_t pid) {
   try {
-    top_command("top", {"--launch", fmt::format("{}", pid)}, environment);
+    top_command({"--launch", fmt::format("{}", pid)});
   } catch (const ControlError& error) {
     fmt::print(stderr, "{}", command_error("launch", error.what(), error.help()));
   }
@@ -170,7 +170,7 @@ int launch_in_top(std::vector<std::string> words, const Environment& environment
   {
     LaunchLines lines(std::move(pipe.read));
     if (can_be_asked(pid, environment)) {
-      show_top(pid, environment);
+      show_top(pid);
     }
     lines.show();
     // During waitpid(2) ThreadSanitizer keeps signals back.

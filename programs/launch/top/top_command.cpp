@@ -11,11 +11,12 @@
 #include <optional>
 #include <utility>
 
+#include "base/environment/own_environment.hpp"
 #include "launcher/control/control_client.hpp"
 #include "launcher/language/exit_code_filter.hpp"
-#include "programs/launch/steer/commands.hpp"
+#include "programs/command_line/subcommand.hpp"
+#include "programs/launch/command_functions.hpp"
 #include "programs/launch/steer/process_text.hpp"
-#include "programs/launch/subcommand.hpp"
 #include "programs/launch/top/node_watch.hpp"
 #include "programs/launch/top/top_rows.hpp"
 #include "programs/launch/top/top_screen.hpp"
@@ -310,9 +311,9 @@ void Top::ask(const char* what, const std::string& signal) {
 
 }  // namespace
 
-int top_command(const std::string& name, const std::vector<std::string>& words, const Environment& environment) {
+int top_command(const std::vector<std::string>& words) {
   std::string wanted;
-  Subcommand command("launch " + name, "Shows the processes of a running launch on the whole screen, and steers them.");
+  Subcommand command("launch top", "Shows the processes of a running launch on the whole screen, and steers them.");
   bool shows_nodes = false;
   command.take_flag("--trace", shows_nodes,
                     "begin with what the nodes do, as the key t shows it: rates, latencies, missed periods, losses");
@@ -323,7 +324,7 @@ int top_command(const std::string& name, const std::vector<std::string>& words, 
   if (::isatty(STDIN_FILENO) == 0 || ::isatty(STDOUT_FILENO) == 0) {
     throw ControlError("needs a terminal", "'launch ps' prints a table");
   }
-  ControlClient launch = choose_launch(environment, wanted);
+  ControlClient launch = choose_launch(own_environment(), wanted);
   const pid_t pid = launch.pid();
   bool ended = false;
   std::string report;

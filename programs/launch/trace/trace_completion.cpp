@@ -125,8 +125,7 @@ Words candidates(const Words& words) {
   if (words.size() == 1) {
     return all;
   }
-  static const std::set<std::string> kOnSessions = {"pause", "resume", "stop", "record_snapshot", "status", "save"};
-  return has_verb && kOnSessions.contains(words.front()) ? session_names() : Words{};
+  return has_verb && acts_on_session(words.front()) ? session_names() : Words{};
 }
 
 }  // namespace

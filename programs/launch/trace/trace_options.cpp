@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <type_traits>
@@ -92,35 +93,69 @@ void add_dual_session(CLI::App& command, SessionArguments& arguments) {
   command.add_flag("-d,--dual-session", arguments.dual_session, "act on a dual session, whose snapshot half exists");
 }
 
-CLI::App* add_verb(CLI::App& command, const std::string& name, const std::string& help, SessionArguments& arguments) {
-  CLI::App* verb = command.add_subcommand(name, help);
-  verb->add_option("session_name", arguments.session_name, "name of the session")->required()->option_text("NAME");
-  add_dual_session(*verb, arguments);
-  return verb;
+// The options of the verbs.
+
+void take_session(CLI::App& verb, SessionArguments& arguments, TraceOptions& /*options*/) {
+  verb.add_option("session_name", arguments.session_name, "name of the session")->required()->option_text("NAME");
+  add_dual_session(verb, arguments);
 }
 
-CLI::App* add_stored(CLI::App& command, const std::string& name, const std::string& help, SessionArguments& arguments,
-                     TraceOptions& options) {
-  CLI::App* verb = command.add_subcommand(name, help);
-  verb->add_option("session_name", arguments.session_name, "name of the session")->required()->option_text("NAME");
-  verb->add_option("-p,--path", options.directory, "directory of the file NAME.lttng (default: LTTng's own)")
+void take_start(CLI::App& verb, SessionArguments& arguments, TraceOptions& options) {
+  take_session(verb, arguments, options);
+  add_session_options(verb, arguments, options);
+}
+
+void take_stop(CLI::App& verb, SessionArguments& arguments, TraceOptions& options) {
+  take_session(verb, arguments, options);
+  add_fail_on_loss(verb, arguments);
+  // The counters of a launcher that was killed, whose guardian runs this command. They are removed afterwards.
+  verb.add_option("--event-counters", arguments.request.config.event_counters)->group("");
+  verb.add_option("--created-since", options.created_since,
+                  "leave the session as it is when it was created before (seconds since 1970)")
+      ->option_text("TIME");
+}
+
+void take_stored(CLI::App& verb, SessionArguments& arguments, TraceOptions& options) {
+  verb.add_option("session_name", arguments.session_name, "name of the session")->required()->option_text("NAME");
+  verb.add_option("-p,--path", options.directory, "directory of the file NAME.lttng (default: LTTng's own)")
       ->option_text("DIR");
-  return verb;
 }
 
-CLI::App* add_status(CLI::App& command, SessionArguments& arguments) {
-  CLI::App* verb = command.add_subcommand("status", "print channels, event rules and losses of sessions");
-  verb->add_option("session_name", arguments.session_name, "name of the session (default: all)")->option_text("NAME");
-  return verb;
+void take_status(CLI::App& verb, SessionArguments& arguments, TraceOptions& /*options*/) {
+  verb.add_option("session_name", arguments.session_name, "name of the session (default: all)")->option_text("NAME");
 }
 
-CLI::App* add_calibrate(CLI::App& command, SessionArguments& arguments) {
-  CLI::App* verb = command.add_subcommand(
-      "calibrate", "measure what recording an event costs on this machine, for the verdicts of sessions");
-  add_names(*verb, "-c,--context", arguments.request.config.context_fields_ust, "FIELD",
+void take_calibrate(CLI::App& verb, SessionArguments& arguments, TraceOptions& /*options*/) {
+  add_names(verb, "-c,--context", arguments.request.config.context_fields_ust, "FIELD",
             "context fields of the event (default: procname vpid vtid)");
-  return verb;
 }
+
+struct VerbRow {
+  TraceVerb verb;  // run_verb() in trace_command.cpp runs it
+  const char* name;
+  const char* help;
+  void (*take_options)(CLI::App& verb, SessionArguments& arguments, TraceOptions& options);  // null: none
+  bool of_session;  // it acts on a session that exists
+};
+
+// In the order of the help. `launch trace read` is a program of its own, with a row in
+// programs/launch/command_table.cpp.
+constexpr VerbRow kVerbs[] = {
+    {TraceVerb::kStart, "start", "configure and start a session, return at once", take_start, false},
+    {TraceVerb::kStop, "stop", "stop recording and end the session", take_stop, true},
+    {TraceVerb::kPause, "pause", "stop recording, keep the session", take_session, true},
+    {TraceVerb::kResume, "resume", "record again after a pause", take_session, true},
+    {TraceVerb::kRecordSnapshot, "record_snapshot", "write the events that a snapshot session holds", take_session,
+     true},
+    {TraceVerb::kSave, "save", "write the configuration of a session to a file", take_stored, true},
+    {TraceVerb::kLoad, "load", "create a session from its saved configuration", take_stored, false},
+    {TraceVerb::kList, "list", "print the sessions that exist", nullptr, false},
+    {TraceVerb::kStatus, "status", "print channels, event rules and losses of sessions", take_status, true},
+    {TraceVerb::kEvents, "events",
+     "print what can be recorded now: events of running programs and of the kernel, context fields", nullptr, false},
+    {TraceVerb::kCalibrate, "calibrate",
+     "measure what recording an event costs on this machine, for the verdicts of sessions", take_calibrate, false},
+};
 
 void complete(TraceOptions& options, const SessionArguments& arguments) {
   TraceConfig& config = options.config = arguments.request.config;
@@ -137,6 +172,11 @@ void complete(TraceOptions& options, const SessionArguments& arguments) {
 
 }  // namespace
 
+bool acts_on_session(std::string_view verb) {
+  return std::any_of(std::begin(kVerbs), std::end(kVerbs),
+                     [&](const VerbRow& row) { return row.of_session && row.name == verb; });
+}
+
 std::variant<TraceOptions, ParserMessage> parse_trace_options(const std::vector<std::string>& arguments) {
   TraceOptions options;
   SessionArguments session;
@@ -149,36 +189,13 @@ std::variant<TraceOptions, ParserMessage> parse_trace_options(const std::vector<
   add_dual_session(command, session);
   add_fail_on_loss(command, session);
 
-  CLI::App* start = add_verb(command, "start", "configure and start a session, return at once", session);
-  add_session_options(*start, session, options);
-  CLI::App* stop = add_verb(command, "stop", "stop recording and end the session", session);
-  add_fail_on_loss(*stop, session);
-  // The counters of a launcher that was killed, whose guardian runs this command. They are removed afterwards.
-  stop->add_option("--event-counters", session.request.config.event_counters)->group("");
-  stop->add_option("--created-since", options.created_since,
-                   "leave the session as it is when it was created before (seconds since 1970)")
-      ->option_text("TIME");
-  const std::map<CLI::App*, TraceVerb> verbs = {
-      {start, TraceVerb::kStart},
-      {add_verb(command, "pause", "stop recording, keep the session", session), TraceVerb::kPause},
-      {add_verb(command, "resume", "record again after a pause", session), TraceVerb::kResume},
-      {stop, TraceVerb::kStop},
-      {add_verb(command, "record_snapshot", "write the events that a snapshot session holds", session),
-       TraceVerb::kRecordSnapshot},
-      {add_stored(command, "save", "write the configuration of a session to a file", session, options),
-       TraceVerb::kSave},
-      {add_stored(command, "load", "create a session from its saved configuration", session, options),
-       TraceVerb::kLoad},
-      {command.add_subcommand("list", "print the sessions that exist"), TraceVerb::kList},
-      {add_status(command, session), TraceVerb::kStatus},
-      {command.add_subcommand("events",
-                              "print what can be recorded now: events of running programs and of the kernel, "
-                              "context fields"),
-       TraceVerb::kEvents},
-      {add_calibrate(command, session), TraceVerb::kCalibrate},
-  };
-
-  // A program of its own, which main() executes; named here for the help.
+  for (const VerbRow& row : kVerbs) {
+    CLI::App* const verb = command.add_subcommand(row.name, row.help);
+    if (row.take_options != nullptr) {
+      row.take_options(*verb, session, options);
+    }
+  }
+  // Named here for the help.
   command.add_subcommand("read", "print the events of recorded traces, or count them (launch trace read --help)");
 
   try {
@@ -189,12 +206,11 @@ std::variant<TraceOptions, ParserMessage> parse_trace_options(const std::vector<
   } catch (const CLI::ParseError& error) {
     return ParserMessage{launch::kWrongCommandLine, launch::usage_error_of(command, error)};
   }
-  for (const auto& [verb, value] : verbs) {
-    if (!verb->parsed()) {
-      continue;
+  for (const VerbRow& row : kVerbs) {
+    if (command.got_subcommand(row.name)) {
+      options.verb = row.verb;
+      options.command += std::string(" ") + row.name;
     }
-    options.verb = value;
-    options.command += " " + verb->get_name();
   }
   complete(options, session);
   return options;

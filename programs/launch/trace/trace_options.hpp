@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -43,6 +44,9 @@ struct ParserMessage {
   int exit_code = 0;
   std::string text;
 };
+
+// Whether it is a verb that takes the name of a session that exists.
+bool acts_on_session(std::string_view verb);
 
 std::variant<TraceOptions, ParserMessage> parse_trace_options(const std::vector<std::string>& arguments);
 

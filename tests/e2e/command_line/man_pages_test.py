@@ -28,6 +28,13 @@ class ManPages(unittest.TestCase):
                 self.assertIn('--help', options)
                 self.assertEqual([option for option in options if option not in page], [])
 
+    def test_every_command_that_the_launcher_lists_has_a_page_and_no_other(self):
+        listed = subprocess.run([LAUNCH, 'list-commands'], capture_output=True, text=True, check=True).stdout
+        names = ['-'.join(['launch', *line.partition('\t')[0].split()]) for line in listed.splitlines()]
+        self.assertEqual(names[0], 'launch')
+        self.assertIn('launch-trace-read', names)
+        self.assertEqual(sorted(names), sorted(path.stem for path in PAGES.glob('*.1')))
+
     def test_a_page_describes_the_verbs_of_its_command_with_their_options(self):
         pages_with_verbs = set()
         for command in re.findall(r'^  launch ([a-z]+) .* {2}', help_of(), re.M):

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "programs/launch/plan/dry_run.hpp"
+#include "launcher/plan/dry_run.hpp"
 
 namespace {
 

@@ -9,9 +9,9 @@
 #include <regex>
 
 #include "actions/builtin_actions.hpp"
+#include "launcher/plan/dry_run.hpp"
 #include "launcher/python/interpreter/python_module.hpp"
 #include "launcher/visit/launch_plan.hpp"
-#include "programs/launch/plan/dry_run.hpp"
 #include "tests/unit/python/python_plan.hpp"
 
 namespace {

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "base/text/shell_quoted.hpp"
+#include "launcher/plan/dry_run.hpp"
+
+namespace launch {
+
+std::string plan_as_shell_script(const LaunchPlan& plan, const Environment& launcher_environment) {
+  std::string text = "#!/bin/sh\n# What the launch would run, without traces and supervision. Ctrl-C ends all of it.\n";
+  for (const auto& scope : plan.scopes) {
+    text += fmt::format("# not started: the {} of {}\n", scope->kind(), to_string(scope->origin()));
+  }
+  const bool any_files = std::any_of(plan.processes.begin(), plan.processes.end(),
+                                     [](const ProcessSpec& spec) { return !spec.files.empty(); });
+  if (any_files) {
+    text += "parameters=$(mktemp -d) || exit 1\nexport parameters\ntrap 'rm -rf \"$parameters\"' EXIT\n";
+  }
+  std::size_t number = 0;
+  for (const ProcessSpec& spec : plan.processes) {
+    text += fmt::format("\n# {}, {}\n", spec.name, to_string(spec.origin));
+    std::vector<std::string> words;
+    for (const std::string& word : spec.argv) {
+      words.push_back(spec.shell ? word : shell_quoted(word));
+    }
+    for (const GeneratedFile& file : spec.files) {
+      const std::string name = fmt::format("{}-{}", ++number, file.name);
+      const bool ends_line = !file.content.empty() && file.content.back() == '\n';
+      text += fmt::format("cat > \"$parameters\"/{} <<'END_OF_FILE'\n{}{}END_OF_FILE\n", shell_quoted(name),
+                          file.content, ends_line ? "" : "\n");
+      words[file.argument] = "\"$parameters\"/" + shell_quoted(name);
+    }
+    std::string unset;  // env(1) takes these first
+    std::string set;
+    for (const auto& [name, value] : environment_difference(spec.environment, launcher_environment)) {
+      (value ? set : unset) += value ? fmt::format(" {}={}", name, shell_quoted(*value)) : fmt::format(" -u {}", name);
+    }
+    const std::string change = unset + set;
+    std::string command = fmt::format("{}", fmt::join(words, " "));
+    if (spec.shell) {
+      command = "/bin/sh -c " + shell_quoted(command);
+    }
+    text += fmt::format(
+        "({}exec {}{}) &\n",
+        spec.working_directory.empty() ? "" : fmt::format("cd {} && ", shell_quoted(spec.working_directory)),
+        change.empty() ? "" : "env" + change + " ", command);
+  }
+  for (const LoadRequest& request : plan.loads) {
+    for (const ComposableNode& node : request.nodes) {
+      text += fmt::format("\n# not loaded: {} {} into {}, {}\n", node.package, node.plugin, request.target,
+                          to_string(node.origin));
+    }
+  }
+  for (const LeftToRun& left : plan.left_to_run) {
+    text += fmt::format("\n# not known without a run: {}, {}\n",
+                        left.function.empty() ? "an action" : "function " + left.function, to_string(left.where));
+  }
+  for (const PlannedHandler& planned : plan.handlers) {
+    text += fmt::format("\n# not watched for: {}, {}\n", describe(planned.handler), to_string(planned.handler.where));
+  }
+  return text + "\nwait\n";
+}
+
+std::map<std::string, std::optional<std::string>> environment_difference(const Environment& of, const Environment& to) {
+  std::map<std::string, std::optional<std::string>> changes;
+  for (const auto& [name, value] : of) {
+    const auto own = to.find(name);
+    if (own == to.end() || own->second != value) {
+      changes.emplace(name, value);
+    }
+  }
+  for (const auto& [name, value] : to) {
+    if (!of.contains(name)) {
+      changes.emplace(name, std::nullopt);
+    }
+  }
+  return changes;
+}
+
+}  // namespace launch

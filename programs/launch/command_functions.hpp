@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The functions behind the rows of command_table.cpp.
+//
+// Those that run a command take the words behind its name. They return the exit code: 0, 1 after an error, 2 for a
+// wrong command line, or what the command's man page says. Those for the shells' completion take all words after
+// `launch` and return what may stand in the place of the last one.
+#pragma once
+
+#include "programs/launch/commands.hpp"
+
+namespace launch {
+
+int check_command(const Words& words);
+int explain_command(const Words& words);
+int graph_command(const Words& words);
+int reference_command(const Words& words);
+int run_program_command(const Words& words);  // `launch run`
+int schema_command(const Words& words);
+
+// These ask a running launch, and throw ControlError.
+int events_command(const Words& words);
+int logs_command(const Words& words);
+int ps_command(const Words& words);
+int restart_command(const Words& words);
+int shutdown_command(const Words& words);
+int signal_command(const Words& words);
+int start_command(const Words& words);
+int stop_command(const Words& words);
+int top_command(const Words& words);
+
+// The help of their option --launch.
+inline constexpr const char* kLaunchHelp = "number or file of the launch, if several run";
+
+Words finding_words(const Words& words);      // ids
+Words launch_file_words(const Words& words);  // launch files, packages, arguments and their values
+Words process_words(const Words& words);      // names of the processes of the launches that run
+Words run_program_words(const Words& words);  // packages, programs, and options
+Words schema_words(const Words& words);       // formats
+Words signal_words(const Words& words);       // a process, then a signal
+
+}  // namespace launch
