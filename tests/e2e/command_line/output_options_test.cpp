@@ -15,6 +15,7 @@ using namespace test_support;
 using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
+using testing::StartsWith;
 
 class OutputOptions : public testing::Test {
  protected:
@@ -71,6 +72,10 @@ TEST_F(OutputOptions, ColoursCanBeForced) {
   };
   EXPECT_THAT(output("1"), HasSubstr("\033[31m[ERROR] [launch.user]: text\033[0m\n"));
   EXPECT_THAT(output("0"), HasSubstr("\n[ERROR] [launch.user]: text\n"));
+  const std::vector<std::string> check = {LAUNCH_PROGRAM, "check", "nosuch"};
+  EXPECT_THAT(run_command({.argv = check, .environment = {{"RCUTILS_COLORIZED_OUTPUT", "1"}}}).out,
+              HasSubstr("\033[1;31merror:\033[0m"));
+  EXPECT_THAT(run_command(check).out, StartsWith("error: launch file 'nosuch' does not exist [LF0001]\n"));
 }
 
 // A launch within the launch, and any program that knows such variables, would take them for itself.

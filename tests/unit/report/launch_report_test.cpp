@@ -58,6 +58,17 @@ class LaunchReport : public ::testing::Test {
   std::string path_ = directory_.path().string();
 };
 
+TEST_F(LaunchReport, HasColoursWhenTheVariableOfTheNodesSaysSo) {
+  TraceWriter writer(directory_.path() / "ust/uid/0/64-bit");
+  write_ping_pong(writer);
+  writer.finish();
+
+  EXPECT_THAT(launch_report(path_).out, Not(HasSubstr("\033[")));
+  ::setenv("RCUTILS_COLORIZED_OUTPUT", "1", 1);
+  EXPECT_THAT(launch_report(path_).out, HasSubstr("\033["));
+  ::unsetenv("RCUTILS_COLORIZED_OUTPUT");
+}
+
 TEST_F(LaunchReport, PrintsTheReportOfPingAndPong) {
   TraceWriter writer(directory_.path() / "ust/uid/0/64-bit");
   write_ping_pong(writer);
