@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// A condition on the fields of a message: "data > 3", "pose.position.x >= 1.5 and not header.frame_id == 'map'".
-//
-//   condition   comparison, a field of type bool, `not` condition, condition `and` condition, condition `or` condition,
-//               (condition)
-//   comparison  operand == != < <= > >= operand; chains such as 1 < x < 3 as in Python
-//   operand     a field, len(field), a number, a text in quotes, true, false
-//
-// A field is written as FieldPath has it, with `m.` or `m` alone before it if one likes, as in ROS 2.
+// A condition on the fields of a message: "data > 3", "pose.position.x >= 1.5 and not header.frame_id == 'map'". Its
+// grammar is that of FieldCondition. A field may have `m.` before it, or be `m` alone, as in ROS 2.
 #pragma once
 
-#include <functional>
 #include <memory>
+#include <vector>
 
-#include "base/diagnostics/source.hpp"
-#include "launcher/message_types/interface_type.hpp"
+#include "base/conditions/field_condition.hpp"
+#include "launcher/message_types/message_part.hpp"
 
 namespace launch {
 
@@ -23,10 +17,17 @@ class MessageCondition {
   MessageCondition(std::shared_ptr<const MessageType> message, const LocatedText& text);
 
   // A comparison with an element that a sequence does not have does not hold.
-  bool holds(const MessageValue& message) const { return holds_(message); }
+  bool holds(const MessageValue& message) const;
 
  private:
-  std::function<bool(const MessageValue&)> holds_;
+  enum class Kind { kNumber, kText, kBool };
+  static const char* name_of(Kind kind);
+  // Throw LaunchError where kinds do not fit.
+  void check(const FieldCondition::Node& node) const;
+  Kind kind_of(const FieldCondition::Operand& operand) const;
+
+  FieldCondition condition_;
+  std::vector<MessagePart> parts_;  // for each of the condition's fields
 };
 
 }  // namespace launch

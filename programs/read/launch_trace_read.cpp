@@ -15,6 +15,7 @@
 #include <set>
 
 #include "base/diagnostics/command_error.hpp"
+#include "base/diagnostics/diagnostic.hpp"
 #include "programs/read/event_printer.hpp"
 #include "tracing/decode/reader/trace_reader.hpp"
 #include "tracing/model/selection/event_filter.hpp"
@@ -240,10 +241,11 @@ std::optional<tracing::TimeBound> time_bound(const std::string& option, const st
 
 void add_expression(tracing::EventFilter& filter, const std::string& text) {
   try {
-    filter.expressions.emplace_back(text);
-  } catch (const tracing::ExpressionError& error) {
-    throw CLI::ValidationError("--where",
-                               fmt::format("{}\n    {}\n    {:>{}}", error.what(), text, '^', error.column() + 1));
+    filter.conditions.emplace_back(text);
+  } catch (const launch::LaunchError& error) {
+    const launch::Diagnostic& mistake = error.diagnostics().front();
+    throw CLI::ValidationError(
+        "--where", fmt::format("{}\n    {}\n    {:>{}}", mistake.message, text, '^', mistake.where.begin + 1));
   }
 }
 

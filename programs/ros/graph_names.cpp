@@ -8,7 +8,7 @@
 #include <rclcpp/exceptions.hpp>
 
 #include "base/diagnostics/diagnostic.hpp"
-#include "launcher/message_types/field_path.hpp"
+#include "launcher/message_types/message_part.hpp"
 #include "launcher/message_types/read_value.hpp"
 #include "programs/ros/endpoints.hpp"
 
@@ -125,7 +125,7 @@ std::vector<std::string> nodes_with_service(GraphSession& session, const std::st
 }
 
 const MessageValue& Reply::at(const std::string& path) const {
-  return *FieldPath(type, LocatedText(path)).find(value);
+  return *MessagePart(type, LocatedText(path)).find(value);
 }
 
 Reply ask(GraphSession& session, const std::string& service, const std::string& type, const std::string& request) {

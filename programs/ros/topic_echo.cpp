@@ -6,8 +6,8 @@
 
 #include "base/diagnostics/diagnostic.hpp"
 #include "launcher/message_types/cdr/cdr_codec.hpp"
-#include "launcher/message_types/field_path.hpp"
 #include "launcher/message_types/message_condition.hpp"
+#include "launcher/message_types/message_part.hpp"
 #include "launcher/message_types/print_value.hpp"
 #include "launcher/message_types/python_text.hpp"
 #include "programs/ros/endpoints.hpp"
@@ -147,7 +147,7 @@ class TopicEcho final : public Verb {
   std::size_t truncate_ = kTruncate;
   bool csv_ = false, full_length_ = false, no_lost_ = false, raw_ = false, once_ = false, info_ = false, clear_ = false;
   std::optional<double> timeout_;
-  std::optional<FieldPath> path_;
+  std::optional<MessagePart> path_;
   std::optional<MessageCondition> condition_;
 };
 

@@ -6,8 +6,8 @@
 #include <map>
 
 #include "launcher/message_types/cdr/cdr_codec.hpp"
-#include "launcher/message_types/field_path.hpp"
 #include "launcher/message_types/message_condition.hpp"
+#include "launcher/message_types/message_part.hpp"
 #include "programs/ros/endpoints.hpp"
 #include "programs/ros/rate_statistics.hpp"
 #include "programs/ros/topic_graph.hpp"
@@ -197,7 +197,7 @@ class TopicDelay final : public Verb {
     if (header == nullptr || header->type.message == nullptr || header->type.message->name != "std_msgs/msg/Header") {
       throw CommandError(fmt::format("messages of type {} have no header", one->type->name));
     }
-    const FieldPath stamp(one->type, LocatedText("header.stamp"));
+    const MessagePart stamp(one->type, LocatedText("header.stamp"));
     measured.push_back(std::move(*one));
     RateStatistics statistics(window_);
     bool any = false;

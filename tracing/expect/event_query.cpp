@@ -9,9 +9,10 @@
 #include <memory>
 #include <utility>
 
+#include "base/diagnostics/diagnostic.hpp"
 #include "base/text/nearest_name.hpp"
 #include "tracing/decode/reader/event_pattern.hpp"
-#include "tracing/model/selection/field_expression.hpp"
+#include "tracing/model/selection/event_condition.hpp"
 
 namespace launch_trace_testing {
 
@@ -46,38 +47,40 @@ double distance_of(const Value& held, const Value& wanted) {
 }
 
 // The value at a path, as the language of conditions sees it.
-std::optional<tracing::FieldContent> content_at(const Event& event, const tracing::FieldPath& path) {
-  if (path.rest.empty()) {
-    if (path.first == "procname") {
-      return tracing::FieldContent{std::string_view(event.procname()), {}};
+std::optional<launch::FieldContent> content_at(const Event& event, const launch::FieldPath& path) {
+  const auto& name = std::get<std::string>(path.parts.front().step);
+  if (path.parts.size() == 1) {
+    if (name == "procname") {
+      return launch::FieldContent{std::string_view(event.procname()), {}};
     }
     const auto context = [](std::int64_t number) {
-      return number < 0 ? std::nullopt : std::optional(tracing::FieldContent{number, {}});
+      return number < 0 ? std::nullopt : std::optional(launch::FieldContent{number, {}});
     };
-    if (path.first == "vpid") {
+    if (name == "vpid") {
       return context(event.vpid());
     }
-    if (path.first == "vtid") {
+    if (name == "vtid") {
       return context(event.vtid());
     }
-    if (path.first == "cpu_id") {
+    if (name == "cpu_id") {
       return context(event.cpu_id());
     }
   }
-  const Value* value = event.find(path.first);
-  for (const tracing::FieldPath::Part& part : path.rest) {
+  const Value* value = event.find(name);
+  for (std::size_t i = 1; i < path.parts.size(); ++i) {
+    const auto& step = path.parts[i].step;
     if (value == nullptr) {
       return std::nullopt;
     }
     const Value* found = nullptr;
-    if (const auto* const index = std::get_if<std::size_t>(&part)) {
+    if (const auto* const index = std::get_if<std::size_t>(&step)) {
       const Value::Array* const elements = value->array();
       if (elements != nullptr && *index < elements->size()) {
         found = &(*elements)[*index];
       }
     } else if (const auto* const members = std::get_if<Value::Structure>(&value->data)) {
       for (const Value::Member& member : *members) {
-        if (member.name == std::get<std::string>(part)) {
+        if (member.name == std::get<std::string>(step)) {
           found = &member.value;
         }
       }
@@ -88,22 +91,20 @@ std::optional<tracing::FieldContent> content_at(const Event& event, const tracin
     return std::nullopt;
   }
   struct Content {
-    tracing::FieldContent operator()(std::uint64_t number) const { return {number, {}}; }
-    tracing::FieldContent operator()(std::int64_t number) const { return {number, {}}; }
-    tracing::FieldContent operator()(double number) const { return {number, {}}; }
-    tracing::FieldContent operator()(const std::string& text) const { return {std::string_view(text), {}}; }
-    tracing::FieldContent operator()(const Value::Enumeration& enumeration) const {
-      tracing::FieldContent content{enumeration.number, {}};
+    launch::FieldContent operator()(std::uint64_t number) const { return {number, {}}; }
+    launch::FieldContent operator()(std::int64_t number) const { return {number, {}}; }
+    launch::FieldContent operator()(double number) const { return {number, {}}; }
+    launch::FieldContent operator()(const std::string& text) const { return {std::string_view(text), {}}; }
+    launch::FieldContent operator()(const Value::Enumeration& enumeration) const {
+      launch::FieldContent content{enumeration.number, {}};
       if (!enumeration.label.empty()) {
         content.label = enumeration.label;
       }
       return content;
     }
-    tracing::FieldContent operator()(const Value::Array& array) const {
-      return {tracing::FieldParts{array.size()}, {}};
-    }
-    tracing::FieldContent operator()(const Value::Structure& members) const {
-      return {tracing::FieldParts{members.size()}, {}};
+    launch::FieldContent operator()(const Value::Array& array) const { return {launch::FieldParts{array.size()}, {}}; }
+    launch::FieldContent operator()(const Value::Structure& members) const {
+      return {launch::FieldParts{members.size()}, {}};
     }
   };
   return std::visit(Content{}, value->data);
@@ -141,17 +142,18 @@ EventQuery& EventQuery::with(std::string_view field, double number) & {
 
 EventQuery& EventQuery::where(std::string_view expression) & {
   const std::string text(expression);
-  std::shared_ptr<const tracing::FieldExpression> parsed;
+  std::shared_ptr<const tracing::EventCondition> parsed;
   try {
-    parsed = std::make_shared<const tracing::FieldExpression>(text);
-  } catch (const tracing::ExpressionError& error) {
-    const std::string prefix = "the condition is wrong: ";
-    throw QueryError(fmt::format("{}{}\n  {}\n  {}^", prefix, error.what(), text, std::string(error.column(), ' ')),
-                     error.what(), error.column());
+    parsed = std::make_shared<const tracing::EventCondition>(text);
+  } catch (const launch::LaunchError& error) {
+    const launch::Diagnostic& mistake = error.diagnostics().front();
+    const std::uint32_t column = mistake.where.begin;
+    throw QueryError(fmt::format("the condition is wrong: {}\n  {}\n  {:>{}}", mistake.message, text, '^', column + 1),
+                     mistake.message, column);
   }
   std::vector<std::string> fields = parsed->fields();
   return add("where " + text, std::move(fields), [parsed](const Event& event) {
-    const bool holds = parsed->holds([&event](const tracing::FieldPath& path) { return content_at(event, path); });
+    const bool holds = parsed->holds([&event](const launch::FieldPath& path) { return content_at(event, path); });
     return holds ? 0 : kCondition;
   });
 }

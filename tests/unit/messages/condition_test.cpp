@@ -2,8 +2,8 @@
 // Conditions on fields, and the choice of a field.
 #include <gtest/gtest.h>
 
-#include "launcher/message_types/field_path.hpp"
 #include "launcher/message_types/message_condition.hpp"
+#include "launcher/message_types/message_part.hpp"
 #include "test_library.hpp"
 
 namespace {
@@ -40,6 +40,13 @@ TEST_F(Condition, ComparesNumbersTextsAndBools) {
   EXPECT_FALSE(holds("primitives.uint64_value == primitives.int64_value", message_));
   EXPECT_TRUE(holds("primitives.int64_value == -1 or false", message_));
   EXPECT_TRUE(holds("not (header.stamp.sec == 1 or header.stamp.sec == 2)", message_));
+}
+
+TEST_F(Condition, TakesTheSpellingOfConditionsOnEvents) {
+  EXPECT_TRUE(holds("header.stamp.sec == 3 && !(primitives.float64_value < 2) || false", message_));
+  EXPECT_TRUE(holds("header.frame_id =~ '^m.p$' && header.stamp.sec == 0x3", message_));
+  EXPECT_FALSE(holds("header.frame_id =~ '^ap'", message_));
+  EXPECT_TRUE(holds("header . frame_id =~ 'ma' and .header..frame_id == 'm\\ap'", message_));
 }
 
 TEST_F(Condition, ChoosesElementsAndLengths) {
@@ -79,20 +86,24 @@ TEST_F(Condition, ShowsThePlaceOfAMistake) {
             "    1 | defaults[2].number == 1\n"
             "      |         ^~~\n"
             "      = help: the last one is [1]\n");
+  EXPECT_EQ(errors("header.stamp.sec =~ '3'"),
+            "where:1:21: error: a number can't be compared with a text\n"
+            "    1 | header.stamp.sec =~ '3'\n"
+            "      |                     ^~~\n");
   for (const char* const mistake : {"", "and", "header.frame_id == 'a", "(true", "1 <", "true true", "1.2.3 == 1",
                                     "len(header.stamp.sec) == 1", "header.frame_id[0] == 1", "@"}) {
     EXPECT_NE(errors(mistake), "") << mistake;
   }
 }
 
-TEST_F(Condition, FieldPathFindsPartsOfMessages) {
+TEST_F(Condition, FindsPartsOfMessages) {
   const auto type = library_.message("test_interfaces/msg/Nested");
   const auto value = read_message(*type, located(message_)).value;
-  const launch::FieldPath path(type, located("defaults[0].several"));
+  const launch::MessagePart path(type, located("defaults[0].several"));
   EXPECT_EQ(to_string(path.type()), "float32[]");
   ASSERT_NE(path.find(value), nullptr);
   EXPECT_EQ(path.find(value)->list().size(), 2U);
-  EXPECT_EQ(launch::FieldPath(type).find(value), &value);
+  EXPECT_EQ(launch::MessagePart(type, located("")).find(value), &value);
 }
 
 }  // namespace

@@ -96,8 +96,8 @@ TEST_F(FilterTest, ChoosesByTime) {
 
 TEST_F(FilterTest, AllConditionsMustHold) {
   EventFilter filter;
-  filter.expressions.emplace_back("message > 0");
-  filter.expressions.emplace_back("vpid == 72");
+  filter.conditions.emplace_back("message > 0");
+  filter.conditions.emplace_back("vpid == 72");
   EXPECT_EQ(accepted(std::move(filter)), (Times{200}));
 }
 

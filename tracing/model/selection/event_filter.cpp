@@ -117,8 +117,8 @@ bool EventFilter::accepts(const Event& event) {
   if (!processes.empty() && !accepts_process(event)) {
     return false;
   }
-  return std::all_of(expressions.begin(), expressions.end(),
-                     [&](const FieldExpression& expression) { return expression.holds(event); });
+  return std::all_of(conditions.begin(), conditions.end(),
+                     [&](const EventCondition& condition) { return condition.holds(event); });
 }
 
 }  // namespace tracing

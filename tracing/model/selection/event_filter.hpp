@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "tracing/decode/reader/event_pattern.hpp"
-#include "tracing/model/selection/field_expression.hpp"
+#include "tracing/model/selection/event_condition.hpp"
 #include "tracing/model/selection/node_filter.hpp"
 
 namespace tracing {
@@ -28,12 +28,12 @@ struct TimeBound {
 class EventFilter {
  public:
   // One entry of each list must match; an empty list accepts all events.
-  std::vector<std::string> events;           // patterns of names
-  std::vector<std::string> processes;        // process ids, or patterns of names as `procname` has them
-  std::vector<std::string> nodes;            // patterns of names, as NodeFilter has them
-  std::vector<FieldExpression> expressions;  // all must hold
-  std::optional<TimeBound> begin;            // included
-  std::optional<TimeBound> end;              // not included
+  std::vector<std::string> events;         // patterns of names
+  std::vector<std::string> processes;      // process ids, or patterns of names as `procname` has them
+  std::vector<std::string> nodes;          // patterns of names, as NodeFilter has them
+  std::vector<EventCondition> conditions;  // all must hold
+  std::optional<TimeBound> begin;          // included
+  std::optional<TimeBound> end;            // not included
 
   // Must be called for each event of the trace, in order.
   bool accepts(const Event& event);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/model/selection/field_expression.hpp"
+#include "tracing/model/selection/event_condition.hpp"
 
 #include <gtest/gtest.h>
 
+#include "base/diagnostics/diagnostic.hpp"
 #include "tests/support/trace_writer/temporary_directory.hpp"
 #include "tests/support/trace_writer/trace_writer.hpp"
 #include "tracing/decode/reader/trace_reader.hpp"
@@ -10,7 +11,7 @@
 namespace tracing {
 namespace {
 
-class FieldExpressionTest : public ::testing::Test {
+class EventConditionTest : public ::testing::Test {
  protected:
   // Evaluates the expression for one event, an rcl_publisher_init of process 71.
   bool holds(const std::string& text) {
@@ -27,7 +28,7 @@ class FieldExpressionTest : public ::testing::Test {
       void on_loss(const Loss&) override {}
 
      private:
-      FieldExpression expression_;
+      EventCondition expression_;
     } sink(text);
     TraceReader(directory.path()).read(sink);
     return sink.result;
@@ -35,15 +36,15 @@ class FieldExpressionTest : public ::testing::Test {
 
   static std::string error_of(const std::string& text) {
     try {
-      FieldExpression expression(text);
-    } catch (const ExpressionError& error) {
-      return std::to_string(error.column()) + ": " + error.what();
+      EventCondition expression(text);
+    } catch (const launch::LaunchError& error) {
+      return std::to_string(error.diagnostics().front().where.begin) + ": " + error.diagnostics().front().message;
     }
     return "none";
   }
 };
 
-TEST_F(FieldExpressionTest, ComparesNumbers) {
+TEST_F(EventConditionTest, ComparesNumbers) {
   EXPECT_TRUE(holds("queue_depth == 10"));
   EXPECT_TRUE(holds("queue_depth>9.5"));
   EXPECT_TRUE(holds("queue_depth <= 10"));
@@ -54,7 +55,7 @@ TEST_F(FieldExpressionTest, ComparesNumbers) {
   EXPECT_TRUE(holds("publisher_handle > -5")) << "an unsigned number is not negative";
 }
 
-TEST_F(FieldExpressionTest, ComparesTexts) {
+TEST_F(EventConditionTest, ComparesTexts) {
   EXPECT_TRUE(holds("topic_name == \"/chatter\""));
   EXPECT_TRUE(holds("topic_name == '/chatter'"));
   EXPECT_TRUE(holds("topic_name =~ 'chat+er$'"));
@@ -64,17 +65,26 @@ TEST_F(FieldExpressionTest, ComparesTexts) {
   EXPECT_FALSE(holds("queue_depth == '10'"));
 }
 
-TEST_F(FieldExpressionTest, KnowsTheContexts) {
+TEST_F(EventConditionTest, KnowsTheContexts) {
   EXPECT_TRUE(holds("vpid == 71 && vtid == 72 && cpu_id == 2 && procname == 'talker'"));
 }
 
-TEST_F(FieldExpressionTest, CombinesConditions) {
+TEST_F(EventConditionTest, CombinesConditions) {
   EXPECT_TRUE(holds("queue_depth == 1 || queue_depth == 10"));
   EXPECT_FALSE(holds("queue_depth == 1 || queue_depth == 10 && vpid == 1"));
   EXPECT_TRUE(holds("(queue_depth == 1 || queue_depth == 10) && !(vpid == 1)"));
 }
 
-TEST_F(FieldExpressionTest, AFieldThatIsNotThereIsFalse) {
+TEST_F(EventConditionTest, TakesTheSpellingOfConditionsOnMessages) {
+  EXPECT_TRUE(holds("queue_depth == 10 and not vpid == 1 or false"));
+  EXPECT_TRUE(holds("9 < queue_depth <= 10 and '/chatter' == topic_name"));
+  EXPECT_TRUE(holds("len(topic_name) == 8"));
+  EXPECT_FALSE(holds("len(queue_depth) == 2")) << "a number has no length";
+  EXPECT_FALSE(holds("len == 8")) << "a field of the name len";
+  EXPECT_TRUE(holds("queue_depth != nan"));
+}
+
+TEST_F(EventConditionTest, AFieldThatIsNotThereIsFalse) {
   EXPECT_FALSE(holds("callback == 1"));
   EXPECT_FALSE(holds("callback != 1"));
   EXPECT_FALSE(holds("callback"));
@@ -84,7 +94,7 @@ TEST_F(FieldExpressionTest, AFieldThatIsNotThereIsFalse) {
   EXPECT_FALSE(holds("topic_name[3] == 1"));
 }
 
-TEST_F(FieldExpressionTest, SaysWhatIsWrongAndWhere) {
+TEST_F(EventConditionTest, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(error_of(""), "0: expected the name of a field");
   EXPECT_EQ(error_of("a = 1"), "2: expected '==' to compare");
   EXPECT_EQ(error_of("a == "), "5: expected a value");
