@@ -226,7 +226,74 @@ class IdlParser {
     }
   }
 
-  Literal literal() {
+  Literal literal() { return expression(0); }
+
+  // A value that is computed from others. The operators of a later row bind more.
+  Literal expression(std::size_t row) {
+    static const std::vector<std::vector<std::string_view>> kOperators = {{"|"},  {"^"},      {"&"},
+                                                                          {"<<"}, {"+", "-"}, {"*", "/", "%"}};
+    if (row == kOperators.size()) {
+      return operand();
+    }
+    Literal left = expression(row + 1);
+    const auto is_next = [this](std::string_view sign) {
+      return in_.next().kind == IdlToken::Kind::kSign && in_.next().text == sign;
+    };
+    while (std::any_of(kOperators[row].begin(), kOperators[row].end(), is_next)) {
+      const IdlToken sign = in_.take();
+      left.yaml = computed(left, sign.text.front(), expression(row + 1));
+    }
+    return left;
+  }
+
+  template <typename Number>
+  static std::optional<Number> number_of(const Literal& value) {
+    Number number{};
+    const char* const end = value.yaml.data() + value.yaml.size();
+    const auto [stop, error] = std::from_chars(value.yaml.data(), end, number);
+    return !value.is_text && error == std::errc() && stop == end ? std::optional(number) : std::nullopt;
+  }
+
+  // Integers are divided as the generator does it: rounded down.
+  std::string computed(const Literal& left, char sign, const Literal& right) const {
+    const auto a = number_of<std::int64_t>(left);
+    const auto b = number_of<std::int64_t>(right);
+    const auto x = number_of<double>(left);
+    const auto y = number_of<double>(right);
+    if (a && b) {
+      const auto text = [](auto number) { return std::to_string(static_cast<std::int64_t>(number)); };
+      const auto from = static_cast<std::uint64_t>(*a);  // without sign, nothing overflows
+      const auto by = static_cast<std::uint64_t>(*b);
+      const std::uint64_t quotient =
+          *b == 0 || *b == -1 ? 0 - from
+                              : static_cast<std::uint64_t>(*a / *b - (*a % *b != 0 && (*a < 0) != (*b < 0) ? 1 : 0));
+      switch (sign) {
+        case '|':
+          return text(from | by);
+        case '^':
+          return text(from ^ by);
+        case '&':
+          return text(from & by);
+        case '<':
+          return text(by < 64 ? from << by : 0);
+        case '+':
+          return text(from + by);
+        case '-':
+          return text(from - by);
+        case '*':
+          return text(from * by);
+        default:
+          if (by != 0) {
+            return text(sign == '/' ? quotient : from - by * quotient);
+          }
+      }
+    } else if (x && y && std::string_view("+-*/").find(sign) != std::string_view::npos && (sign != '/' || *y != 0)) {
+      return fmt::format("{}", sign == '+' ? *x + *y : sign == '-' ? *x - *y : sign == '*' ? *x * *y : *x / *y);
+    }
+    in_.fail(left.token, "expected a value");
+  }
+
+  Literal operand() {
     const IdlToken token = in_.take();
     switch (token.kind) {
       case IdlToken::Kind::kText: {
@@ -244,10 +311,19 @@ class IdlParser {
         }
         return named(token);
       case IdlToken::Kind::kSign:
+        if (token.text == "(") {
+          const Literal value = literal();
+          in_.expect(")");
+          return {token, value.yaml, value.is_text};
+        }
+        if (token.text == "-" && in_.next().kind == IdlToken::Kind::kNumber) {
+          return {token, "-" + operand().yaml};
+        }
         if (token.text == "-" || token.text == "+") {
-          Literal value = literal();
-          value.yaml.insert(0, token.text == "-" ? "-" : "");
-          return value;
+          return {token, computed({token, "0"}, token.text.front(), operand())};
+        }
+        if (token.text == "~") {
+          return {token, computed({token, "-1"}, '-', operand())};
         }
         [[fallthrough]];
       default:
@@ -273,7 +349,7 @@ class IdlParser {
     const bool is_octal = token.text.size() > 1 && token.text[0] == '0' &&
                           token.text.find_first_not_of("01234567") == std::string_view::npos;
     if (!is_hexadecimal && !is_octal) {
-      return std::string(token.text);
+      return std::string(token.text.substr(0, token.text.find_last_not_of("dD") + 1));
     }
     std::uint64_t value = 0;
     const std::string_view digits = token.text.substr(is_hexadecimal ? 2 : 1);

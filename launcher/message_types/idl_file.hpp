@@ -2,7 +2,7 @@
 // Reads the text of .idl files: the part of OMG IDL that ROS 2's packages use.
 //
 // Such a file has `module PACKAGE { module msg { … }; };`, in it structs, `typedef`s and modules `X_Constants`. Of the
-// annotations, only `@default (value=…)` has an effect.
+// annotations, only `@default (value=…)` has an effect. Numbers may be computed from others.
 #pragma once
 
 #include <memory>

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view kDigits = "0123456789";
 constexpr std::string_view kWord = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789";
-constexpr std::string_view kSigns = "{}()[]<>;,=@:+-";
+constexpr std::string_view kSigns = "{}()[]<>;,=@:+-*/%|&^~";
 
 std::size_t end_of_number(std::string_view text, std::size_t at) {
   if (text.substr(at).starts_with("0x") || text.substr(at).starts_with("0X")) {
@@ -29,7 +29,8 @@ std::size_t end_of_number(std::string_view text, std::size_t at) {
     const bool has_sign = end + 1 < text.size() && (text[end + 1] == '+' || text[end + 1] == '-');
     end = digits(end + (has_sign ? 2 : 1));
   }
-  return end;
+  const bool is_fixed_point = end < text.size() && (text[end] == 'd' || text[end] == 'D');
+  return end + (is_fixed_point ? 1 : 0);
 }
 
 // The position after the closing quote; npos if there is none in the line.
@@ -57,7 +58,8 @@ void IdlTokens::read(std::string_view text) {
     const std::string_view rest = text.substr(at);
     IdlToken token{IdlToken::Kind::kSign, {}, at};
     std::size_t end = at + 1;
-    if (std::string_view(" \t\r\n").find(c) != std::string_view::npos) {
+    const bool is_wide = rest.starts_with("L\"") || rest.starts_with("L'");
+    if (is_wide || std::string_view(" \t\r\n").find(c) != std::string_view::npos) {
       at = end;
       continue;
     }
@@ -86,7 +88,7 @@ void IdlTokens::read(std::string_view text) {
     } else if (kWord.find(c) != kWord.npos) {
       token.kind = IdlToken::Kind::kName;
       end = std::min(text.find_first_not_of(kWord, at), text.size());
-    } else if (rest.starts_with("::")) {
+    } else if (rest.starts_with("::") || rest.starts_with("<<")) {
       end = at + 2;
     } else if (kSigns.find(c) == kSigns.npos) {
       fail({IdlToken::Kind::kSign, rest.substr(0, 1), at}, fmt::format("'{}' has no meaning here", c));

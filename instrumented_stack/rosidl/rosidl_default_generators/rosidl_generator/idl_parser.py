@@ -59,6 +59,9 @@ class _Reader:
         return token
 
     def accept(self, text: str) -> bool:
+        if text == '>' and self.token.text == '>>':  # the end of two types: one of the signs stays
+            self._tokens[self._next] = _Token('sign', '>', self.token.position + 1)
+            return True
         found = self.token.text == text and self.token.kind in ('name', 'sign')
         if found:
             self._next += 1
@@ -215,12 +218,13 @@ class _IdlParser:
         raise self._in.error(token, f"unknown type '{'::'.join(names)}'")
 
     def _array(self, type_: Type) -> Type:
+        begin = self._in.token
         if not self._in.accept('['):
             return type_
         size = self._size()
         self._in.expect(']')
         if type_.is_array or type_.is_sequence:
-            raise self._in.error(self._in.token, 'an array of arrays or sequences is not possible')
+            raise self._in.error(begin, 'an array of arrays or sequences is not possible')
         return Type(type_.name, type_.package, type_.string_bound, array_size=size, namespace=type_.namespace)
 
     def _size(self) -> int:
