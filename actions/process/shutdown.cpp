@@ -14,7 +14,7 @@ class Shutdown : public Action {
 
  protected:
   void execute(LaunchContext& context) const override {
-    context.requests().shutdown = ShutdownRequest{reason_ ? reason_->perform(context.scope()) : "reason not given"};
+    context.requests().shutdowns.push_back({reason_ ? reason_->perform(context.scope()) : "reason not given"});
   }
 
  private:

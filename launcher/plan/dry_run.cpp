@@ -5,9 +5,13 @@
 #include <fmt/ranges.h>
 #include <string.h>
 
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "actions/values/parameter_value.hpp"
+#include "base/overloaded.hpp"
 #include "base/text/shell_quoted.hpp"
 #include "launcher/plan/parameter_json.hpp"
 
@@ -198,46 +202,61 @@ std::string left_to_run_as_text(const LeftToRun& left) {
   return fmt::format("action ({})\n  {}: {}\n", to_string(left.where), kLeftToRun, left.error);
 }
 
+std::string content_as_text(const LaunchPlan& plan, const Environment& launcher_environment, bool of_handler);
+
+std::string handler_as_text(const EventHandler& handler, const LaunchPlan& reaction,
+                            const Environment& launcher_environment) {
+  std::string content = content_as_text(reaction, launcher_environment, true);
+  while (content.ends_with("\n\n")) {
+    content.pop_back();
+  }
+  return fmt::format("{} ({})\n{}\n", describe(handler), to_string(handler.where), indented(content, 2));
+}
+
 // Everything but the last line.
-std::string content_as_text(const LaunchPlan& plan, const Environment& launcher_environment) {
-  std::string text;
-  for (const auto& scope : plan.scopes) {
-    text += scope_as_text(*scope) + "\n";
+std::string content_as_text(const LaunchPlan& plan, const Environment& launcher_environment, bool of_handler) {
+  std::string traces;
+  std::vector<std::string> processes;
+  std::string to_nodes;
+  std::string coroutines;
+  std::string handlers;
+  std::string effects;  // told of handlers only
+  auto reaction = plan.reactions.begin();
+  for_each_request(
+      plan,
+      Overloaded{
+          [&](const RunScopePtr& scope) { traces += scope_as_text(*scope) + "\n"; },
+          [&](const ProcessCommand& command) { effects += command_as_text(command) + "\n"; },
+          [&](const EventHandler& handler) { handlers += handler_as_text(handler, *reaction++, launcher_environment); },
+          [&](const LoadRequest& load) { to_nodes += load_request_as_text(load) + "\n"; },
+          [&](const TransitionRequest& request) {
+            to_nodes += fmt::format("change state of {} ({})\n  {}\n\n", request.node, to_string(request.origin),
+                                    fmt::join(request.transitions, ", "));
+          },
+          [&](const ProcessSpec& spec) { processes.push_back(process_as_text(spec, launcher_environment)); },
+          [&](const CoroutineRequest& request) {
+            coroutines += fmt::format("coroutine {}\n\n", request.object->describe());
+          },
+          [&](const Dependency& dependency) {
+            processes[dependency.process] += fmt::format("  {}\n", dependency_as_text(dependency));
+          },
+          PassOver<UnregisterRequest, TestRequest, TimerRequest>(),
+          PassOver<ShutdownRequest, NodeDescription>(),  // the last effect, once; the command line names the node
+      });
+  std::string text = traces;
+  for (const std::string& process : processes) {
+    text += process + "\n";
   }
-  std::vector<std::string> waits(plan.processes.size());
-  for (const Dependency& dependency : plan.dependencies) {
-    waits[dependency.process] += fmt::format("  {}\n", dependency_as_text(dependency));
-  }
-  for (std::size_t i = 0; i < plan.processes.size(); ++i) {
-    text += process_as_text(plan.processes[i], launcher_environment) + waits[i] + "\n";
-  }
-  for (const LoadRequest& request : plan.loads) {
-    text += load_request_as_text(request) + "\n";
-  }
-  for (const TransitionRequest& request : plan.transitions) {
-    text += fmt::format("change state of {} ({})\n  {}\n\n", request.node, to_string(request.origin),
-                        fmt::join(request.transitions, ", "));
-  }
-  for (const CoroutineRequest& coroutine : plan.coroutines) {
-    text += fmt::format("coroutine {}\n\n", coroutine.object->describe());
-  }
+  text += to_nodes + coroutines;
   for (const LeftToRun& left : plan.left_to_run) {
     text += left_to_run_as_text(left) + "\n";
   }
-  for (const PlannedHandler& planned : plan.handlers) {
-    text += fmt::format("{} ({})\n", describe(planned.handler), to_string(planned.handler.where));
-    std::string content = content_as_text(planned.plan, launcher_environment);
-    for (const ProcessCommand& command : planned.plan.commands) {
-      content += command_as_text(command) + "\n";
+  text += handlers;
+  if (of_handler) {
+    for (const std::string& log : plan.logs) {
+      effects += fmt::format("log {}\n", shell_quoted(log));
     }
-    for (const std::string& log : planned.plan.logs) {
-      content += fmt::format("log {}\n", shell_quoted(log));
-    }
-    content += planned.plan.shutdown ? "shutdown\n" : "";
-    while (content.ends_with("\n\n")) {
-      content.pop_back();
-    }
-    text += indented(content, 2) + "\n";
+    text += effects + (plan.shutdowns.empty() ? "" : "shutdown\n");
   }
   return text;
 }
@@ -250,7 +269,7 @@ std::string plan_as_text(const LaunchPlan& plan, const Environment& launcher_env
   if (!plan.handlers.empty()) {
     counts += ", " + counted(plan.handlers.size(), "event handler", "event handlers");
   }
-  return fmt::format("{}{}; nothing was started\n", content_as_text(plan, launcher_environment), counts);
+  return fmt::format("{}{}; nothing was started\n", content_as_text(plan, launcher_environment, false), counts);
 }
 
 namespace {
@@ -264,80 +283,97 @@ Json dependency_as_json(const Dependency& dependency) {
 
 void add_content(Json& root, const LaunchPlan& plan, const Environment& launcher_environment);
 
-Json handler_as_json(const PlannedHandler& planned, const Environment& launcher_environment) {
-  Json handler;
-  handler["event"] = describe(planned.handler);
-  handler["once"] = planned.handler.once;
-  handler["source"] = source_as_json(planned.handler.where);
-  add_content(handler, planned.plan, launcher_environment);
-  return handler;
+Json handler_as_json(const EventHandler& handler, const LaunchPlan& reaction, const Environment& launcher_environment) {
+  Json json;
+  json["event"] = describe(handler);
+  json["once"] = handler.once;
+  json["source"] = source_as_json(handler.where);
+  add_content(json, reaction, launcher_environment);
+  return json;
+}
+
+Json scope_as_json(const RunScope& scope) {
+  Json trace;
+  for (const ShownSetting& setting : scope.describe()) {
+    std::visit([&](const auto& held) { trace[setting.name] = held; }, setting.value);
+  }
+  trace["source"] = source_as_json(scope.origin());
+  return trace;
+}
+
+Json left_to_run_as_json(const LeftToRun& left) {
+  Json item;
+  item["function"] = left.function.empty() ? Json(nullptr) : Json(left.function);
+  item["why"] = kLeftToRun;
+  if (!left.error.empty()) {
+    item["error"] = left.error;
+  }
+  item["source"] = left.where ? source_as_json(left.where) : Json(nullptr);
+  return item;
 }
 
 void add_content(Json& root, const LaunchPlan& plan, const Environment& launcher_environment) {
   Json processes = Json::array();
-  for (const ProcessSpec& spec : plan.processes) {
-    processes.push_back(process_as_json(spec, launcher_environment));
-  }
-  for (std::size_t i = 0; i < plan.delays.size(); ++i) {
-    if (plan.delays[i] > Duration(0)) {
-      processes[i]["after"] = std::chrono::duration<double>(plan.delays[i]).count();
-    }
-  }
-  for (const NodeDescription& node : plan.nodes) {
-    processes[node.process]["node"] = {{"package", or_null(node.package)},
-                                       {"executable", node.executable},
-                                       {"name", or_null(node.name)},
-                                       {"namespace", or_null(node.name_space)}};
-  }
-  for (const Dependency& dependency : plan.dependencies) {
-    processes[dependency.process]["depends_on"].push_back(dependency_as_json(dependency));
-  }
   Json loads = Json::array();
-  for (const LoadRequest& request : plan.loads) {
-    loads.push_back(load_request_as_json(request));
-  }
-  Json transitions = Json::array();
-  for (const TransitionRequest& request : plan.transitions) {
-    transitions.push_back({{"node", request.node}, {"transitions", request.transitions}});
-  }
+  Json transitions;
   Json traces = Json::array();
-  for (const auto& scope : plan.scopes) {
-    Json trace;
-    for (const ShownSetting& setting : scope->describe()) {
-      std::visit([&](const auto& held) { trace[setting.name] = held; }, setting.value);
+  Json coroutines;
+  Json commands;
+  Json handlers;
+  auto reaction = plan.reactions.begin();
+  for_each_request(
+      plan,
+      Overloaded{
+          [&](const RunScopePtr& scope) { traces.push_back(scope_as_json(*scope)); },
+          [&](const ProcessCommand& command) {
+            commands.push_back({{"command", command_as_text(command)}, {"source", source_as_json(command.where)}});
+          },
+          [&](const EventHandler& handler) {
+            handlers.push_back(handler_as_json(handler, *reaction++, launcher_environment));
+          },
+          [&](const LoadRequest& load) { loads.push_back(load_request_as_json(load)); },
+          [&](const TransitionRequest& request) {
+            transitions.push_back({{"node", request.node}, {"transitions", request.transitions}});
+          },
+          [&](const ProcessSpec& spec) {
+            const Duration delay = plan.delays[processes.size()];
+            Json& process = processes.emplace_back(process_as_json(spec, launcher_environment));
+            if (delay > Duration(0)) {
+              process["after"] = std::chrono::duration<double>(delay).count();
+            }
+          },
+          [&](const CoroutineRequest& coroutine) { coroutines.push_back(coroutine.object->describe()); },
+          [&](const NodeDescription& node) {
+            processes[node.process]["node"] = {{"package", or_null(node.package)},
+                                               {"executable", node.executable},
+                                               {"name", or_null(node.name)},
+                                               {"namespace", or_null(node.name_space)}};
+          },
+          [&](const Dependency& dependency) {
+            processes[dependency.process]["depends_on"].push_back(dependency_as_json(dependency));
+          },
+          PassOver<UnregisterRequest, TestRequest, TimerRequest>(),
+          PassOver<ShutdownRequest>(),  // told once
+      });
+  const auto add_if_any = [&](const char* key, Json& list) {
+    if (!list.empty()) {
+      root[key] = std::move(list);
     }
-    trace["source"] = source_as_json(scope->origin());
-    traces.push_back(std::move(trace));
-  }
+  };
   root["processes"] = std::move(processes);
   root["composable"] = std::move(loads);
-  if (!transitions.empty()) {
-    root["transitions"] = std::move(transitions);
-  }
+  add_if_any("transitions", transitions);
   root["traces"] = std::move(traces);
   root["logs"] = plan.logs;
   root["python_includes"] = plan.python_includes;
   root["includes"] = plan.includes;
-  root["shutdown"] = plan.shutdown;
-  for (const CoroutineRequest& coroutine : plan.coroutines) {
-    root["coroutines"].push_back(coroutine.object->describe());
-  }
-  for (const ProcessCommand& command : plan.commands) {
-    root["commands"].push_back({{"command", command_as_text(command)}, {"source", source_as_json(command.where)}});
-  }
+  root["shutdown"] = !plan.shutdowns.empty();
+  add_if_any("coroutines", coroutines);
+  add_if_any("commands", commands);
   for (const LeftToRun& left : plan.left_to_run) {
-    Json item;
-    item["function"] = left.function.empty() ? Json(nullptr) : Json(left.function);
-    item["why"] = kLeftToRun;
-    if (!left.error.empty()) {
-      item["error"] = left.error;
-    }
-    item["source"] = left.where ? source_as_json(left.where) : Json(nullptr);
-    root["only_in_a_run"].push_back(std::move(item));
+    root["only_in_a_run"].push_back(left_to_run_as_json(left));
   }
-  for (const PlannedHandler& planned : plan.handlers) {
-    root["handlers"].push_back(handler_as_json(planned, launcher_environment));
-  }
+  add_if_any("handlers", handlers);
 }
 
 }  // namespace

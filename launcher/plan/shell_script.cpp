@@ -2,67 +2,85 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
+#include <memory>
 #include <vector>
 
+#include "base/overloaded.hpp"
 #include "base/text/shell_quoted.hpp"
 #include "launcher/plan/dry_run.hpp"
 
 namespace launch {
 
-std::string plan_as_shell_script(const LaunchPlan& plan, const Environment& launcher_environment) {
-  std::string text = "#!/bin/sh\n# What the launch would run, without traces and supervision. Ctrl-C ends all of it.\n";
-  for (const auto& scope : plan.scopes) {
-    text += fmt::format("# not started: the {} of {}\n", scope->kind(), to_string(scope->origin()));
+namespace {
+
+// `files` counts the generated files of all processes.
+std::string process_as_script(const ProcessSpec& spec, const Environment& launcher_environment, std::size_t& files) {
+  std::string text = fmt::format("\n# {}, {}\n", spec.name, to_string(spec.origin));
+  std::vector<std::string> words;
+  for (const std::string& word : spec.argv) {
+    words.push_back(spec.shell ? word : shell_quoted(word));
   }
-  const bool any_files = std::any_of(plan.processes.begin(), plan.processes.end(),
-                                     [](const ProcessSpec& spec) { return !spec.files.empty(); });
-  if (any_files) {
+  for (const GeneratedFile& file : spec.files) {
+    const std::string name = fmt::format("{}-{}", ++files, file.name);
+    const bool ends_line = !file.content.empty() && file.content.back() == '\n';
+    text += fmt::format("cat > \"$parameters\"/{} <<'END_OF_FILE'\n{}{}END_OF_FILE\n", shell_quoted(name), file.content,
+                        ends_line ? "" : "\n");
+    words[file.argument] = "\"$parameters\"/" + shell_quoted(name);
+  }
+  std::string unset;  // env(1) takes these first
+  std::string set;
+  for (const auto& [name, value] : environment_difference(spec.environment, launcher_environment)) {
+    (value ? set : unset) += value ? fmt::format(" {}={}", name, shell_quoted(*value)) : fmt::format(" -u {}", name);
+  }
+  const std::string change = unset + set;
+  std::string command = fmt::format("{}", fmt::join(words, " "));
+  if (spec.shell) {
+    command = "/bin/sh -c " + shell_quoted(command);
+  }
+  return text + fmt::format("({}exec {}{}) &\n",
+                            spec.working_directory.empty()
+                                ? ""
+                                : fmt::format("cd {} && ", shell_quoted(spec.working_directory)),
+                            change.empty() ? "" : "env" + change + " ", command);
+}
+
+}  // namespace
+
+std::string plan_as_shell_script(const LaunchPlan& plan, const Environment& launcher_environment) {
+  std::string traces;
+  std::string processes;
+  std::string components;
+  std::string handlers;
+  std::size_t files = 0;
+  for_each_request(
+      plan, Overloaded{
+                [&](const RunScopePtr& scope) {
+                  traces += fmt::format("# not started: the {} of {}\n", scope->kind(), to_string(scope->origin()));
+                },
+                [&](const EventHandler& handler) {
+                  handlers += fmt::format("\n# not watched for: {}, {}\n", describe(handler), to_string(handler.where));
+                },
+                [&](const LoadRequest& request) {
+                  for (const ComposableNode& node : request.nodes) {
+                    components += fmt::format("\n# not loaded: {} {} into {}, {}\n", node.package, node.plugin,
+                                              request.target, to_string(node.origin));
+                  }
+                },
+                [&](const ProcessSpec& spec) { processes += process_as_script(spec, launcher_environment, files); },
+                PassOver<ProcessCommand, UnregisterRequest, TestRequest, TimerRequest, TransitionRequest,
+                         CoroutineRequest, ShutdownRequest, NodeDescription, Dependency>(),
+            });
+  std::string text = "#!/bin/sh\n# What the launch would run, without traces and supervision. Ctrl-C ends all of it.\n";
+  text += traces;
+  if (files > 0) {
     text += "parameters=$(mktemp -d) || exit 1\nexport parameters\ntrap 'rm -rf \"$parameters\"' EXIT\n";
   }
-  std::size_t number = 0;
-  for (const ProcessSpec& spec : plan.processes) {
-    text += fmt::format("\n# {}, {}\n", spec.name, to_string(spec.origin));
-    std::vector<std::string> words;
-    for (const std::string& word : spec.argv) {
-      words.push_back(spec.shell ? word : shell_quoted(word));
-    }
-    for (const GeneratedFile& file : spec.files) {
-      const std::string name = fmt::format("{}-{}", ++number, file.name);
-      const bool ends_line = !file.content.empty() && file.content.back() == '\n';
-      text += fmt::format("cat > \"$parameters\"/{} <<'END_OF_FILE'\n{}{}END_OF_FILE\n", shell_quoted(name),
-                          file.content, ends_line ? "" : "\n");
-      words[file.argument] = "\"$parameters\"/" + shell_quoted(name);
-    }
-    std::string unset;  // env(1) takes these first
-    std::string set;
-    for (const auto& [name, value] : environment_difference(spec.environment, launcher_environment)) {
-      (value ? set : unset) += value ? fmt::format(" {}={}", name, shell_quoted(*value)) : fmt::format(" -u {}", name);
-    }
-    const std::string change = unset + set;
-    std::string command = fmt::format("{}", fmt::join(words, " "));
-    if (spec.shell) {
-      command = "/bin/sh -c " + shell_quoted(command);
-    }
-    text += fmt::format(
-        "({}exec {}{}) &\n",
-        spec.working_directory.empty() ? "" : fmt::format("cd {} && ", shell_quoted(spec.working_directory)),
-        change.empty() ? "" : "env" + change + " ", command);
-  }
-  for (const LoadRequest& request : plan.loads) {
-    for (const ComposableNode& node : request.nodes) {
-      text += fmt::format("\n# not loaded: {} {} into {}, {}\n", node.package, node.plugin, request.target,
-                          to_string(node.origin));
-    }
-  }
+  text += processes + components;
   for (const LeftToRun& left : plan.left_to_run) {
     text += fmt::format("\n# not known without a run: {}, {}\n",
                         left.function.empty() ? "an action" : "function " + left.function, to_string(left.where));
   }
-  for (const PlannedHandler& planned : plan.handlers) {
-    text += fmt::format("\n# not watched for: {}, {}\n", describe(planned.handler), to_string(planned.handler.where));
-  }
-  return text + "\nwait\n";
+  return text + handlers + "\nwait\n";
 }
 
 std::map<std::string, std::optional<std::string>> environment_difference(const Environment& of, const Environment& to) {

@@ -8,7 +8,7 @@
 
 #include "base/diagnostics/diagnostic.hpp"
 #include "launcher/process/event_loop.hpp"
-#include "launcher/visit/coroutine_request.hpp"
+#include "launcher/visit/requests.hpp"
 
 namespace launch {
 

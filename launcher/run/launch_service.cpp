@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "base/monotonic_clock.hpp"
+#include "base/overloaded.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/visit/farewell_check.hpp"
 
@@ -20,10 +22,10 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
       loop_(loop),
       supervisor_(supervisor),
       errors_(std::move(errors)),
-      signals_(loop, {[this] { return on_lost_guardian(); }, [this] { supervisor_.note_signal_of_terminal(); },
-                      [this](const std::string& signal) { on_interrupt(signal); },
-                      [this](int number, const std::string& signal) { on_interrupt_again(number, signal); },
-                      [this] { suspend(); }}),
+      signals_(loop, supervisor,
+               {[this] { return on_lost_guardian(); }, [this](const std::string& signal) { on_interrupt(signal); },
+                [this](int number, const std::string& signal) { on_interrupt_again(number, signal); },
+                [this](const std::string& text) { context_.message(LogLevel::kInfo, "launch", text); }}),
       crashes_(loop,
                [this](bool warning, const std::string& text) {
                  context_.message(warning ? LogLevel::kWarning : LogLevel::kInfo, "launch", text);
@@ -73,9 +75,14 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
           context, loop, [this] { on_coroutine_step(); }, [this](const LaunchError& error) { fail(error); }),
       ros_tasks_(
           context, loop, [this] { post_check(); }, [this](const LaunchError& error) { fail(error); }),
-      farewell_(loop,
-                {[this](const Invocation& invocation) { visit_farewell(invocation); }, [this] { stop_processes(); },
-                 [this](const std::string& text) { context_.message(LogLevel::kWarning, "launch", text); }}),
+      farewell_(loop, {[this](const Invocation& invocation) { return visit_farewell(invocation); },
+                       [this](const ProcessCommand& command) { processes_.execute(command); },
+                       [this](ProcessSpec spec) {
+                         farewell_.wait_for(supervisor_.next_id());
+                         processes_.start_last(std::move(spec));
+                       },
+                       [this] { stop_processes(); },
+                       [this](const std::string& text) { context_.message(LogLevel::kWarning, "launch", text); }}),
       hurry_(loop, supervisor, scopes_, crashes_, farewell_,
              [this](LogLevel level, const std::string& text) { context_.message(level, "launch", text); }) {
   supervisor_.observe([this](const ProcessEvent& event) { on_process_event(event); });
@@ -143,20 +150,6 @@ void LaunchService::on_interrupt_again(int number, const std::string& name) {
   check_finished();
 }
 
-void LaunchService::suspend() {
-  if (on_suspension_) {
-    on_suspension_(true);
-  }
-  context_.message(LogLevel::kInfo, "launch", "stopping the system, SIGCONT continues it");
-  supervisor_.suspend();
-  UserSignals::stop_this_process();
-  supervisor_.resume();
-  context_.message(LogLevel::kInfo, "launch", "continuing the system");
-  if (on_suspension_) {
-    on_suspension_(false);
-  }
-}
-
 void LaunchService::on_process_event(const ProcessEvent& event) {
   recording_.record(event);
   outcome_.on_process_event(event);
@@ -174,12 +167,7 @@ void LaunchService::on_process_event(const ProcessEvent& event) {
 }
 
 void LaunchService::on_end_of_required(const ProcessEvent& event) {
-  const bool failed_to_start = std::holds_alternative<ProcessStartFailed>(event.what);
-  const auto* const exited = std::get_if<ProcessExited>(&event.what);
-  // A process that is ended to be started again doesn't end the system.
-  const bool restarts = exited != nullptr && exited->expected && exited->will_respawn;
-  const bool ends_system = event.spec.shutdown_on_exit || event.spec.required;
-  if (!ends_system || (!failed_to_start && exited == nullptr) || restarts || phase_ != Phase::kRunning) {
+  if (phase_ != Phase::kRunning || !ends_launch(event)) {
     return;
   }
   context_.message(LogLevel::kInfo, "launch",
@@ -241,44 +229,57 @@ void LaunchService::carry_out(Requests requests) {
 void LaunchService::start(Round round) {
   const Duration before = loop_.now();
   recording_.begin();
-  Requests& requests = round.requests;
-  for (const ProcessCommand& command : requests.commands) {
-    processes_.execute(command);
-  }
-  if (phase_ != Phase::kRunning) {
-    return;  // a command has ended the launch: its process could not start again
-  }
-  for (const UnregisterRequest& request : requests.unregistered) {
-    if (!handlers_.remove(request.name)) {
-      context_.message(LogLevel::kWarning, "launch",
-                       fmt::format("no event handler is registered that is named '{}' ({})", request.name,
-                                   to_string(request.where)));
+  const Overloaded carry_out{
+      [&](std::vector<ProcessCommand>& commands) {
+        std::for_each(commands.begin(), commands.end(), [&](const auto& command) { processes_.execute(command); });
+      },
+      [&](std::vector<UnregisterRequest>& requests) {
+        for (const UnregisterRequest& request : requests) {
+          if (!handlers_.remove(request.name)) {
+            context_.message(LogLevel::kWarning, "launch",
+                             fmt::format("no event handler is registered that is named '{}' ({})", request.name,
+                                         to_string(request.where)));
+          }
+        }
+      },
+      [&](std::vector<TestRequest>& tests) { test_.begin(std::move(tests), context_.scope().log_directory); },
+      [&](std::vector<EventHandler>& handlers) {
+        for (EventHandler& handler : handlers) {
+          handlers_.add(std::move(handler), context_.ros_client());
+        }
+      },
+      [&](std::vector<TimerRequest>& timers) {
+        std::for_each(timers.begin(), timers.end(), [&](auto& timer) { timers_.start(std::move(timer)); });
+      },
+      [&](std::vector<LoadRequest>& loads) { ros_tasks_.start(std::move(loads), {}); },
+      [&](std::vector<TransitionRequest>& transitions) { ros_tasks_.start({}, std::move(transitions)); },
+      [&](std::vector<ProcessSpec>& processes) {
+        std::for_each(processes.begin(), processes.end(), [&](const ProcessSpec& spec) { crashes_.expect(spec); });
+        processes_.wait(round);
+        observe_output();
+        processes_.start(round);
+        timing_.push_back({fmt::format("start {} processes", processes.size()), loop_.now() - before});
+      },
+      [&](std::vector<CoroutineRequest>& coroutines) {
+        for (const CoroutineRequest& coroutine : coroutines) {
+          if (phase_ == Phase::kRunning) {
+            coroutines_.start(coroutine);
+          }
+        }
+      },
+      [&](std::vector<ShutdownRequest>& shutdowns) {
+        if (!shutdowns.empty()) {
+          shutdown(shutdowns.back().reason);
+        }
+      },
+      PassOver<std::vector<RunScopePtr>>(),                               // they have begun (rounds.hpp)
+      PassOver<std::vector<NodeDescription>, std::vector<Dependency>>(),  // with the processes
+  };
+  for_each_kind(round.requests, [&](auto& kind) {
+    if (phase_ == Phase::kRunning) {  // a command, or the end of a process, may have ended the launch
+      carry_out(kind);
     }
-  }
-  test_.begin(std::move(requests.tests), context_.scope().log_directory);
-  for (EventHandler& handler : requests.handlers) {
-    handlers_.add(std::move(handler), context_.ros_client());
-  }
-  for (TimerRequest& request : requests.timers) {
-    timers_.start(std::move(request));
-  }
-  for (const ProcessSpec& spec : requests.processes) {
-    crashes_.expect(spec);
-  }
-  processes_.wait(round);
-  observe_output();
-  // Before the processes: a container that can't start drops what waits for it, and a shutdown drops everything.
-  ros_tasks_.start(std::move(requests.loads), std::move(requests.transitions));
-  processes_.start(round);
-  timing_.push_back({fmt::format("start {} processes", requests.processes.size()), loop_.now() - before});
-  for (const CoroutineRequest& request : requests.coroutines) {
-    if (phase_ == Phase::kRunning) {
-      coroutines_.start(request);
-    }
-  }
-  if (requests.shutdown) {
-    shutdown(requests.shutdown->reason);
-  }
+  });
 }
 
 void LaunchService::observe_output() {
@@ -325,29 +326,17 @@ void LaunchService::shutdown(const std::string& reason) {
   check_finished();
 }
 
-// Everything still runs, but nothing else starts any more.
-void LaunchService::visit_farewell(const Invocation& invocation) {
-  Requests requests;
+Requests LaunchService::visit_farewell(const Invocation& invocation) {
   try {
     context_.visit(invocation);
-    requests = context_.take_requests();
+    Requests requests = context_.take_requests();
     check_farewell(requests, invocation.handler->live);
-    if (!requests.loads.empty() || !requests.transitions.empty()) {
-      context_.message(LogLevel::kWarning, "launch",
-                       "components are not loaded and states not changed any more, because the system ends");
-    }
     processes_.check(requests.commands);
+    return requests;
   } catch (const LaunchError& error) {
     context_.take_requests();
     fail(error);
-    return;
-  }
-  for (const ProcessCommand& command : requests.commands) {
-    processes_.execute(command);
-  }
-  for (ProcessSpec& spec : requests.processes) {
-    farewell_.wait_for(supervisor_.next_id());
-    processes_.start_last(std::move(spec));
+    return {};
   }
 }
 

@@ -69,7 +69,9 @@ class LaunchService {
   void ignore_failures() { outcome_.ignore_failures(); }
 
   // Called before the system stops by Ctrl-Z and after it goes on.
-  void observe_suspension(std::function<void(bool stops)> observer) { on_suspension_ = std::move(observer); }
+  void observe_suspension(std::function<void(bool stops)> observer) {
+    signals_.observe_suspension(std::move(observer));
+  }
 
   // Called when the end does not come, although a second signal has asked for it at once (hurry.hpp). It must end this
   // process.
@@ -102,8 +104,6 @@ class LaunchService {
   bool on_lost_guardian();
   void on_interrupt(const std::string& signal);
   void on_interrupt_again(int number, const std::string& signal);
-  // Stops the system, and returns when it shall go on.
-  void suspend();
   void on_process_event(const ProcessEvent& event);
   void on_end_of_required(const ProcessEvent& event);
   void on_coroutine_step();
@@ -120,7 +120,8 @@ class LaunchService {
   // The end.
   void fail(const LaunchError& error);
   void shutdown(const std::string& reason);
-  void visit_farewell(const Invocation& invocation);
+  // The requests of an on_shutdown handler; none after an error.
+  Requests visit_farewell(const Invocation& invocation);
   void stop_processes();
   bool is_idle() const;
   void check_finished();
@@ -132,7 +133,6 @@ class LaunchService {
   EventLoop& loop_;
   ProcessSupervisor& supervisor_;
   ErrorSink errors_;
-  std::function<void(bool stops)> on_suspension_;
   const Guardian* guardian_ = nullptr;
   bool guardian_missed_ = false;
   std::vector<TimedStep> timing_;

@@ -94,8 +94,8 @@ void add_names(const LaunchPlan& plan, std::set<std::string>& names, bool& is_co
     names.insert(more.begin(), more.end());
   }
   is_complete = is_complete && plan.left_to_run.empty() && plan.coroutines.empty();
-  for (const PlannedHandler& handler : plan.handlers) {
-    add_names(handler.plan, names, is_complete);
+  for (const LaunchPlan& reaction : plan.reactions) {
+    add_names(reaction, names, is_complete);
   }
 }
 

@@ -27,8 +27,7 @@ class AtExit {
 
 // What a visit asks for, without what it leaves to a run.
 std::size_t size_of(const Requests& requests) {
-  return requests.processes.size() + requests.loads.size() + requests.logs.size() + requests.scopes.size() +
-         requests.handlers.size() + requests.transitions.size();
+  return requests.count() + requests.logs.size();
 }
 
 }  // namespace

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/visit/launch_plan.hpp"
 
+#include <algorithm>
 #include <iterator>
 #include <map>
+#include <utility>
 
+#include "base/overloaded.hpp"
 #include "launcher/visit/dependency_resolution.hpp"
 #include "launcher/visit/farewell_check.hpp"
 #include "launcher/visit/process_table.hpp"
@@ -45,20 +48,20 @@ class Planner {
     LaunchPlan plan;
     std::multimap<Duration, TimerRequest> timers;
     collect(plan, timers, Duration(0));
-    while (!timers.empty() && !plan.shutdown) {
+    while (!timers.empty() && plan.shutdowns.empty()) {
       auto next = timers.extract(timers.begin());
       next.mapped().scope.only_planned = true;
       next.mapped().scope.planned_by_timer = true;
       context_.visit_in(std::move(next.mapped().scope), next.mapped().actions);
       collect(plan, timers, next.key());
     }
-    for (PlannedHandler& planned : plan.handlers) {
-      const auto handler = std::make_shared<const EventHandler>(planned.handler);
+    for (const EventHandler& planned : plan.handlers) {
+      const auto handler = std::make_shared<const EventHandler>(planned);
       context_.visit(Invocation{handler, made_up_event(*handler)}, true);
       if (std::holds_alternative<OnShutdown>(handler->event)) {
         or_report([&] { check_farewell(context_.requests(), handler->live); });
       }
-      planned.plan = plan_requests();
+      plan.reactions.push_back(plan_requests());
     }
     scopes_.resize(scopes_.size() - plan.scopes.size());
     return plan;
@@ -84,14 +87,49 @@ class Planner {
       scope->expect(requests.processes);
       scopes_.push_back(scope.get());
     }
-    append(plan.scopes, requests.scopes);
+    append(plan.left_to_run, requests.left_to_run);
+    any_left_ |= !plan.left_to_run.empty();
+    resolve_names(plan, requests);
 
+    const std::size_t first = plan.processes.size();
+    for_each_request(requests,
+                     Overloaded{
+                         [&](RunScopePtr& scope) { plan.scopes.push_back(std::move(scope)); },
+                         [&](ProcessCommand& command) { plan.commands.push_back(std::move(command)); },
+                         [&](UnregisterRequest& request) { plan.unregistered.push_back(std::move(request)); },
+                         [&](TestRequest& test) { plan.tests.push_back(std::move(test)); },
+                         [&](EventHandler& handler) { plan.handlers.push_back(std::move(handler)); },
+                         [&](TimerRequest& timer) { timers.emplace(now + timer.period, std::move(timer)); },
+                         [&](LoadRequest& load) { plan.loads.push_back(std::move(load)); },
+                         [&](TransitionRequest& transition) { plan.transitions.push_back(std::move(transition)); },
+                         [&](ProcessSpec& spec) {
+                           std::for_each(scopes_.begin(), scopes_.end(),
+                                         [&](const RunScope* scope) { scope->prepare(spec); });
+                           plan.processes.push_back(std::move(spec));
+                           plan.delays.push_back(now);
+                         },
+                         [&](CoroutineRequest& coroutine) { plan.coroutines.push_back(std::move(coroutine)); },
+                         [&](ShutdownRequest& shutdown) { plan.shutdowns.push_back(std::move(shutdown)); },
+                         [&](NodeDescription& node) {
+                           node.process += first;
+                           plan.nodes.push_back(std::move(node));
+                         },
+                         [&](Dependency& dependency) {
+                           dependency.process += first;
+                           plan.dependencies.push_back(std::move(dependency));
+                         },
+                     });
+    append(plan.logs, requests.logs);
+    append(plan.python_includes, requests.python_includes);
+    plan.includes += requests.includes;
+  }
+
+  // Finds the processes that the requests name.
+  void resolve_names(LaunchPlan& plan, Requests& requests) {
     std::vector<TrackedProcess*> asked_for;
     for (const ProcessSpec& spec : requests.processes) {
       asked_for.push_back(&table_.add(spec));
     }
-    append(plan.left_to_run, requests.left_to_run);
-    any_left_ |= !plan.left_to_run.empty();
     try {
       resolve_dependencies(requests.dependencies, asked_for, table_);
       for (TestRequest& test : requests.tests) {
@@ -111,37 +149,6 @@ class Planner {
         throw;
       }
     }
-
-    for (NodeDescription& node : requests.nodes) {
-      node.process += plan.processes.size();
-      plan.nodes.push_back(std::move(node));
-    }
-    for (Dependency& dependency : requests.dependencies) {
-      dependency.process += plan.processes.size();
-      plan.dependencies.push_back(std::move(dependency));
-    }
-    for (EventHandler& handler : requests.handlers) {
-      plan.handlers.push_back({std::move(handler), {}});
-    }
-    append(plan.commands, requests.commands);
-    append(plan.loads, requests.loads);
-    append(plan.transitions, requests.transitions);
-    append(plan.coroutines, requests.coroutines);
-    append(plan.tests, requests.tests);
-    append(plan.logs, requests.logs);
-    append(plan.python_includes, requests.python_includes);
-    plan.includes += requests.includes;
-    for (ProcessSpec& spec : requests.processes) {
-      for (const RunScope* const scope : scopes_) {
-        scope->prepare(spec);
-      }
-      plan.processes.push_back(std::move(spec));
-      plan.delays.push_back(now);
-    }
-    for (TimerRequest& timer : requests.timers) {
-      timers.emplace(now + timer.period, std::move(timer));
-    }
-    plan.shutdown |= requests.shutdown.has_value();
   }
 
   LaunchContext& context_;

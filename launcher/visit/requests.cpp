@@ -3,9 +3,10 @@
 
 namespace launch {
 
-bool Requests::empty() const {
-  return scopes.empty() && processes.empty() && handlers.empty() && unregistered.empty() && commands.empty() &&
-         coroutines.empty() && loads.empty() && transitions.empty() && timers.empty() && tests.empty() && !shutdown;
+std::size_t Requests::count() const {
+  std::size_t count = 0;
+  for_each_kind(*this, [&](const auto& kind) { count += kind.size(); });
+  return count;
 }
 
 }  // namespace launch

@@ -5,7 +5,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
+#include <utility>
 #include <variant>
+
+#include "base/overloaded.hpp"
 
 namespace launch {
 
@@ -26,7 +30,7 @@ void Farewell::visit_handlers() {
   Duration timeout{0};
   for (const Invocation& invocation : std::exchange(handlers_, {})) {
     timeout = std::max(timeout, std::get<OnShutdown>(invocation.handler->event).timeout);
-    callbacks_.visit(invocation);
+    carry_out(callbacks_.visit(invocation));
   }
   if (processes_.empty()) {
     end();
@@ -37,6 +41,21 @@ void Farewell::visit_handlers() {
                                 std::chrono::duration<double>(timeout).count()));
     end();
   });
+}
+
+// Everything still runs, but little starts any more. What has no effect here is either refused by check_farewell(), or
+// would only matter later.
+void Farewell::carry_out(Requests requests) {
+  if (!requests.loads.empty() || !requests.transitions.empty()) {
+    callbacks_.warn("components are not loaded and states not changed any more, because the system ends");
+  }
+  for_each_request(requests,
+                   Overloaded{
+                       [&](ProcessCommand& command) { callbacks_.execute(command); },
+                       [&](ProcessSpec& spec) { callbacks_.start(std::move(spec)); },
+                       PassOver<RunScopePtr, UnregisterRequest, TestRequest, EventHandler, TimerRequest, LoadRequest,
+                                TransitionRequest, CoroutineRequest, ShutdownRequest, NodeDescription, Dependency>(),
+                   });
 }
 
 void Farewell::on_done(ProcessId process) {

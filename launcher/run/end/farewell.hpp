@@ -10,16 +10,18 @@
 #include <vector>
 
 #include "launcher/process/event_loop.hpp"
-#include "launcher/process/process_spec.hpp"
-#include "launcher/visit/event_handler.hpp"
+#include "launcher/visit/requests.hpp"
 
 namespace launch {
 
 class Farewell {
  public:
   struct Callbacks {
-    // Visits a handler. Calls wait_for() before each process that it starts.
-    std::function<void(const Invocation&)> visit;
+    // Visits a handler, and checks what it asks for (farewell_check.hpp).
+    std::function<Requests(const Invocation&)> visit;
+    std::function<void(const ProcessCommand&)> execute;
+    // Starts a process that runs once. Calls wait_for() before.
+    std::function<void(ProcessSpec)> start;
     // Called once, when the requests of the handlers are done or their time is over.
     std::function<void()> over;
     std::function<void(const std::string&)> warn;
@@ -39,6 +41,7 @@ class Farewell {
 
  private:
   void visit_handlers();
+  void carry_out(Requests requests);
 
   EventLoop& loop_;
   Callbacks callbacks_;

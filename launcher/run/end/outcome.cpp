@@ -12,6 +12,13 @@ constexpr int kExitCodeOfFailures = 3;
 
 }  // namespace
 
+bool ends_launch(const ProcessEvent& event) {
+  const auto* const exited = std::get_if<ProcessExited>(&event.what);
+  const bool restarts = exited != nullptr && exited->expected && exited->will_respawn;
+  const bool has_ended = exited != nullptr ? !restarts : std::holds_alternative<ProcessStartFailed>(event.what);
+  return has_ended && (event.spec.shutdown_on_exit || event.spec.required);
+}
+
 void Outcome::on_process_event(const ProcessEvent& event) {
   failures_.on_process_event(event);
   if (std::holds_alternative<ProcessLeft>(event.what)) {

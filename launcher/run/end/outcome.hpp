@@ -17,6 +17,10 @@
 
 namespace launch {
 
+// Whether the event ends the launch: a `required` process, or one with `on_exit`, has ended or can't start. A process
+// that is ended to be started again does not end the launch.
+bool ends_launch(const ProcessEvent& event);
+
 class Outcome {
  public:
   // Failures of processes and components don't change the exit code, as with ros2 launch.

@@ -22,9 +22,25 @@ bool is_ignored(int signal) {
   return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
+// As Ctrl-Z stops a program that does not handle SIGTSTP. Returns after SIGCONT.
+void stop_this_process() {
+  struct sigaction action {};
+  struct sigaction before {};
+  action.sa_handler = SIG_DFL;
+  ::sigaction(SIGTSTP, &action, &before);
+  sigset_t stop;
+  sigemptyset(&stop);
+  sigaddset(&stop, SIGTSTP);
+  ::raise(SIGTSTP);
+  ::pthread_sigmask(SIG_UNBLOCK, &stop, nullptr);
+  ::pthread_sigmask(SIG_BLOCK, &stop, nullptr);
+  ::sigaction(SIGTSTP, &before, nullptr);
+}
+
 }  // namespace
 
-UserSignals::UserSignals(EventLoop& loop, Acts acts) : loop_(loop), acts_(std::move(acts)) {}
+UserSignals::UserSignals(EventLoop& loop, ProcessSupervisor& supervisor, Acts acts)
+    : loop_(loop), supervisor_(supervisor), acts_(std::move(acts)) {}
 
 void UserSignals::listen() {
   std::vector<int> ending;
@@ -35,7 +51,7 @@ void UserSignals::listen() {
   }
   ending_ = loop_.on_signal(ending, [this](EventLoop::Signal signal) { on_signal(signal); });
   if (!is_ignored(SIGTSTP)) {
-    stopping_ = loop_.on_signal({SIGTSTP}, [this](EventLoop::Signal) { acts_.stop(); });
+    stopping_ = loop_.on_signal({SIGTSTP}, [this](EventLoop::Signal) { suspend(); });
   }
   // When a process reads the terminal from the background, its whole group is asked to stop. The launcher goes on.
   ::signal(SIGTTIN, SIG_IGN);
@@ -55,7 +71,7 @@ void UserSignals::on_signal(EventLoop::Signal signal) {
     return;
   }
   if (signal.by_terminal) {
-    acts_.by_terminal();
+    supervisor_.note_signal_of_terminal();
   }
   if (counted_ && loop_.now() - *counted_ < kSameWish) {
     return;
@@ -69,18 +85,18 @@ void UserSignals::on_signal(EventLoop::Signal signal) {
   }
 }
 
-void UserSignals::stop_this_process() {
-  struct sigaction action {};
-  struct sigaction before {};
-  action.sa_handler = SIG_DFL;
-  ::sigaction(SIGTSTP, &action, &before);
-  sigset_t stop;
-  sigemptyset(&stop);
-  sigaddset(&stop, SIGTSTP);
-  ::raise(SIGTSTP);
-  ::pthread_sigmask(SIG_UNBLOCK, &stop, nullptr);
-  ::pthread_sigmask(SIG_BLOCK, &stop, nullptr);
-  ::sigaction(SIGTSTP, &before, nullptr);
+void UserSignals::suspend() {
+  if (on_suspension_) {
+    on_suspension_(true);
+  }
+  acts_.tell("stopping the system, SIGCONT continues it");
+  supervisor_.suspend();
+  stop_this_process();
+  supervisor_.resume();
+  acts_.tell("continuing the system");
+  if (on_suspension_) {
+    on_suspension_(false);
+  }
 }
 
 }  // namespace launch

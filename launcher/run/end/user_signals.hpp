@@ -9,23 +9,27 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "launcher/process/event_loop.hpp"
+#include "launcher/process/process_supervisor.hpp"
 
 namespace launch {
 
 class UserSignals {
  public:
   struct Acts {
-    std::function<bool()> intercept;    // true: the signal has told something else, and does not count
-    std::function<void()> by_terminal;  // the processes that have the terminal have got the signal, too
+    std::function<bool()> intercept;  // true: the signal has told something else, and does not count
     std::function<void(const std::string& signal)> first;  // "ctrl-c (SIGINT)", "SIGTERM"
     std::function<void(int number, const std::string& signal)> again;
-    std::function<void()> stop;  // Ctrl-Z
+    std::function<void(const std::string& text)> tell;
   };
 
-  // The loop must outlive this object. The acts are called in the loop.
-  UserSignals(EventLoop& loop, Acts acts);
+  // The references must outlive this object. The acts are called in the loop.
+  UserSignals(EventLoop& loop, ProcessSupervisor& supervisor, Acts acts);
+
+  // Called before the system stops by Ctrl-Z and after it goes on.
+  void observe_suspension(std::function<void(bool stops)> observer) { on_suspension_ = std::move(observer); }
 
   // Calls the acts from now on, as long as this object lives.
   void listen();
@@ -34,14 +38,15 @@ class UserSignals {
   // there.
   bool count_as_first();
 
-  // Stops this process as Ctrl-Z stops a program that does not handle SIGTSTP. Returns after SIGCONT.
-  static void stop_this_process();
-
  private:
   void on_signal(EventLoop::Signal signal);
+  // Stops the system, and returns when it shall go on.
+  void suspend();
 
   EventLoop& loop_;
+  ProcessSupervisor& supervisor_;
   Acts acts_;
+  std::function<void(bool stops)> on_suspension_;
   std::optional<Duration> counted_;  // when the last signal came that counted
   EventLoop::SourcePtr ending_;
   EventLoop::SourcePtr stopping_;

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <variant>
 
+#include "base/overloaded.hpp"
 #include "launcher/substitution/unrun_commands.hpp"
 #include "launcher/visit/process_table.hpp"
 #include "programs/launch/check/finders.hpp"
@@ -94,9 +96,7 @@ class PlanFindings {
     note_names(plan.processes, plan.nodes);
     note_components(plan.loads);
     is_complete_ = is_complete_ && plan.left_to_run.empty() && plan.python_includes.empty() && plan.coroutines.empty();
-    for (const PlannedHandler& planned : plan.handlers) {
-      note(planned.plan);
-    }
+    std::for_each(plan.reactions.begin(), plan.reactions.end(), [&](const LaunchPlan& reaction) { note(reaction); });
   }
 
   void note_names(const std::vector<ProcessSpec>& processes, const std::vector<NodeDescription>& nodes) {
@@ -137,16 +137,19 @@ class PlanFindings {
     for (const ProcessSpec& spec : plan.processes) {
       find_faults_of_process(spec, false, report_);
     }
-    for (const auto& scope : plan.scopes) {
-      find_same_session(*scope);
-      find_unknown_nodes(*scope);
-    }
-    for (const LoadRequest& load : plan.loads) {
-      find_missing_container(load);
-    }
-    for (const PlannedHandler& planned : plan.handlers) {
-      find_unknown_process(planned.handler);
-      check(planned.plan);
+    for_each_request(plan, Overloaded{
+                               [&](const RunScopePtr& scope) {
+                                 find_same_session(*scope);
+                                 find_unknown_nodes(*scope);
+                               },
+                               [&](const LoadRequest& load) { find_missing_container(load); },
+                               PassOver<ProcessCommand, UnregisterRequest, TestRequest, TimerRequest, TransitionRequest,
+                                        CoroutineRequest, ShutdownRequest, NodeDescription, Dependency>(),
+                               PassOver<ProcessSpec, EventHandler>(),  // before and after the others
+                           });
+    for (std::size_t i = 0; i < plan.handlers.size(); ++i) {
+      find_unknown_process(plan.handlers[i]);
+      check(plan.reactions[i]);
     }
   }
 

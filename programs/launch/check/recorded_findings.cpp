@@ -38,9 +38,7 @@ class RecordedFindings {
         }
       }
     }
-    for (const PlannedHandler& handler : plan.handlers) {
-      add(handler.plan);
-    }
+    std::for_each(plan.reactions.begin(), plan.reactions.end(), [&](const LaunchPlan& reaction) { add(reaction); });
   }
 
   void tell() const {

@@ -8,10 +8,12 @@
 #include <chrono>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <set>
 #include <utility>
 #include <variant>
 
+#include "base/overloaded.hpp"
 #include "launcher/plan/node_names.hpp"
 
 namespace launch {
@@ -27,9 +29,7 @@ class GraphBuilder {
     left_out_ = true;
     for (const Requests& requests : left_out) {
       add_processes(requests.processes, requests.nodes, {});
-      for (const LoadRequest& request : requests.loads) {
-        add_load(request);
-      }
+      std::for_each(requests.loads.begin(), requests.loads.end(), [&](const LoadRequest& load) { add_load(load); });
     }
     add_foreign_containers();
     for (const std::string& topic : topics_) {
@@ -51,18 +51,20 @@ class GraphBuilder {
         graph_.edges.push_back({starter, ids[i], Relation::kStarts, "starts"});
       }
     }
-    for (const LoadRequest& request : plan.loads) {
-      add_load(request);
-    }
-    for (const Dependency& dependency : plan.dependencies) {
-      add_dependency(dependency, ids[dependency.process]);
-    }
-    for (const PlannedHandler& planned : plan.handlers) {
-      const std::string id = add_handler(planned);
-      if (const auto process = names_.find(planned.handler.process); process != names_.end()) {
+    for_each_request(plan,
+                     Overloaded{
+                         [&](const LoadRequest& load) { add_load(load); },
+                         [&](const Dependency& dependency) { add_dependency(dependency, ids[dependency.process]); },
+                         PassOver<ProcessSpec, NodeDescription, EventHandler>(),          // before and after the others
+                         PassOver<ProcessCommand, TransitionRequest, ShutdownRequest>(),  // lines of a handler's box
+                         PassOver<RunScopePtr, UnregisterRequest, TestRequest, TimerRequest, CoroutineRequest>(),
+                     });
+    for (std::size_t i = 0; i < plan.handlers.size(); ++i) {
+      const std::string id = add_handler(plan.handlers[i], plan.reactions[i]);
+      if (const auto process = names_.find(plan.handlers[i].process); process != names_.end()) {
         graph_.edges.push_back({process->second, id, Relation::kHandles, ""});
       }
-      add_plan(planned.plan, id);
+      add_plan(plan.reactions[i], id);
     }
   }
 
@@ -74,23 +76,23 @@ class GraphBuilder {
            where.file->path().ends_with(".py");
   }
 
-  std::string add_handler(const PlannedHandler& planned) {
-    if (is_further_event(planned.handler)) {
+  std::string add_handler(const EventHandler& handler, const LaunchPlan& reaction) {
+    if (is_further_event(handler)) {
       LaunchGraph::Box& box = graph_.handlers.back();
-      box.lines.front() = fmt::format("event handler in line {}",
-                                      planned.handler.where.file->position(planned.handler.where.begin).line);
+      box.lines.front() =
+          fmt::format("event handler in line {}", handler.where.file->position(handler.where.begin).line);
       return box.id;
     }
-    last_handler_ = &planned.handler;
+    last_handler_ = &handler;
     const std::string id = fmt::format("handler {}", graph_.handlers.size());
-    std::vector<std::string> lines = {describe(planned.handler)};
-    for (const LeftToRun& left : planned.plan.left_to_run) {
+    std::vector<std::string> lines = {describe(handler)};
+    for (const LeftToRun& left : reaction.left_to_run) {
       lines.push_back(left.function.empty() ? "does what only a run tells" : "calls " + left.function);
     }
-    for (const TransitionRequest& request : planned.plan.transitions) {
+    for (const TransitionRequest& request : reaction.transitions) {
       lines.push_back(fmt::format("changes the state of {}: {}", request.node, fmt::join(request.transitions, ", ")));
     }
-    for (const ProcessCommand& command : planned.plan.commands) {
+    for (const ProcessCommand& command : reaction.commands) {
       const std::string label = std::string(name_of(command.kind)) + "s";
       if (const auto process = names_.find(command.process); process != names_.end()) {
         graph_.edges.push_back({id, process->second, Relation::kStarts, label});
@@ -98,11 +100,11 @@ class GraphBuilder {
         lines.push_back(fmt::format("{} '{}'", label, command.process));
       }
     }
-    if (planned.plan.shutdown) {
+    if (!reaction.shutdowns.empty()) {
       lines.emplace_back("ends the launch");
     }
     graph_.handlers.push_back({id, std::move(lines)});
-    asked_by(planned.handler.where, id);
+    asked_by(handler.where, id);
     return id;
   }
 

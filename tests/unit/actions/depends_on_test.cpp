@@ -103,7 +103,7 @@ TEST(WaitFor, IsAHandlerThatIsVisitedOnce) {
     </wait_for>)xml");
   ASSERT_EQ(planned.error, "");
   ASSERT_EQ(planned.plan.handlers.size(), 1U);
-  EXPECT_EQ(describe(planned.plan.handlers[0].handler), "once '/left/driver' is inactive");
+  EXPECT_EQ(describe(planned.plan.handlers[0]), "once '/left/driver' is inactive");
   EXPECT_EQ(plan_actions("<wait_for><shutdown/></wait_for>").error,
             "/test/system.launch.xml:2:2: error: it is not said what is waited for\n"
             "    2 | <wait_for><shutdown/></wait_for>\n"

@@ -19,15 +19,16 @@ std::vector<std::string> lines_of(const launch::LaunchPlan& plan) {
     lines.push_back(fmt::format("{} until {}, {} s, else {}", plan.processes[dependency.process].name,
                                 describe(dependency), timeout, to_string(dependency.on_failure)));
   }
-  for (const launch::PlannedHandler& planned : plan.handlers) {
-    lines.push_back(describe(planned.handler) + (planned.handler.once ? " once:" : ":"));
-    for (const std::string& line : lines_of(planned.plan)) {
+  for (std::size_t i = 0; i < plan.handlers.size(); ++i) {
+    const launch::LaunchPlan& reaction = plan.reactions.at(i);
+    lines.push_back(describe(plan.handlers[i]) + (plan.handlers[i].once ? " once:" : ":"));
+    for (const std::string& line : lines_of(reaction)) {
       lines.push_back("  " + line);
     }
-    for (const launch::ProcessCommand& command : planned.plan.commands) {
+    for (const launch::ProcessCommand& command : reaction.commands) {
       lines.push_back(fmt::format("  {} {} {}", name_of(command.kind), command.process, command.signal));
     }
-    for (const std::string& log : planned.plan.logs) {
+    for (const std::string& log : reaction.logs) {
       lines.push_back("  log " + log);
     }
   }

@@ -123,7 +123,7 @@ TEST(Timers, ShutdownEndsThePlan) {
   const Planned planned = plan_actions(R"xml(
     <timer period="1.0"><shutdown/><executable cmd="true"/></timer>
     <timer period="2.0"><log message="never"/></timer>)xml");
-  EXPECT_TRUE(planned.plan.shutdown);
+  EXPECT_EQ(planned.plan.shutdowns.size(), 1U);
   EXPECT_EQ(planned.plan.processes.size(), 1U);
   EXPECT_THAT(planned.messages, IsEmpty());
 }

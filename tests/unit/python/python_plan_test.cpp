@@ -100,7 +100,7 @@ TEST(APythonPlan, GoesOnAfterAFunctionThatIsLeftToARun) {
                             "LogInfo(msg=LaunchConfiguration('set_by_clean_up')), ExecuteProcess(cmd=['after'])])),",
                             "/"));
   EXPECT_EQ(planned.error, "");
-  const launch::LaunchPlan& handler = planned.plan.handlers.at(0).plan;
+  const launch::LaunchPlan& handler = planned.plan.reactions.at(0);
   ASSERT_EQ(handler.left_to_run.size(), 2U);
   EXPECT_EQ(handler.left_to_run[0].function, "clean_up");
   EXPECT_THAT(handler.left_to_run[1].error, HasSubstr("'set_by_clean_up' does not exist"));

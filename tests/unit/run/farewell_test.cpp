@@ -25,14 +25,16 @@ class FarewellTest : public testing::Test {
   FakeEventLoop loop_;
   std::vector<std::string> journal_;
   std::vector<ProcessId> starts_;  // by each handler
+  std::size_t started_ = 0;
   Farewell farewell_{
       loop_,
       {[this](const Invocation& invocation) {
          journal_.push_back(invocation.handler->name);
-         for (const ProcessId process : starts_) {
-           farewell_.wait_for(process);
-         }
+         Requests requests;
+         requests.processes.resize(starts_.size());
+         return requests;
        },
+       [](const ProcessCommand&) {}, [this](ProcessSpec) { farewell_.wait_for(starts_[started_++ % starts_.size()]); },
        [this] { journal_.emplace_back("over"); }, [this](const std::string& text) { journal_.push_back(text); }}};
 };
 
@@ -51,10 +53,18 @@ TEST_F(FarewellTest, HandlersAreVisitedInALaterTurn) {
 TEST_F(FarewellTest, AProcessThatCannotStartDoesNotCutTheOthersShort) {
   Farewell* running = nullptr;
   std::vector<std::string> journal;
-  Farewell farewell(loop_, {[&](const Invocation&) {
-                              running->wait_for(1);
-                              running->on_done(1);  // it could not start
-                              running->wait_for(2);
+  ProcessId id = 0;
+  Farewell farewell(loop_, {[](const Invocation&) {
+                              Requests requests;
+                              requests.processes.resize(2);
+                              return requests;
+                            },
+                            [](const ProcessCommand&) {},
+                            [&](ProcessSpec) {
+                              running->wait_for(++id);
+                              if (id == 1) {
+                                running->on_done(1);  // it could not start
+                              }
                             },
                             [&] { journal.emplace_back("over"); }, [](const std::string&) {}});
   running = &farewell;

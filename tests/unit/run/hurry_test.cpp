@@ -50,8 +50,9 @@ class HurryTest : public testing::Test {
   std::vector<TimedStep> timing_;
   ActiveScopes scopes_{loop_, [](bool, const std::string&) {}, timing_};
   CrashCollector crashes_{loop_, [](bool, const std::string&) {}};
-  Farewell farewell_{
-      loop_, {[](const Invocation&) {}, [this] { journal_.emplace_back("farewell over"); }, [](const std::string&) {}}};
+  Farewell farewell_{loop_,
+                     {[](const Invocation&) { return Requests(); }, [](const ProcessCommand&) {}, [](ProcessSpec) {},
+                      [this] { journal_.emplace_back("farewell over"); }, [](const std::string&) {}}};
   Hurry hurry_{loop_, supervisor_, scopes_, crashes_, farewell_, [this](LogLevel level, const std::string& text) {
                  told_.push_back((level == LogLevel::kError ? "error: " : "") + text);
                }};
