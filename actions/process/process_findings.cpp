@@ -35,11 +35,11 @@ bool is_remappable(std::string_view name) {
 }
 
 void remark_remap(const std::string& name, const SourceRange& where, LaunchContext& context) {
-  context.remark({Severity::kError,
-                  name.empty() ? "a name of the remap is empty" : fmt::format("'{}' is no name for a remap", name),
-                  where,
-                  "parts of letters, digits and underscores, not starting with a digit, with single slashes between",
-                  Finding::kInvalidRemap});
+  context.exploration().remark(
+      {Severity::kError,
+       name.empty() ? "a name of the remap is empty" : fmt::format("'{}' is no name for a remap", name), where,
+       "parts of letters, digits and underscores, not starting with a digit, with single slashes between",
+       Finding::kInvalidRemap});
 }
 
 }  // namespace
@@ -47,9 +47,10 @@ void remark_remap(const std::string& name, const SourceRange& where, LaunchConte
 void find_missing_directory(const std::string& directory, const SourceRange& where, LaunchContext& context) {
   std::error_code ignored;
   if (!directory.empty() && !std::filesystem::is_directory(directory, ignored)) {
-    context.remark({Severity::kError, fmt::format("the working directory '{}' does not exist", directory), where,
-                    directory.starts_with('/') ? "" : "a relative path is relative to the launcher's working directory",
-                    Finding::kMissingDirectory});
+    context.exploration().remark(
+        {Severity::kError, fmt::format("the working directory '{}' does not exist", directory), where,
+         directory.starts_with('/') ? "" : "a relative path is relative to the launcher's working directory",
+         Finding::kMissingDirectory});
   }
 }
 
@@ -61,15 +62,15 @@ void find_missing_cpus(const std::vector<int>& cpus, const SourceRange& where, L
   const int count = get_nprocs_conf();
   const auto missing = std::find_if(cpus.begin(), cpus.end(), [&](int cpu) { return cpu >= count; });
   if (missing != cpus.end()) {
-    context.remark({cpus.front() >= count ? Severity::kError : Severity::kWarning,
-                    fmt::format("this machine has no CPU {}", *missing), where,
-                    fmt::format("its CPUs are 0 to {}", count - 1), Finding::kMissingCpu});
+    context.exploration().remark({cpus.front() >= count ? Severity::kError : Severity::kWarning,
+                                  fmt::format("this machine has no CPU {}", *missing), where,
+                                  fmt::format("its CPUs are 0 to {}", count - 1), Finding::kMissingCpu});
   }
 }
 
 void find_invalid_remap(const std::string& from, const SourceRange& from_where, const std::string& to,
                         const SourceRange& to_where, LaunchContext& context) {
-  if (!context.explores()) {
+  if (!context.exploration().is_on()) {
     return;
   }
   std::string_view before = without_scheme(from);

@@ -51,7 +51,7 @@ std::optional<Diagnostic> fault_of(const YamlNode& nodes, bool top) {
 }  // namespace
 
 void find_faults_of_parameter_file(const std::string& path, const SourceRange& where, LaunchContext& context) {
-  if (!context.explores() || !context.sees_first(path)) {
+  if (!context.exploration().is_on() || !context.exploration().sees_first(path)) {
     return;
   }
   try {
@@ -63,15 +63,16 @@ void find_faults_of_parameter_file(const std::string& path, const SourceRange& w
       return;
     }
     if (root.kind != YamlNode::Kind::kMapping) {
-      context.remark({Severity::kError, fmt::format("expected a mapping of nodes, got {}", describe(root)), root.where,
-                      "parameters stand below NODE: ros__parameters:", Finding::kWrongParameterFile});
+      context.exploration().remark({Severity::kError,
+                                    fmt::format("expected a mapping of nodes, got {}", describe(root)), root.where,
+                                    "parameters stand below NODE: ros__parameters:", Finding::kWrongParameterFile});
     } else if (std::optional<Diagnostic> fault = fault_of(root, true)) {
-      context.remark(std::move(*fault));
+      context.exploration().remark(std::move(*fault));
     }
   } catch (YamlSyntaxError& error) {
     error.classify(Finding::kWrongParameterFile);
     for (const Diagnostic& diagnostic : error.diagnostics()) {
-      context.remark(diagnostic);
+      context.exploration().remark(diagnostic);
     }
   } catch (const LaunchError&) {
     // What this reader refuses although it is YAML, a node may read.

@@ -155,8 +155,8 @@ void Parameters::append_to(ProcessSpec& spec, LaunchContext& context, const std:
         spec.argv.insert(spec.argv.end(), {"--params-file", path});
         find_faults_of_parameter_file(path, file_->where(), context);
       } else {
-        context.remark({Severity::kError, fmt::format("parameter file '{}' does not exist", path), file_->where(),
-                        help_for_missing_file(path), Finding::kMissingParameterFile});
+        context.exploration().remark({Severity::kError, fmt::format("parameter file '{}' does not exist", path),
+                                      file_->where(), help_for_missing_file(path), Finding::kMissingParameterFile});
         context.message(LogLevel::kWarning, "launch_ros.actions.node",
                         fmt::format("{}: parameter file path is not a file: {}", to_string(file_->where()), path));
       }

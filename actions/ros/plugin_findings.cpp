@@ -27,7 +27,7 @@ fs::path registrations_of(const std::string& prefix, const std::string& package)
 
 void find_missing_plugin(const ComposableNode& node, const Environment& environment, const SourceRange& package_where,
                          const SourceRange& plugin_where, LaunchContext& context) {
-  if (!context.explores()) {
+  if (!context.exploration().is_on()) {
     return;
   }
   PackageIndex& packages = *context.scope().packages;
@@ -35,15 +35,15 @@ void find_missing_plugin(const ComposableNode& node, const Environment& environm
   try {
     prefix = packages.prefix(node.package, environment);
   } catch (const std::runtime_error& error) {
-    context.remark({Severity::kError, error.what(), package_where, packages.help_for_missing(node.package, environment),
-                    Finding::kMissingPackage});
+    context.exploration().remark({Severity::kError, error.what(), package_where,
+                                  packages.help_for_missing(node.package, environment), Finding::kMissingPackage});
     return;
   }
   std::ifstream file(registrations_of(prefix, node.package));
   if (!file) {
-    context.remark({Severity::kError, fmt::format("package '{}' registers no components", node.package), package_where,
-                    fmt::format("'{}' does not exist", registrations_of(prefix, node.package).string()),
-                    Finding::kMissingPlugin});
+    context.exploration().remark(
+        {Severity::kError, fmt::format("package '{}' registers no components", node.package), package_where,
+         fmt::format("'{}' does not exist", registrations_of(prefix, node.package).string()), Finding::kMissingPlugin});
     return;
   }
   std::vector<std::string> plugins;
@@ -56,9 +56,9 @@ void find_missing_plugin(const ComposableNode& node, const Environment& environm
     const fs::path library = end == std::string::npos ? fs::path() : fs::path(prefix) / line.substr(end + 1);
     std::error_code ignored;
     if (!library.empty() && !fs::exists(library, ignored)) {
-      context.remark({Severity::kError, fmt::format("the library of plugin '{}' does not exist", node.plugin),
-                      plugin_where, fmt::format("package '{}' names '{}'", node.package, library.string()),
-                      Finding::kMissingPlugin});
+      context.exploration().remark(
+          {Severity::kError, fmt::format("the library of plugin '{}' does not exist", node.plugin), plugin_where,
+           fmt::format("package '{}' names '{}'", node.package, library.string()), Finding::kMissingPlugin});
     }
     return;
   }
@@ -66,9 +66,9 @@ void find_missing_plugin(const ComposableNode& node, const Environment& environm
   if (help.empty() && !plugins.empty()) {
     help = fmt::format("it has {}{}", plugins.front(), plugins.size() > 1 ? " and others" : "");
   }
-  context.remark({Severity::kError,
-                  fmt::format("no library of package '{}' registers the plugin '{}'", node.package, node.plugin),
-                  plugin_where, std::move(help), Finding::kMissingPlugin});
+  context.exploration().remark(
+      {Severity::kError, fmt::format("no library of package '{}' registers the plugin '{}'", node.package, node.plugin),
+       plugin_where, std::move(help), Finding::kMissingPlugin});
 }
 
 }  // namespace launch

@@ -65,7 +65,7 @@ class IncludeLaunchDescription : public Action {
       given.push_back(name.perform(context.scope()));
     }
     check_required_arguments(*included, context.registry(), context.scope(), given, where());
-    if (context.explores()) {
+    if (context.exploration().is_on()) {
       find_undeclared_arguments(*included, given, context);
     }
     ++context.requests().includes;
@@ -116,10 +116,10 @@ class IncludeLaunchDescription : public Action {
         return description->file != nullptr && may_read(*description->file, given[i]);
       });
       if (list->complete && !is_read && std::find(declared.begin(), declared.end(), given[i]) == declared.end()) {
-        context.remark({Severity::kWarning,
-                        fmt::format("the included file declares no argument '{}', and nothing reads it", given[i]),
-                        declaration_.arguments[i].first.where(), did_you_mean(given[i], declared),
-                        Finding::kUnknownArgument});
+        context.exploration().remark(
+            {Severity::kWarning,
+             fmt::format("the included file declares no argument '{}', and nothing reads it", given[i]),
+             declaration_.arguments[i].first.where(), did_you_mean(given[i], declared), Finding::kUnknownArgument});
       }
     }
     if (!depends_on_command) {

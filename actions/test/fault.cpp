@@ -138,7 +138,7 @@ class Fault : public Action {
 
  protected:
   void execute(LaunchContext& context) const override {
-    if (!context.is_in_test()) {
+    if (!context.tests().is_in_test()) {
       throw LaunchError("a fault belongs in a <test>", where(),
                         "there it may be in groups, loops and included files; at and depends_on say when it happens",
                         Finding::kWrongPlace);
@@ -174,7 +174,7 @@ class Fault : public Action {
     const auto equal = std::count_if(others.begin(), others.end(),
                                      [&](const FaultRequest& other) { return other.identity == fault.identity; });
 
-    const FaultDraw draw(context.fault_choice().seed, fmt::format("{} {}", fault.identity, equal));
+    const FaultDraw draw(context.tests().fault_choice().seed, fmt::format("{} {}", fault.identity, equal));
     fault.at = as_duration(draw.number("at", at));
     if (lasts_) {
       fault.lasts = as_duration(draw.number("for", lasts));
@@ -196,7 +196,7 @@ class Fault : public Action {
         fault.dependencies.push_back(std::move(*dependency));
       }
     }
-    const auto& chosen = context.fault_choice().numbers;
+    const auto& chosen = context.tests().fault_choice().numbers;
     if (draw.share("probability") >= probability) {
       fault.left_out = "not drawn";
     } else if (chosen && !chosen->contains(fault.number)) {

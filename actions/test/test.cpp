@@ -66,18 +66,18 @@ class Test : public Action {
 
  protected:
   void execute(LaunchContext& context) const override {
-    const LaunchContext::TestPart part = context.next_test();
-    if (context.explores()) {
+    const TestVisits::Part part = context.tests().next();
+    if (context.exploration().is_on()) {
       // Each test is a run of its own: its processes are not there together with those of the others.
       Requests others = std::exchange(context.requests(), Requests());
       const RunEnvironment variables(context.scope());
-      context.visit_test(actions_);
+      context.tests().visit(context, actions_);
       request(context.scope(), context);
       context.requests() = std::move(others);
-    } else if (part != LaunchContext::TestPart::kNothing) {
+    } else if (part != TestVisits::Part::kNothing) {
       TestRequest test = request(context.scope(), context);
-      if (part == LaunchContext::TestPart::kActionsToo) {
-        test.faults = context.visit_test(actions_);
+      if (part == TestVisits::Part::kActionsToo) {
+        test.faults = context.tests().visit(context, actions_);
       }
       context.requests().tests.push_back(std::move(test));
     }

@@ -15,20 +15,21 @@ namespace launch {
 
 void find_unknown_context_fields(const std::vector<std::string>& fields, lttng_domain_type domain,
                                  const SourceRange& where, LaunchContext& context) {
-  if (!context.explores()) {
+  if (!context.exploration().is_on()) {
     return;
   }
   for (const std::string& name : fields) {
     try {
       tracing::ContextField(name, domain);
     } catch (const tracing::TraceError& error) {
-      context.remark({Severity::kError, error.what(), where, error.remedy(), Finding::kUnknownContextField});
+      context.exploration().remark(
+          {Severity::kError, error.what(), where, error.remedy(), Finding::kUnknownContextField});
     }
   }
 }
 
 void find_unknown_events(const std::vector<std::string>& rules, const SourceRange& where, LaunchContext& context) {
-  if (!context.explores()) {
+  if (!context.exploration().is_on()) {
     return;
   }
   std::vector<std::string> names;
@@ -42,11 +43,12 @@ void find_unknown_events(const std::vector<std::string>& rules, const SourceRang
     const std::string help = did_you_mean(pattern.find(':') == std::string::npos ? "ros2:" + pattern : pattern, names);
     const bool lacks_provider = std::find(names.begin(), names.end(), "ros2:" + pattern) != names.end();
     if (lacks_provider) {
-      context.remark({Severity::kWarning, fmt::format("event '{}' has no provider", pattern), where,
-                      fmt::format("did you mean 'ros2:{}'?", pattern), Finding::kUnknownEvent});
+      context.exploration().remark({Severity::kWarning, fmt::format("event '{}' has no provider", pattern), where,
+                                    fmt::format("did you mean 'ros2:{}'?", pattern), Finding::kUnknownEvent});
     } else if (pattern.starts_with("ros2:") && !known) {
-      context.remark({Severity::kWarning, fmt::format("ROS 2 has no event '{}'", pattern), where,
-                      help.empty() ? "launch trace --help tells how to list them" : help, Finding::kUnknownEvent});
+      context.exploration().remark({Severity::kWarning, fmt::format("ROS 2 has no event '{}'", pattern), where,
+                                    help.empty() ? "launch trace --help tells how to list them" : help,
+                                    Finding::kUnknownEvent});
     }
   }
 }

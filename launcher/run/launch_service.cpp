@@ -13,7 +13,6 @@
 #include "base/monotonic_clock.hpp"
 #include "base/overloaded.hpp"
 #include "launcher/process/guardian/guardian.hpp"
-#include "launcher/visit/farewell_check.hpp"
 
 namespace launch {
 

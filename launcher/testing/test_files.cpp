@@ -61,7 +61,7 @@ LaunchPlan plan_of(const LaunchDescription& description, const Registry& registr
   for (const auto& [name, value] : arguments) {
     context.scope().configurations.insert_or_assign(name, value);
   }
-  context.take_tests(chosen);
+  context.tests().take(chosen);
   return plan_launch(context, description);
 }
 
@@ -74,7 +74,7 @@ struct TestFile {
     description = load_launch_files({file}, registry, scope);
   }
 
-  // `chosen` as in LaunchContext::take_tests().
+  // `chosen` as in TestVisits::take().
   LaunchPlan plan(std::optional<std::size_t> chosen) const {
     return plan_of(*description, registry, environment, arguments, chosen, {});
   }

@@ -136,8 +136,8 @@ void run_launch(const TestRun& run, Guardian& guardian, TestResult& result) {
     context.scope().configurations.insert_or_assign(name, value);
   }
   context.scope().configurations.insert_or_assign("crash-dir", crash_directory(run.directory));
-  context.take_tests(run.test.number);
-  context.choose_faults({run.test.seed, run.test.faults});
+  context.tests().take(run.test.number);
+  context.tests().choose_faults({run.test.seed, run.test.faults});
 
   LaunchService* service = nullptr;
   RunJudge judge(*loop, trace_directory(run.directory), [&](const std::string& reason) { service->end(reason); });

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "base/diagnostics/source.hpp"
 #include "launcher/language/exit_code_filter.hpp"
@@ -17,6 +18,7 @@
 
 namespace launch {
 
+class ProcessTable;
 struct TrackedProcess;
 
 struct UntilStarted {};
@@ -44,12 +46,22 @@ struct Dependency {
   OnFailure on_failure = OnFailure::kShutdown;
   SourceRange where;
 
-  TrackedProcess* target = nullptr;  // of a ProcessCondition, set by resolve_dependencies() (dependency_resolution.hpp)
+  TrackedProcess* target = nullptr;  // of a ProcessCondition, set by resolve_dependencies()
 };
 
 // "'talker' has started", "'calibrate' has exited with code 0", "service /map/load is offered".
 std::string describe(const Dependency& dependency);
 // "shutdown", "start", "skip".
 std::string_view to_string(OnFailure on_failure);
+
+// Finds the processes that the conditions name and sets Dependency::target. A name means one of `asked_for`, or else
+// the latest that was asked for before. Throws LaunchError with every name that is unknown or ambiguous.
+void resolve_targets(std::vector<Dependency>& dependencies, const std::vector<TrackedProcess*>& asked_for,
+                     const ProcessTable& table);
+
+// Does the same, and looks for cycles. `asked_for` are the processes that the dependencies belong to, already in the
+// table. Throws LaunchError as before, and for a cycle.
+void resolve_dependencies(std::vector<Dependency>& dependencies, const std::vector<TrackedProcess*>& asked_for,
+                          const ProcessTable& table);
 
 }  // namespace launch

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/diagnostics/source.hpp"
+#include "launcher/process/process_spec.hpp"
 #include "launcher/visit/dependency.hpp"
 
 namespace launch {
@@ -60,13 +61,19 @@ struct NetworkFault {
   std::uint64_t seed = 0;     // of what is lost
 };
 
-// The simulated time of a clock (clock_process.hpp) stands still, runs at another rate, or jumps.
+// The simulated time of a <clock> stands still, runs at another rate, or jumps.
 struct ClockFault {
   enum class Kind { kStop, kSkew, kJump };
   Kind kind = Kind::kStop;
   double rate = 1;  // of kSkew: so many times its rate
   double by = 0;    // of kJump: seconds
 };
+
+// Whether the process is that of a <clock>, which publishes simulated time and obeys lines of its standard input:
+// `stop` and `go`, `scale FACTOR` of its rate, `jump SECONDS`.
+inline bool is_clock(const ProcessSpec& spec) {
+  return spec.argv.size() > 1 && spec.argv[0].ends_with("/launch-ros-command") && spec.argv[1] == "clock";
+}
 
 // The disk of a directory is full.
 struct DiskFault {

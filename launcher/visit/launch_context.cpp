@@ -45,24 +45,6 @@ LaunchContext::LaunchContext(const Registry& registry, Environment environment, 
   };
 }
 
-LaunchContext::TestPart LaunchContext::next_test() {
-  const std::size_t number = tests_++;
-  if (!takes_tests_) {
-    return TestPart::kNothing;
-  }
-  if (!chosen_test_) {
-    return TestPart::kExpectations;
-  }
-  return chosen_test_ == number ? TestPart::kActionsToo : TestPart::kNothing;
-}
-
-std::vector<FaultRequest> LaunchContext::visit_test(const std::vector<ActionPtr>& actions) {
-  AtExit restore([this] { in_test_ = false; });
-  in_test_ = true;
-  visit_in(scope_, actions);
-  return std::exchange(requests_.faults, {});
-}
-
 void LaunchContext::visit(const Action& action) {
   if (depth_ == kDeepest) {
     throw LaunchError(fmt::format("actions hold each other more than {} deep", kDeepest), action.where(),
@@ -96,8 +78,8 @@ void LaunchContext::visit(const std::vector<ActionPtr>& actions) {
       scope_.incomplete = scope_.incomplete || depends_on_command;
       if (scope_.incomplete) {
         requests_.left_to_run.push_back({"", error.diagnostics().front().message, action->where()});
-      } else if (explores()) {
-        report(error);
+      } else if (exploration_.is_on()) {
+        exploration_.report(error);
         // What names something that the action would have given is no error of its own.
         requests_.left_to_run.push_back({"", error.diagnostics().front().message, action->where()});
       } else {
@@ -161,7 +143,7 @@ void LaunchContext::visit(const Invocation& invocation, bool planned) {
 }
 
 void LaunchContext::visit_left_out(const Action& action) {
-  if (!explores() || in_left_out_) {
+  if (!exploration_.enters_left_out()) {
     return;
   }
   AtExit restore([this, scope = scope_, requests = std::move(requests_), nodes = nodes_,
@@ -170,29 +152,20 @@ void LaunchContext::visit_left_out(const Action& action) {
     requests_ = std::move(requests);
     nodes_ = std::move(nodes);
     messages_ = std::move(messages);
-    in_left_out_ = false;
+    exploration_.leave_left_out();
   });
   requests_ = Requests{};
   messages_ = [](LogLevel, std::string_view, std::string_view) {};
-  in_left_out_ = true;
-  scope_.only_planned = scope_.only_planned || !explorer_.judges;
+  scope_.only_planned = scope_.only_planned || !exploration_.judges();
   try {
     action.execute(*this);
   } catch (const LaunchError& error) {
     if (!scope_.command_was_left_out()) {
-      report(error);
+      exploration_.report(error);
     }
   }
   scope_.forget_left_out_command();
-  if (explorer_.left_out) {
-    explorer_.left_out(std::move(requests_));
-  }
-}
-
-void LaunchContext::remark(Diagnostic diagnostic) {
-  if (explores() && explorer_.judges && !scope_.incomplete && !scope_.command_was_left_out()) {
-    report(LaunchError(std::vector<Diagnostic>{std::move(diagnostic)}));
-  }
+  exploration_.tell_left_out(std::move(requests_));
 }
 
 Requests LaunchContext::take_requests() {

@@ -6,11 +6,8 @@
 // error in the middle of a file has therefore started nothing.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -22,7 +19,9 @@
 #include "launcher/language/registry.hpp"
 #include "launcher/process/output/output_router.hpp"
 #include "launcher/substitution/scope.hpp"
+#include "launcher/visit/exploration.hpp"
 #include "launcher/visit/requests.hpp"
+#include "launcher/visit/test_visits.hpp"
 
 namespace launch {
 
@@ -63,29 +62,10 @@ class LaunchContext {
   void plan_only() { plan_only_ = true; }
   bool is_plan_only() const { return plan_only_; }
 
-  // From now on the tests of launch files are requested, without the actions within them. With `chosen` it is only the
-  // test of this number, from 0 in the order of the visit, and its actions are visited. Without this call tests have no
-  // effect.
-  void take_tests(std::optional<std::size_t> chosen) {
-    takes_tests_ = true;
-    chosen_test_ = chosen;
-  }
-  enum class TestPart { kNothing, kExpectations, kActionsToo };
-  // To be called once by each test that is visited: what it should request.
-  TestPart next_test();
-
-  // The actions within a test are visited by this call, in a scope of their own. Returns the faults that they ask for.
-  std::vector<FaultRequest> visit_test(const std::vector<ActionPtr>& actions);
-  // Whether such a visit is under way. Timers and event handlers are visited later.
-  bool is_in_test() const { return in_test_; }
-
-  // Of faults: the seed of what is drawn, and the numbers of those that are applied; nullopt: all.
-  struct FaultChoice {
-    std::uint64_t seed = 1;
-    std::optional<std::set<std::size_t>> numbers;
-  };
-  void choose_faults(FaultChoice choice) { fault_choice_ = std::move(choice); }
-  const FaultChoice& fault_choice() const { return fault_choice_; }
+  // Which tests the visit requests.
+  TestVisits& tests() { return tests_; }
+  // Whether the visit goes on after errors, and whom it tells of them.
+  Exploration& exploration() { return exploration_; }
 
   // The client that answers requests of actions to the ROS graph. It must outlive the context. Null while nothing is
   // carried out.
@@ -110,26 +90,6 @@ class LaunchContext {
 
   void message(LogLevel level, std::string_view logger, std::string_view text) { messages_(level, logger, text); }
 
-  // From now on the visit goes on after an error with the next action. It also visits what conditions leave out, on the
-  // side: in a copy of the scope, without messages, and the requests are dropped. Inside such a visit nothing left out
-  // is visited, so that a file that includes itself comes to an end.
-  struct Explorer {
-    std::function<void(const LaunchError&, bool left_out)> report;
-    // Gets the requests of an action that its condition leaves out.
-    std::function<void(Requests)> left_out;
-    // False: `report` is not told of what would go wrong only in a run, and no function of a Python launch file that a
-    // condition leaves out is called.
-    bool judges = true;
-  };
-  void explore(Explorer explorer) { explorer_ = std::move(explorer); }
-  bool explores() const { return explorer_.report != nullptr; }
-  // Tells an exploring visit of an error behind which it goes on.
-  void report(const LaunchError& error) { explorer_.report(error, in_left_out_); }
-  // Tells an exploring visit of what would go wrong only when the requests are carried out.
-  void remark(Diagnostic diagnostic);
-  // Whether an exploring visit has not seen this file before: a file that many nodes read is judged once.
-  bool sees_first(const std::string& path) { return seen_files_.emplace(path, in_left_out_).second; }
-
   // The scopes that PushEnvironment or PushLaunchConfigurations of a Python launch file have kept, the last one at the
   // end.
   std::vector<Scope>& kept_scopes(bool environment) {
@@ -152,15 +112,9 @@ class LaunchContext {
   Wishes wishes_;
   std::vector<NodeLogLevel> log_levels_;
   bool plan_only_ = false;
-  bool takes_tests_ = false;
-  std::optional<std::size_t> chosen_test_;
-  FaultChoice fault_choice_;
-  bool in_test_ = false;
-  std::size_t tests_ = 0;                              // visited so far
-  int depth_ = 0;                                      // of the actions that are being visited
-  Explorer explorer_;                                  // empty: not exploring
-  std::set<std::pair<std::string, bool>> seen_files_;  // path, in what is left out
-  bool in_left_out_ = false;
+  TestVisits tests_;
+  Exploration exploration_{scope_};
+  int depth_ = 0;  // of the actions that are being visited
   std::vector<Scope> pushed_environments_;
   std::vector<Scope> pushed_configurations_;
   RosClient* ros_client_ = nullptr;

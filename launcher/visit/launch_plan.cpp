@@ -7,8 +7,6 @@
 #include <utility>
 
 #include "base/overloaded.hpp"
-#include "launcher/visit/dependency_resolution.hpp"
-#include "launcher/visit/farewell_check.hpp"
 #include "launcher/visit/process_table.hpp"
 
 namespace launch {
@@ -74,10 +72,10 @@ class Planner {
     try {
       step();
     } catch (const LaunchError& error) {
-      if (!context_.explores()) {
+      if (!context_.exploration().is_on()) {
         throw;
       }
-      context_.report(error);
+      context_.exploration().report(error);
     }
   }
 
@@ -143,8 +141,8 @@ class Planner {
         // A function that was not called may start the process that this speaks of.
         const Diagnostic& first = error.diagnostics().front();
         plan.left_to_run.push_back({"", first.message, first.where});
-      } else if (context_.explores()) {
-        context_.report(error);
+      } else if (context_.exploration().is_on()) {
+        context_.exploration().report(error);
       } else {
         throw;
       }

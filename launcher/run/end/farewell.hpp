@@ -17,7 +17,7 @@ namespace launch {
 class Farewell {
  public:
   struct Callbacks {
-    // Visits a handler, and checks what it asks for (farewell_check.hpp).
+    // Visits a handler, and checks what it asks for (check_farewell()).
     std::function<Requests(const Invocation&)> visit;
     std::function<void(const ProcessCommand&)> execute;
     // Starts a process that runs once. Calls wait_for() before.

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "launcher/visit/dependency_resolution.hpp"
+#include "launcher/visit/dependency.hpp"
 
 namespace launch {
 

@@ -10,7 +10,7 @@
 #include "base/diagnostics/diagnostic.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/process_supervisor.hpp"
-#include "launcher/run/start/round.hpp"
+#include "launcher/run/start/rounds.hpp"
 #include "launcher/run/start/start_order.hpp"
 #include "launcher/visit/process_table.hpp"
 

@@ -7,12 +7,20 @@
 #include <deque>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "base/diagnostics/diagnostic.hpp"
 #include "launcher/run/scopes/active_scopes.hpp"
-#include "launcher/run/start/round.hpp"
+#include "launcher/visit/process_table.hpp"
+#include "launcher/visit/requests.hpp"
 
 namespace launch {
+
+// The requests of one traversal, and its processes.
+struct Round {
+  Requests requests;
+  std::vector<TrackedProcess*> processes;  // of requests.processes; null: it waits, and its spec was taken
+};
 
 class Rounds {
  public:

@@ -9,7 +9,6 @@
 #include <utility>
 #include <variant>
 
-#include "launcher/visit/clock_process.hpp"
 
 namespace launch {
 namespace {

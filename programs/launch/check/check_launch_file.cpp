@@ -105,8 +105,9 @@ class Checker {
     context.scope().forget_left_out_command();
     make_up_arguments(list, context.scope());
     std::vector<Requests> left_out;
-    context.explore({.report = [this](const LaunchError& error, bool is_left_out) { add_of_visit(error, is_left_out); },
-                     .left_out = [&](Requests requests) { left_out.push_back(std::move(requests)); }});
+    context.exploration().begin(
+        {.report = [this](const LaunchError& error, bool is_left_out) { add_of_visit(error, is_left_out); },
+         .left_out = [&](Requests requests) { left_out.push_back(std::move(requests)); }});
     const LaunchPlan plan = plan_launch(context, description);
     check_unused(description, list, plan);
     const auto report = [this](Diagnostic diagnostic) { add(std::move(diagnostic)); };

@@ -25,14 +25,15 @@ namespace {
 LaunchPlan plan_with_left_out(LaunchContext& context, const LaunchDescription& description,
                               std::vector<Requests>& left_out) {
   std::vector<Diagnostic> errors;
-  context.explore({.report =
-                       [&](const LaunchError& error, bool of_left_out) {
-                         if (!of_left_out) {
-                           errors.insert(errors.end(), error.diagnostics().begin(), error.diagnostics().end());
-                         }
-                       },
-                   .left_out = [&](Requests requests) { left_out.push_back(std::move(requests)); },
-                   .judges = false});
+  context.exploration().begin({.report =
+                                   [&](const LaunchError& error, bool of_left_out) {
+                                     if (!of_left_out) {
+                                       errors.insert(errors.end(), error.diagnostics().begin(),
+                                                     error.diagnostics().end());
+                                     }
+                                   },
+                               .left_out = [&](Requests requests) { left_out.push_back(std::move(requests)); },
+                               .judges = false});
   LaunchPlan plan = plan_launch(context, description);
   if (!errors.empty()) {
     throw LaunchError(std::move(errors));

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "fault_plan.hpp"
-#include "launcher/visit/clock_process.hpp"
+#include "launcher/visit/fault_request.hpp"
 
 namespace launch {
 namespace {

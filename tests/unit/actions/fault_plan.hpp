@@ -22,11 +22,11 @@ struct PlannedFaults {
 };
 
 // The text is an XML file, or a YAML file if it doesn't start with '<'. It has one test.
-inline PlannedFaults plan_test_file(const std::string& text, const launch::LaunchContext::FaultChoice& choice = {}) {
+inline PlannedFaults plan_test_file(const std::string& text, const launch::TestVisits::FaultChoice& choice = {}) {
   static const launch::Registry registry = launch::builtin_actions();
   launch::LaunchContext context(registry, {{"PATH", "/usr/bin:/bin"}}, "", [](auto...) {});
-  context.take_tests(0);
-  context.choose_faults(choice);
+  context.tests().take(0);
+  context.tests().choose_faults(choice);
   const char* const path = text.starts_with('<') ? "/t.launch.xml" : "/t.launch.yaml";
   try {
     return {launch::plan_launch(
@@ -38,14 +38,14 @@ inline PlannedFaults plan_test_file(const std::string& text, const launch::Launc
 }
 
 // The text is what stands in the test. `before` is one line, before the test; the faults begin in line 4.
-inline PlannedFaults plan_faults(const std::string& faults, const launch::LaunchContext::FaultChoice& choice = {},
+inline PlannedFaults plan_faults(const std::string& faults, const launch::TestVisits::FaultChoice& choice = {},
                                  const std::string& before = "<executable cmd=\"p\"/>") {
   return plan_test_file(
       "<launch>\n" + before + "\n<test name=\"t\"><output text=\"a\"/>\n" + faults + "\n</test></launch>", choice);
 }
 
 inline PlannedFaults plan_faults(const std::string& faults, std::uint64_t seed) {
-  return plan_faults(faults, launch::LaunchContext::FaultChoice{seed, std::nullopt});
+  return plan_faults(faults, launch::TestVisits::FaultChoice{seed, std::nullopt});
 }
 
 }  // namespace test_support

@@ -22,7 +22,7 @@ class FaultsTest : public LaunchServiceTest {
     const auto file =
         std::make_shared<SourceFile>("/t.launch.xml", "<launch>" + actions + kTest + faults + "</test></launch>");
     LaunchContext context(registry_, {{"PATH", "/bin"}}, "", [](auto...) {});
-    context.take_tests(0);
+    context.tests().take(0);
     LaunchService service(context, loop_, supervisor_,
                           [this](const LaunchError& error) { errors_.emplace_back(error.what()); });
     service.test().use(

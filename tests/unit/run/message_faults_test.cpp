@@ -85,7 +85,7 @@ class MessageFaultsRun : public LaunchServiceTest {
         "/t.launch.xml", "<launch>" + actions + "<test name=\"t\"><output text=\"a\"/>" + faults + "</test></launch>");
     LaunchContext context(registry_, {{"PATH", "/bin"}}, "",
                           [this](LogLevel, std::string_view, std::string_view text) { messages_.emplace_back(text); });
-    context.take_tests(0);
+    context.tests().take(0);
     context.scope().log_directory = log_directory_;
     LaunchService service(context, loop_, supervisor_,
                           [this](const LaunchError& error) { errors_.emplace_back(error.what()); });

@@ -74,7 +74,7 @@ TEST_F(LaunchContextTest, AScopeOfItsOwnEndsWithItsActionsAlsoAfterAnError) {
 TEST_F(LaunchContextTest, ExploringGoesOnAfterErrorsAndLooksIntoWhatIsLeftOut) {
   std::vector<std::pair<std::string, bool>> errors;
   std::vector<std::string> left_out;
-  context_.explore(
+  context_.exploration().begin(
       {.report = [&](const LaunchError& error,
                      bool is_left_out) { errors.emplace_back(error.diagnostics().front().message, is_left_out); },
        .left_out = [&](Requests requests) { left_out = std::move(requests.logs); }});

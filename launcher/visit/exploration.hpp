@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// A visit that goes on after an error, for `launch check` and `launch graph`. It also visits what conditions leave out,
+// on the side: in a copy of the scope, without messages, and the requests are dropped. Inside such a visit nothing left
+// out is visited, so that a file that includes itself comes to an end.
+#pragma once
+
+#include <functional>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "base/diagnostics/diagnostic.hpp"
+#include "launcher/substitution/scope.hpp"
+#include "launcher/visit/requests.hpp"
+
+namespace launch {
+
+class Exploration {
+ public:
+  struct Observer {
+    std::function<void(const LaunchError&, bool left_out)> report;
+    // Gets the requests of an action that its condition leaves out.
+    std::function<void(Requests)> left_out;
+    // False: `report` is not told of what would go wrong only in a run, and no function of a Python launch file that a
+    // condition leaves out is called.
+    bool judges = true;
+  };
+
+  // `scope` is that of the visit, and must outlive this object.
+  explicit Exploration(const Scope& scope) : scope_(scope) {}
+
+  // From now on the visit explores.
+  void begin(Observer observer) { observer_ = std::move(observer); }
+  bool is_on() const { return observer_.report != nullptr; }
+  // Whether it judges what a run would do.
+  bool judges() const { return observer_.judges; }
+
+  // Tells of an error behind which the visit goes on.
+  void report(const LaunchError& error) const { observer_.report(error, in_left_out_); }
+  // Tells of what would go wrong only when the requests are carried out. Does nothing in a visit that does not explore.
+  void remark(Diagnostic diagnostic) const;
+  // Whether a file was not seen before: a file that many nodes read is judged once.
+  bool sees_first(const std::string& path) { return seen_files_.emplace(path, in_left_out_).second; }
+
+  // For the visit: an action that its condition leaves out begins and ends.
+  bool enters_left_out() { return is_on() && !std::exchange(in_left_out_, true); }
+  void leave_left_out() { in_left_out_ = false; }
+  void tell_left_out(Requests requests) const;
+
+ private:
+  const Scope& scope_;
+  Observer observer_;                                  // empty: not exploring
+  std::set<std::pair<std::string, bool>> seen_files_;  // path, in what is left out
+  bool in_left_out_ = false;
+};
+
+}  // namespace launch
