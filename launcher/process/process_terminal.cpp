@@ -35,10 +35,13 @@ void Supervision::note_signal_of_terminal(Supervised& process) {
 }
 
 void ProcessSupervisor::watch_terminal() {
-  impl_->state_changes = impl_->loop.on_signal({SIGCHLD}, [supervision = impl_.get()](EventLoop::Signal) {
-    if (!supervision->look_at_stopped) {
-      supervision->look_at_stopped =
-          supervision->loop.after(kBetweenLooks, [supervision] { supervision->tell_of_stopped(); });
+  impl_->watch_terminal();
+}
+
+void Supervision::watch_terminal() {
+  state_changes = loop.on_signal({SIGCHLD}, [this](EventLoop::Signal) {
+    if (!look_at_stopped) {
+      look_at_stopped = loop.after(kBetweenLooks, [this] { tell_of_stopped(); });
     }
   });
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The private part of the supervisor: its state of each process, and the handlers of events. Only for
-// process_supervisor.cpp, which has the table of states and events, and for process_end.cpp.
+// process_supervisor.cpp, which has the table of states and events, and for process_end.cpp and process_terminal.cpp.
 #pragma once
 
 #include <array>
@@ -95,18 +95,11 @@ struct Supervised {
   Duration timer_end{0};
 };
 
-// What a ProcessSupervisor consists of.
+// What a ProcessSupervisor consists of: the processes, and the events that they handle. All that happens to a process
+// goes through handle(), so the handlers are private.
 struct Supervision {
+ public:
   using Event = SupervisionEvent;
-  using Request = SupervisionRequest;
-  static constexpr std::size_t kEvents = 12;
-  static constexpr std::size_t kStates = 7;
-  using Handler = void (Supervision::*)(Supervised&);
-  struct Pending {
-    Supervised* process;
-    Event event;
-    int signal;  // of kSignal
-  };
 
   Supervision(EventLoop& event_loop, ProcessRunner& process_runner, OutputRouter& router)
       : loop(event_loop), runner(process_runner), output(router) {}
@@ -114,50 +107,10 @@ struct Supervision {
   // Runs the handler of the table. An event raised meanwhile, by a handler or by an observer, waits until it is done:
   // observers see the events of a process in order, and handlers run on a settled state.
   void handle(Supervised& process, Event event, int signal = 0);
-  void notify(Supervised& process, decltype(ProcessEvent::what) what);
-
-  // Handlers: each handles one event of a process in one state.
-  void ignore(Supervised&) {}
-  void spawn(Supervised& process);
-  void interrupt(Supervised& process);
-  void terminate(Supervised& process);
-  void terminate_now(Supervised& process);
-  void kill_at_last(Supervised& process);
-  void kill_now(Supervised& process);
-  void kill(Supervised& process, int escalated_from, Duration waited);
-  void give_up(Supervised& process);
-  void send_requested(Supervised& process);
-  void end_unasked(Supervised& process);
-  void end_signalled(Supervised& process);
-  void remains_ended(Supervised& process);
-  void leave_remains(Supervised& process);
-  void release_remains(Supervised& process);
-  void interrupt_remains(Supervised& process);
-  void kill_remains(Supervised& process);
-  void finish(Supervised& process);
-  void stop(Supervised& process);
-  void stay_stopped(Supervised& process);
-  void restart(Supervised& process);
-  void start_again(Supervised& process);
-  void restart_now(Supervised& process);
-  void revive(Supervised& process);
-  void note_signal_of_terminal(Supervised& process);
-
-  bool respawns(const Supervised& process) const;
-  void conclude(Supervised& process);
-  void wait_for_respawn(Supervised& process, Duration delay);
-  void report_exit(Supervised& process, ProcessExit exit, bool will_respawn);
-  void send(Supervised& process, int signal, int escalated_from, Duration waited);
-  void start_timer(Supervised& process, Duration delay);
-  void reap_after_kill(Supervised& process);
-  void watch_groups();
-  void look_at_groups();
   // To be called after a change of the two observers of lines.
   void observe_lines();
-  void tell_of_stopped();
-  void continue_in_foreground();
-
-  static const std::array<std::array<Handler, kEvents>, kStates> kTable;
+  // As ProcessSupervisor::watch_terminal().
+  void watch_terminal();
 
   EventLoop& loop;
   ProcessRunner& runner;
@@ -168,10 +121,69 @@ struct Supervision {
   std::vector<std::unique_ptr<Supervised>> processes;  // of id N at N - 1
   std::size_t active = 0;
   bool shutting_down = false;
-  std::deque<Pending> pending;
-  bool handling = false;
   GeneratedFiles files;
   Guardian* guardian = nullptr;
+
+ private:
+  using Request = SupervisionRequest;
+  using Handler = void (Supervision::*)(Supervised&);
+  static constexpr std::size_t kEvents = 12;
+  static constexpr std::size_t kStates = 7;
+  struct Pending {
+    Supervised* process;
+    Event event;
+    int signal;  // of kSignal
+  };
+
+  // Handlers: each handles one event of a process in one state. First those of its start and of what follows a run.
+  void ignore(Supervised&) {}
+  void spawn(Supervised& process);
+  void finish(Supervised& process);
+  void stop(Supervised& process);
+  void stay_stopped(Supervised& process);
+  void restart(Supervised& process);
+  void start_again(Supervised& process);
+  void restart_now(Supervised& process);
+  void revive(Supervised& process);
+  // Those of its end (process_end.cpp).
+  void interrupt(Supervised& process);
+  void terminate(Supervised& process);
+  void terminate_now(Supervised& process);
+  void kill_at_last(Supervised& process);
+  void kill_now(Supervised& process);
+  void give_up(Supervised& process);
+  void send_requested(Supervised& process);
+  void end_unasked(Supervised& process);
+  void end_signalled(Supervised& process);
+  void remains_ended(Supervised& process);
+  void leave_remains(Supervised& process);
+  void release_remains(Supervised& process);
+  void interrupt_remains(Supervised& process);
+  void kill_remains(Supervised& process);
+  // That of a signal of the terminal (process_terminal.cpp).
+  void note_signal_of_terminal(Supervised& process);
+
+  // What handlers share.
+  void notify(Supervised& process, decltype(ProcessEvent::what) what);
+  bool respawns(const Supervised& process) const;
+  void conclude(Supervised& process);
+  void wait_for_respawn(Supervised& process, Duration delay);
+  void start_timer(Supervised& process, Duration delay);
+  void report_exit(Supervised& process, ProcessExit exit, bool will_respawn);
+  void send(Supervised& process, int signal, int escalated_from, Duration waited);
+  void kill(Supervised& process, int escalated_from, Duration waited);
+  void reap_after_kill(Supervised& process);
+
+  // Looks at what nothing tells of: the groups of processes that end, and processes that the terminal has stopped.
+  void watch_groups();
+  void look_at_groups();
+  void tell_of_stopped();
+  void continue_in_foreground();
+
+  static const std::array<std::array<Handler, kEvents>, kStates> kTable;
+
+  std::deque<Pending> pending;
+  bool handling = false;
   EventLoop::SourcePtr state_changes;  // of children
   EventLoop::SourcePtr next_look_at_groups;
   EventLoop::SourcePtr look_at_stopped;
