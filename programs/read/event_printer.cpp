@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <ctime>
 #include <filesystem>
 #include <iterator>
@@ -13,130 +12,13 @@
 #include <unordered_map>
 #include <utility>
 
-#include "base/text/utf8.hpp"
+#include "programs/read/value_text.hpp"
 
 namespace tracing {
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr std::size_t kWriteAt = 1 << 16;  // bytes
-
-using Buffer = fmt::memory_buffer;
-
-void append(Buffer& out, std::string_view text) {
-  out.append(text.data(), text.data() + text.size());
-}
-
-// A text between quotes, as in JSON. JSON can't hold bytes that are not UTF-8, so U+FFFD replaces them.
-void append_quoted(Buffer& out, std::string_view text) {
-  out.push_back('"');
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto c = static_cast<unsigned char>(text[i]);
-    if (c == '"' || c == '\\') {
-      out.push_back('\\');
-      out.push_back(static_cast<char>(c));
-    } else if (c == '\n') {
-      append(out, "\\n");
-    } else if (c == '\t') {
-      append(out, "\\t");
-    } else if (c < 0x20 || c == 0x7f) {
-      fmt::format_to(std::back_inserter(out), "\\u{:04x}", c);
-    } else if (c < 0x80) {
-      out.push_back(static_cast<char>(c));
-    } else {
-      const launch::CodePoint character = launch::decode_utf8(text.substr(i));
-      append(out, character.valid ? text.substr(i, character.size) : "\xef\xbf\xbd");
-      i += character.size - 1;
-    }
-  }
-  out.push_back('"');
-}
-
-void append_number(Buffer& out, const FieldValue& value, bool hexadecimal) {
-  if (const auto number = value.unsigned_integer()) {
-    if (hexadecimal) {
-      fmt::format_to(std::back_inserter(out), "{:#x}", *number);
-    } else {
-      fmt::format_to(std::back_inserter(out), "{}", *number);
-    }
-  } else if (const auto with_sign = value.integer()) {
-    fmt::format_to(std::back_inserter(out), "{}", *with_sign);
-  }
-}
-
-bool is_number(const FieldValue& value) {
-  return value.unsigned_integer().has_value() || value.integer().has_value();
-}
-
-void append_real(Buffer& out, double value, bool json) {
-  if (json && !std::isfinite(value)) {
-    return append(out, "null");
-  }
-  fmt::format_to(std::back_inserter(out), "{}", value);
-}
-
-// As text: a pointer in hexadecimal, a structure as {a=1 b=2}, an array as [1 2].
-void append_text(Buffer& out, const FieldValue& value) {
-  if (const auto label = value.enumeration_label()) {
-    append(out, *label);
-    out.push_back(':');
-  }
-  if (is_number(value)) {
-    return append_number(out, value, value.is_hexadecimal());
-  }
-  if (const auto real = value.real()) {
-    return append_real(out, *real, false);
-  }
-  if (const auto text = value.string()) {
-    return append_quoted(out, *text);
-  }
-  if (value.is_variant()) {
-    return append_text(out, value[0]);
-  }
-  out.push_back(value.is_structure() ? '{' : '[');
-  for (std::size_t i = 0; i < value.size(); ++i) {
-    if (i > 0) {
-      out.push_back(' ');
-    }
-    if (value.is_structure()) {
-      append(out, value.member_name(i));
-      out.push_back('=');
-    }
-    append_text(out, value[i]);
-  }
-  out.push_back(value.is_structure() ? '}' : ']');
-}
-
-// As JSON: numbers in decimal, an enumeration as its label if it has one.
-void append_json(Buffer& out, const FieldValue& value) {
-  if (const auto label = value.enumeration_label()) {
-    return append_quoted(out, *label);
-  }
-  if (is_number(value)) {
-    return append_number(out, value, false);
-  }
-  if (const auto real = value.real()) {
-    return append_real(out, *real, true);
-  }
-  if (const auto text = value.string()) {
-    return append_quoted(out, *text);
-  }
-  if (value.is_variant()) {
-    return append_json(out, value[0]);
-  }
-  out.push_back(value.is_structure() ? '{' : '[');
-  for (std::size_t i = 0; i < value.size(); ++i) {
-    if (i > 0) {
-      out.push_back(',');
-    }
-    if (value.is_structure()) {
-      append_quoted(out, value.member_name(i));
-      out.push_back(':');
-    }
-    append_json(out, value[i]);
-  }
-  out.push_back(value.is_structure() ? '}' : ']');
-}
 
 // All contexts but those that have a place of their own. `separator` stands between them.
 template <class AppendOne>

@@ -4,16 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <map>
 #include <system_error>
 #include <tuple>
 
-#include "tracing/decode/ctf/event_layout.hpp"
 #include "tracing/decode/ctf/metadata_text.hpp"
 #include "tracing/decode/ctf/packet.hpp"
 #include "tracing/decode/ctf/stream_cursor.hpp"
 #include "tracing/decode/ctf/trace_class.hpp"
+#include "tracing/decode/reader/stream_class.hpp"
 #include "tracing/decode/reader/trace_read_error.hpp"
 
 namespace tracing {
@@ -21,58 +20,6 @@ namespace tracing {
 namespace fs = std::filesystem;
 
 namespace {
-
-// A context of every event of a stream.
-struct Context {
-  std::size_t index = 0;                // in the structure
-  std::optional<std::uint32_t> offset;  // bytes from its beginning, for a usual type with a fixed place
-};
-
-// The parts that all events of one stream class share.
-struct StreamClass {
-  StreamClass(const ctf::TraceClass& trace, const ctf::StreamDeclaration& stream)
-      : layout(trace, stream), vpid(context("vpid")), vtid(context("vtid")), procname(context("procname")) {}
-
-  std::optional<Context> context(std::string_view name) const {
-    const ctf::StructureDecoder& contexts = layout.event_context();
-    const std::optional<std::size_t> index = contexts.index_of(name);
-    if (!index) {
-      return std::nullopt;
-    }
-    Context context{*index, std::nullopt};
-    const ctf::FieldClass& type = *contexts.type()->members[*index].type;
-    const bool is_usual = type.access == ctf::NumberAccess::kSigned32 || type.is_characters();
-    if (contexts.fixed_size() && is_usual) {
-      context.offset = contexts.fixed_places()[*index].offset;
-    }
-    return context;
-  }
-
-  ctf::StreamLayout layout;
-  std::optional<Context> vpid;
-  std::optional<Context> vtid;
-  std::optional<Context> procname;
-};
-
-// Both functions write the value in its place: returning an optional takes longer than reading the value.
-void read_number(const ctf::Record& contexts, const Context& context, std::optional<std::int64_t>& value) {
-  if (!context.offset || contexts.base == nullptr) {
-    value = contexts[context.index].integer();
-    return;
-  }
-  std::int32_t number = 0;
-  std::memcpy(&number, contexts.base + *context.offset, sizeof number);
-  value.emplace(number);
-}
-
-void read_text(const ctf::Record& contexts, const Context& context, std::optional<std::string_view>& value) {
-  if (!context.offset || contexts.base == nullptr) {
-    value = contexts[context.index].string();
-    return;
-  }
-  const auto* const bytes = reinterpret_cast<const char*>(contexts.base + *context.offset);
-  value.emplace(bytes, strnlen(bytes, contexts.places[context.index].length));
-}
 
 // Sorts the packets of one stream, from all its files, by time. A packet that is in several snapshots counts once.
 void put_in_order(std::vector<ctf::Packet>& packets) {
@@ -168,7 +115,7 @@ struct DirectReader::Trace {
 // A stream that is being read.
 struct DirectReader::OpenStream {
   OpenStream(Trace& of, const StreamClass& is, Stream as, std::vector<ctf::Packet> packets)
-      : trace(of), stream_class(is), description(std::move(as)), cursor(is.layout, std::move(packets)) {}
+      : trace(of), stream_class(is), description(std::move(as)), cursor(is.layout(), std::move(packets)) {}
 
   bool is_later_than(const OpenStream& other) const {
     const std::int64_t mine = cursor.time_ns();
@@ -195,15 +142,7 @@ TraceItem DirectReader::OpenStream::give() {
     event_.timestamp_ns = cursor.time_ns();
     event_.cpu_id = cursor.packet().cpu_id;
     const ctf::Record& contexts = cursor.stream_context();
-    if (stream_class.vpid) {
-      read_number(contexts, *stream_class.vpid, event_.vpid);
-    }
-    if (stream_class.vtid) {
-      read_number(contexts, *stream_class.vtid, event_.vtid);
-    }
-    if (stream_class.procname) {
-      read_text(contexts, *stream_class.procname, event_.procname);
-    }
+    stream_class.read_contexts(contexts, event_);
     event_.record = &cursor.payload();
     event_.stream_context = &contexts;
     event_.event_context = &cursor.event_context();

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all events of one class of streams share: their layout, and where they have the contexts that an Event has
+// members for. Private to the reader.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string_view>
+
+#include "tracing/decode/ctf/event_layout.hpp"
+#include "tracing/decode/ctf/trace_class.hpp"
+#include "tracing/decode/reader/event.hpp"
+
+namespace tracing {
+
+class StreamClass {
+ public:
+  StreamClass(const ctf::TraceClass& trace, const ctf::StreamDeclaration& stream)
+      : layout_(trace, stream), vpid_(context("vpid")), vtid_(context("vtid")), procname_(context("procname")) {}
+
+  const ctf::StreamLayout& layout() const { return layout_; }
+
+  // Leaves members alone whose contexts the stream does not have.
+  void read_contexts(const ctf::Record& contexts, Event& event) const {
+    if (vpid_) {
+      read_number(contexts, *vpid_, event.vpid);
+    }
+    if (vtid_) {
+      read_number(contexts, *vtid_, event.vtid);
+    }
+    if (procname_) {
+      read_text(contexts, *procname_, event.procname);
+    }
+  }
+
+ private:
+  struct Context {
+    std::size_t index = 0;                // in the structure
+    std::optional<std::uint32_t> offset;  // bytes from its beginning, for a usual type with a fixed place
+  };
+
+  std::optional<Context> context(std::string_view name) const {
+    const ctf::StructureDecoder& contexts = layout_.event_context();
+    const std::optional<std::size_t> index = contexts.index_of(name);
+    if (!index) {
+      return std::nullopt;
+    }
+    Context context{*index, std::nullopt};
+    const ctf::FieldClass& type = *contexts.type()->members[*index].type;
+    const bool is_usual = type.access == ctf::NumberAccess::kSigned32 || type.is_characters();
+    if (contexts.fixed_size() && is_usual) {
+      context.offset = contexts.fixed_places()[*index].offset;
+    }
+    return context;
+  }
+
+  // Both functions write the value in its place: returning an optional takes longer than reading the value.
+  static void read_number(const ctf::Record& contexts, const Context& context, std::optional<std::int64_t>& value) {
+    if (!context.offset || contexts.base == nullptr) {
+      value = contexts[context.index].integer();
+      return;
+    }
+    std::int32_t number = 0;
+    std::memcpy(&number, contexts.base + *context.offset, sizeof number);
+    value.emplace(number);
+  }
+  static void read_text(const ctf::Record& contexts, const Context& context, std::optional<std::string_view>& value) {
+    if (!context.offset || contexts.base == nullptr) {
+      value = contexts[context.index].string();
+      return;
+    }
+    const auto* const bytes = reinterpret_cast<const char*>(contexts.base + *context.offset);
+    value.emplace(bytes, strnlen(bytes, contexts.places[context.index].length));
+  }
+
+  ctf::StreamLayout layout_;
+  std::optional<Context> vpid_;
+  std::optional<Context> vtid_;
+  std::optional<Context> procname_;
+};
+
+}  // namespace tracing
