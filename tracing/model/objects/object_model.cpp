@@ -21,38 +21,19 @@ std::string qualified_name(std::string_view name_space, std::string_view name) {
   return result.append(name);
 }
 
-// LTTng-UST records NULL as this text.
-constexpr std::string_view kNullString = "(null)";
-
 }  // namespace
 
-std::size_t ObjectModel::HashKey::operator()(const Key& key) const {
-  // Handles differ in their middle bits, processes in the low ones: multiplication spreads both over the word.
-  const std::uint64_t mixed = (key.handle ^ (static_cast<std::uint64_t>(key.process) << 48)) * 0x9e3779b97f4a7c15;
-  return mixed ^ (mixed >> 32);
-}
-
 ObjectId ObjectModel::find(const Index& index, ProcessId process, ros2::Handle handle) const {
-  for (; process != kNoProcess; process = earlier(process)) {
-    if (const auto found = index.find({process, handle}); found != index.end()) {
-      return found->second;
-    }
-  }
-  return kNoObject;
+  const ObjectId* const found = earlier_.find(index, process, handle);
+  return found == nullptr ? kNoObject : *found;
 }
 
 RmwLookup ObjectModel::find_rmw(const RmwIndex& index, ProcessId process, ros2::Handle handle) const {
-  for (; process != kNoProcess; process = earlier(process)) {
-    const auto found = index.find({process, handle});
-    if (found == index.end()) {
-      continue;
-    }
-    if (found->second.endpoint == kNoObject) {
-      return {RmwHandle::kInternal, kNoObject};
-    }
-    return {RmwHandle::kKnown, found->second.endpoint};
+  const RmwEndpoint* const found = earlier_.find(index, process, handle);
+  if (found == nullptr) {
+    return {RmwHandle::kUnknown, kNoObject};
   }
-  return {RmwHandle::kUnknown, kNoObject};
+  return {found->endpoint == kNoObject ? RmwHandle::kInternal : RmwHandle::kKnown, found->endpoint};
 }
 
 void ObjectModel::add_rmw(RmwIndex& index, ProcessId process, ros2::Handle handle, const ros2::Gid& gid) {
@@ -62,7 +43,7 @@ void ObjectModel::add_rmw(RmwIndex& index, ProcessId process, ros2::Handle handl
   }
 }
 
-std::optional<ros2::EndpointQos> ObjectModel::qos_of(const RmwIndex& index, const Key& key) {
+std::optional<ros2::EndpointQos> ObjectModel::qos_of(const RmwIndex& index, const HandleKey& key) {
   const auto found = index.find(key);
   return found == index.end() ? std::nullopt : found->second.qos;
 }
@@ -143,7 +124,7 @@ void ObjectModel::on(const Origin& origin, const ros2::RclcppSubscriptionInit& e
     const ObjectId added =
         add_subscription_object(origin.process, event.subscription, {subscription, callback_repeated});
     if (callback_repeated) {
-      move_callback(origin.process, CallbackObject::Owner::kSubscription, id, added);
+      callbacks_.move(origin.process, CallbackObject::Owner::kSubscription, id, added);
     }
   }
 }
@@ -151,7 +132,7 @@ void ObjectModel::on(const Origin& origin, const ros2::RclcppSubscriptionInit& e
 void ObjectModel::on(const Origin& origin, const ros2::RclcppSubscriptionCallbackAdded& event) {
   ObjectId object = find(subscription_object_index_, origin.process, event.subscription);
   if (object != kNoObject && subscription_objects_[object].has_callback &&
-      is_callback_of(origin.process, event.callback, CallbackObject::Owner::kSubscription, object)) {
+      callbacks_.belongs_to(origin.process, event.callback, CallbackObject::Owner::kSubscription, object)) {
     subscription_objects_[object].callback_repeated = true;
     return;
   }
@@ -160,7 +141,7 @@ void ObjectModel::on(const Origin& origin, const ros2::RclcppSubscriptionCallbac
   } else {
     object = add_subscription_object(origin.process, event.subscription, {kNoObject, true});
   }
-  add_callback(origin.process, event.callback, CallbackObject::Owner::kSubscription, object);
+  callbacks_.add(origin.process, event.callback, CallbackObject::Owner::kSubscription, object);
 }
 
 void ObjectModel::on(const Origin& origin, const ros2::RclServiceInit& event) {
@@ -175,8 +156,8 @@ void ObjectModel::on(const Origin& origin, const ros2::RclServiceInit& event) {
 }
 
 void ObjectModel::on(const Origin& origin, const ros2::RclcppServiceCallbackAdded& event) {
-  add_callback(origin.process, event.callback, CallbackObject::Owner::kService,
-               find(service_index_, origin.process, event.service_handle));
+  callbacks_.add(origin.process, event.callback, CallbackObject::Owner::kService,
+                 find(service_index_, origin.process, event.service_handle));
 }
 
 void ObjectModel::on(const Origin& origin, const ros2::RmwClientInit& event) {
@@ -203,8 +184,8 @@ void ObjectModel::on(const Origin& origin, const ros2::RclTimerInit& event) {
 }
 
 void ObjectModel::on(const Origin& origin, const ros2::RclcppTimerCallbackAdded& event) {
-  add_callback(origin.process, event.callback, CallbackObject::Owner::kTimer,
-               find(timer_index_, origin.process, event.timer_handle));
+  callbacks_.add(origin.process, event.callback, CallbackObject::Owner::kTimer,
+                 find(timer_index_, origin.process, event.timer_handle));
 }
 
 void ObjectModel::on(const Origin& origin, const ros2::RclcppTimerLinkNode& event) {
@@ -218,27 +199,17 @@ void ObjectModel::on(const Origin& origin, const ros2::RclcppTimerLinkNode& even
   } else if (timers_[timer].node != node) {  // a new timer at the address of an older one
     const ObjectId added = append(timers_, TimerObject{node, timers_[timer].period_ns});
     timer_index_[{origin.process, event.timer_handle}] = added;
-    move_callback(origin.process, CallbackObject::Owner::kTimer, timer, added);
+    callbacks_.move(origin.process, CallbackObject::Owner::kTimer, timer, added);
   }
 }
 
 void ObjectModel::on(const Origin& origin, const ros2::RclcppCallbackRegister& event) {
-  ObjectId id = find(callback_index_, origin.process, event.callback);
-  if (id == kNoObject) {  // its *_callback_added is not in the trace
-    id = add_callback(origin.process, event.callback, CallbackObject::Owner::kUnknown, kNoObject);
-  }
-  if (event.symbol == kNullString || callbacks_[id].symbol == event.symbol) {
-    return;
-  }
-  if (!callbacks_[id].symbol.empty()) {  // a new callback of an object that looks like the one before
-    id = append_callback(CallbackObject(callbacks_[id]));
-  }
-  callbacks_[id].symbol = event.symbol;
+  callbacks_.name(origin.process, event.callback, event.symbol);
 }
 
 void ObjectModel::on(const Origin& origin, const ros2::ObjectEnd& end) {
   using Kind = ros2::ObjectEnd::Kind;
-  const Key key{origin.process, end.handle};
+  const HandleKey key{origin.process, end.handle};
   switch (end.kind) {
     case Kind::kRclNode:
       node_index_.erase(key);
@@ -274,7 +245,7 @@ void ObjectModel::on(const Origin& origin, const ros2::ObjectEnd& end) {
       timer_index_.erase(key);
       break;
     case Kind::kRclcppCallback:
-      callback_index_.erase(key);
+      callbacks_.end(origin.process, end.handle);
       break;
     case Kind::kRclLifecycleStateMachine:
       break;
@@ -341,12 +312,11 @@ ObjectId ObjectModel::rmw_client(ProcessId process, ros2::Handle handle) const {
 }
 
 ObjectId ObjectModel::callback(ProcessId process, ros2::Handle address) {
-  const ObjectId id = find(callback_index_, process, address);
-  return id != kNoObject ? id : add_callback(process, address, CallbackObject::Owner::kUnknown, kNoObject);
+  return callbacks_.at(process, address);
 }
 
 ObjectId ObjectModel::client_callback(ProcessId process, ros2::Handle rcl_handle) {
-  return add_callback(process, rcl_handle, CallbackObject::Owner::kClient, client(process, rcl_handle));
+  return callbacks_.add(process, rcl_handle, CallbackObject::Owner::kClient, client(process, rcl_handle));
 }
 
 ObjectId ObjectModel::subscription_of(const CallbackObject& callback) const {
@@ -375,48 +345,6 @@ ObjectId ObjectModel::node_of(const CallbackObject& callback) const {
       return kNoObject;
   }
   return kNoObject;
-}
-
-bool ObjectModel::is_callback_of(ProcessId process, ros2::Handle address, CallbackObject::Owner owner,
-                                 ObjectId owner_id) const {
-  const ObjectId id = find(callback_index_, process, address);
-  return id != kNoObject && callbacks_[id].owner == owner && callbacks_[id].owner_id == owner_id;
-}
-
-ObjectId ObjectModel::add_callback(ProcessId process, ros2::Handle address, CallbackObject::Owner owner,
-                                   ObjectId owner_id) {
-  if (is_callback_of(process, address, owner, owner_id)) {
-    return find(callback_index_, process, address);
-  }
-  const ObjectId id = find(callback_index_, process, address);
-  if (id != kNoObject && callbacks_[id].owner == CallbackObject::Owner::kUnknown) {
-    // The callback ran before the state dump announced it.
-    callbacks_[id].owner = owner;
-    callbacks_[id].owner_id = owner_id;
-    return id;
-  }
-  return append_callback({process, address, owner, owner_id, ""});
-}
-
-ObjectId ObjectModel::append_callback(CallbackObject callback) {
-  callback_index_[{callback.process, callback.address}] = static_cast<ObjectId>(callbacks_.size());
-  return append(callbacks_, std::move(callback));
-}
-
-void ObjectModel::move_callback(ProcessId process, CallbackObject::Owner owner, ObjectId from, ObjectId to) {
-  for (ObjectId id = 0; id < callbacks_.size(); ++id) {
-    const CallbackObject& callback = callbacks_[id];
-    if (callback.process != process || find(callback_index_, process, callback.address) != id) {
-      continue;
-    }
-    if (callback.owner != owner || callback.owner_id != from) {
-      continue;
-    }
-    CallbackObject moved = callback;
-    moved.owner_id = to;
-    append_callback(std::move(moved));
-    return;
-  }
 }
 
 ObjectId ObjectModel::add_subscription_object(ProcessId process, ros2::Handle handle, SubscriptionObject object) {

@@ -20,72 +20,12 @@
 #include "tracing/decode/reader/endpoint_qos.hpp"
 #include "tracing/decode/reader/object_end.hpp"
 #include "tracing/decode/reader/ros2_events.hpp"
+#include "tracing/model/objects/callback_table.hpp"
+#include "tracing/model/objects/handle_index.hpp"
+#include "tracing/model/objects/objects.hpp"
 #include "tracing/model/objects/process_table.hpp"
 
 namespace tracing {
-
-using ObjectId = std::uint32_t;  // index in the vectors below
-inline constexpr ObjectId kNoObject = 0xffffffff;
-
-// Where and when an event was recorded.
-struct Origin {
-  std::int64_t time_ns = 0;
-  ProcessId process = 0;
-  std::int64_t vtid = 0;
-};
-
-struct NodeObject {
-  ProcessId process = kNoProcess;
-  std::string name;  // fully qualified: "/ns/ping"
-};
-
-struct TopicObject {
-  std::string name;
-  std::uint32_t publishers = 0;
-  std::uint32_t subscriptions = 0;
-};
-
-struct EndpointObject {  // publisher or subscription
-  ObjectId node = kNoObject;
-  ObjectId topic = kNoObject;
-  std::uint64_t queue_depth = 0;                        // as the program asked for it
-  std::optional<ros2::EndpointQos> qos = std::nullopt;  // if the trace has it
-  bool operator==(const EndpointObject&) const = default;
-};
-
-// rclcpp's object around a subscription: there is one, or two with intra-process communication.
-struct SubscriptionObject {
-  ObjectId subscription = kNoObject;
-  bool has_callback = false;
-  bool callback_repeated = false;  // belongs to this object, unless the next rclcpp_subscription_init names another
-};
-
-struct TimerObject {
-  ObjectId node = kNoObject;
-  std::int64_t period_ns = 0;
-};
-
-struct ServiceObject {
-  ObjectId node = kNoObject;
-  std::string name;
-  bool operator==(const ServiceObject&) const = default;
-};
-
-struct ClientObject {
-  ObjectId node = kNoObject;
-  std::string name;  // of the service
-  ros2::Gid gid;     // size 0 when its rmw_client_init is not in the trace
-  bool operator==(const ClientObject&) const = default;
-};
-
-struct CallbackObject {
-  enum class Owner { kUnknown, kSubscription, kTimer, kService, kClient };
-  ProcessId process = kNoProcess;
-  ros2::Handle address = 0;  // for a client's callback: rcl's handle of the client
-  Owner owner = Owner::kUnknown;
-  ObjectId owner_id = kNoObject;  // of a subscription object, timer, service or client
-  std::string symbol;             // as recorded, may be empty
-};
 
 // What is known about a handle of the rmw layer.
 enum class RmwHandle {
@@ -103,11 +43,7 @@ class ObjectModel {
  public:
   // To be called before the events of new processes; takes a comparison. An object that a process does not have is
   // looked for in the process that had its id before (ProcessObject::earlier).
-  void learn(const ProcessTable& processes) {
-    while (earlier_.size() < processes.processes().size()) {
-      earlier_.push_back(processes.processes()[earlier_.size()].earlier);
-    }
-  }
+  void learn(const ProcessTable& processes) { earlier_.learn(processes); }
 
   // Takes the initialisation events; other events are ignored.
   void on(const Origin&, const ros2::RclNodeInit&);
@@ -160,40 +96,25 @@ class ObjectModel {
   const std::vector<TimerObject>& timers() const { return timers_; }
   const std::vector<ServiceObject>& services() const { return services_; }
   const std::vector<ClientObject>& clients() const { return clients_; }
-  const std::vector<CallbackObject>& callbacks() const { return callbacks_; }
+  const std::vector<CallbackObject>& callbacks() const { return callbacks_.all(); }
 
  private:
-  struct Key {
-    ProcessId process;
-    ros2::Handle handle;
-    bool operator==(const Key&) const = default;
-  };
-  struct HashKey {
-    std::size_t operator()(const Key& key) const;
-  };
-  using Index = std::unordered_map<Key, ObjectId, HashKey>;
+  using Index = HandleIndex<ObjectId>;
   struct RmwEndpoint {
     ros2::Gid gid;
     ObjectId endpoint = kNoObject;  // kNoObject until an rcl object has the handle
     std::optional<ros2::EndpointQos> qos = std::nullopt;
   };
-  using RmwIndex = std::unordered_map<Key, RmwEndpoint, HashKey>;
+  using RmwIndex = HandleIndex<RmwEndpoint>;
 
   ObjectId find(const Index& index, ProcessId process, ros2::Handle handle) const;
   RmwLookup find_rmw(const RmwIndex& index, ProcessId process, ros2::Handle handle) const;
-  ProcessId earlier(ProcessId process) const { return process < earlier_.size() ? earlier_[process] : kNoProcess; }
   static void add_rmw(RmwIndex& index, ProcessId process, ros2::Handle handle, const ros2::Gid& gid);
-  static std::optional<ros2::EndpointQos> qos_of(const RmwIndex& index, const Key& key);
+  static std::optional<ros2::EndpointQos> qos_of(const RmwIndex& index, const HandleKey& key);
   // Whether the handle, and the rmw handle that `rmw` was looked up with, already belong to this very endpoint.
   bool is_endpoint(const Index& index, const std::vector<EndpointObject>& endpoints, ProcessId process,
                    ros2::Handle handle, const RmwLookup& rmw, const EndpointObject& endpoint) const;
   ObjectId topic(std::string_view name);
-  bool is_callback_of(ProcessId process, ros2::Handle address, CallbackObject::Owner owner, ObjectId owner_id) const;
-  // The callback at `address`. It stays as it is if it has this owner, gets this owner if it had none, or is a new one.
-  ObjectId add_callback(ProcessId process, ros2::Handle address, CallbackObject::Owner owner, ObjectId owner_id);
-  ObjectId append_callback(CallbackObject callback);
-  // A new callback like the newest of owner `from`, for `to`.
-  void move_callback(ProcessId process, CallbackObject::Owner owner, ObjectId from, ObjectId to);
   ObjectId add_subscription_object(ProcessId process, ros2::Handle handle, SubscriptionObject object);
 
   std::vector<NodeObject> nodes_;
@@ -204,9 +125,9 @@ class ObjectModel {
   std::vector<TimerObject> timers_;
   std::vector<ServiceObject> services_;
   std::vector<ClientObject> clients_;
-  std::vector<CallbackObject> callbacks_;
 
-  std::vector<ProcessId> earlier_;  // by process
+  EarlierProcesses earlier_;
+  CallbackTable callbacks_{earlier_};
 
   Index node_index_;
   Index publisher_index_;
@@ -219,7 +140,6 @@ class ObjectModel {
   Index rmw_service_index_;
   Index client_index_;
   RmwIndex rmw_client_index_;  // to clients_
-  Index callback_index_;
   std::unordered_map<std::string, ObjectId> topic_index_;
 };
 
