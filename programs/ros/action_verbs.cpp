@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// launch action list, info, type, send_goal
+// launch action info, send_goal
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <iostream>
 #include <iterator>
 #include <random>
 
@@ -18,37 +17,6 @@
 namespace launch {
 
 namespace {
-
-std::vector<std::string> action_names() {
-  GraphSession session;
-  session.discover(std::nullopt);
-  std::vector<std::string> names;
-  for (const auto& [name, types] : actions_of_graph(session)) {
-    names.push_back(name);
-  }
-  return names;
-}
-
-class ActionList final : public Verb {
- public:
-  void declare(CLI::App& app) override {
-    look_.declare(app);
-    app.add_flag("-t,--show-types", show_types_, "also print the types");
-    app.add_flag("-c,--count-actions", count_, "print only how many there are");
-  }
-
-  int run() override {
-    GraphSession session;
-    session.discover(look_.time());
-    put_names(actions_of_graph(session), show_types_, count_);
-    return 0;
-  }
-
- private:
-  LookOptions look_;
-  bool show_types_ = false;
-  bool count_ = false;
-};
 
 class ActionInfo final : public Verb {
  public:
@@ -70,7 +38,7 @@ class ActionInfo final : public Verb {
   }
 
   std::vector<std::string> complete(const std::vector<std::string>& words) override {
-    return words.empty() ? action_names() : std::vector<std::string>();
+    return words.empty() ? all_names(kActions) : std::vector<std::string>();
   }
 
  private:
@@ -93,39 +61,6 @@ class ActionInfo final : public Verb {
   bool count_ = false;
 };
 
-class ActionType final : public Verb {
- public:
-  void declare(CLI::App& app) override {
-    app.add_option("action", action_, "name of the action")->required();
-    look_.declare(app);
-  }
-
-  int run() override {
-    const std::string action = full_name(action_);
-    GraphSession session;
-    session.discover(look_.time());
-    const NamesAndTypes actions = actions_of_graph(session);
-    const auto found = actions.find(action);
-    if (found == actions.end()) {
-      std::vector<std::string> names;
-      for (const auto& [name, types] : actions) {
-        names.push_back(name);
-      }
-      throw CommandError(fmt::format("unknown action '{}'", action), did_you_mean(action, names));
-    }
-    put(fmt::format("{}\n", fmt::join(found->second, "\n")));
-    return 0;
-  }
-
-  std::vector<std::string> complete(const std::vector<std::string>& words) override {
-    return words.empty() ? action_names() : std::vector<std::string>();
-  }
-
- private:
-  std::string action_;
-  LookOptions look_;
-};
-
 // action_msgs/msg/GoalStatus
 constexpr const char* kStatus[] = {"UNKNOWN", "ACCEPTED", "EXECUTING", "CANCELING", "SUCCEEDED", "CANCELED", "ABORTED"};
 constexpr std::size_t kSucceeded = 4;
@@ -135,8 +70,7 @@ class SendGoal final : public Verb {
   void declare(CLI::App& app) override {
     app.add_option("action", action_, "name of the action")->required();
     app.add_option("type", type_, "type of the action, such as example_interfaces/action/Fibonacci")->required();
-    CLI::Option* const goal = app.add_option("goal", goal_, "the goal as YAML; default: {}");
-    app.add_flag("--stdin", stdin_, "read the goal from standard input")->excludes(goal);
+    goal_.declare(app, "goal", "goal");
     app.add_flag("-f,--feedback", feedback_, "print feedback");
     app.add_option("--timeout", timeout_, "wait so many seconds for the server; default: without end")
         ->check(CLI::PositiveNumber);
@@ -149,11 +83,7 @@ class SendGoal final : public Verb {
       type_.insert(slash, "/action");
     }
     const auto goal_type = library.message(type_ + "_Goal");
-    if (stdin_) {
-      goal_.assign(std::istreambuf_iterator<char>(std::cin), {});
-    }
-    const MessageValue goal =
-        read_message(*goal_type, word_of_command_line(stdin_ ? "standard input" : "goal", goal_)).value;
+    const MessageValue goal = read_message(*goal_type, goal_.read("goal")).value;
     GraphSession session;
     const std::string base = action + "/_action/";
     const ServiceType send_type = library.action_service(type_, "SendGoal");
@@ -185,19 +115,12 @@ class SendGoal final : public Verb {
   }
 
   std::vector<std::string> complete(const std::vector<std::string>& words) override {
-    return words.empty()       ? action_names()
+    return words.empty()       ? all_names(kActions)
            : words.size() == 1 ? installed_interfaces().names("action")
                                : std::vector<std::string>();
   }
 
  private:
-  static int stopped_or(const std::string& message) {
-    if (GraphSession::is_stopped()) {
-      return 1;
-    }
-    throw CommandError(message);
-  }
-
   static MessageValue message_of(MessageValue::List members) {
     MessageValue message;
     message.data = std::move(members);
@@ -276,25 +199,17 @@ class SendGoal final : public Verb {
     return 1;
   }
 
-  std::string action_, type_, goal_ = "{}";
-  bool stdin_ = false;
+  std::string action_, type_;
+  ValuesOption goal_;
   bool feedback_ = false;
   std::optional<double> timeout_;
 };
 
 }  // namespace
 
-std::unique_ptr<Verb> make_action_list() {
-  return std::make_unique<ActionList>();
-}
-std::unique_ptr<Verb> make_action_info() {
-  return std::make_unique<ActionInfo>();
-}
-std::unique_ptr<Verb> make_action_type() {
-  return std::make_unique<ActionType>();
-}
-std::unique_ptr<Verb> make_action_send_goal() {
-  return std::make_unique<SendGoal>();
+std::vector<VerbInfo> action_verbs() {
+  return {{"action", "info", "describes an action", make_verb<ActionInfo>},
+          {"action", "send_goal", "sends a goal and waits for its result", make_verb<SendGoal>}};
 }
 
 }  // namespace launch

@@ -79,9 +79,7 @@ class Clock final : public Verb {
       message.clock = to_message(clock.time(SessionClock::now()));
       publisher->publish(message);
       next = std::max(next + period, SessionClock::now());
-      while (!GraphSession::is_stopped() && SessionClock::now() < next) {
-        session.wait({}, next);
-      }
+      session.sleep_until(next);
     }
     return 0;
   }
@@ -94,8 +92,8 @@ class Clock final : public Verb {
 
 }  // namespace
 
-std::unique_ptr<Verb> make_clock() {
-  return std::make_unique<Clock>();
+std::vector<VerbInfo> clock_verbs() {
+  return {{"clock", "", "publishes simulated time on /clock", make_verb<Clock>}};
 }
 
 }  // namespace launch

@@ -244,17 +244,11 @@ class ComponentTypes final : public Verb {
 
 }  // namespace
 
-std::unique_ptr<Verb> make_component_list() {
-  return std::make_unique<ComponentList>();
-}
-std::unique_ptr<Verb> make_component_load() {
-  return std::make_unique<ComponentLoad>();
-}
-std::unique_ptr<Verb> make_component_unload() {
-  return std::make_unique<ComponentUnload>();
-}
-std::unique_ptr<Verb> make_component_types() {
-  return std::make_unique<ComponentTypes>();
+std::vector<VerbInfo> component_verbs() {
+  return {{"component", "list", "lists containers and their components", make_verb<ComponentList>},
+          {"component", "load", "loads a component into a container", make_verb<ComponentLoad>},
+          {"component", "types", "lists the components that are installed", make_verb<ComponentTypes>},
+          {"component", "unload", "unloads components from a container", make_verb<ComponentUnload>}};
 }
 
 }  // namespace launch

@@ -25,6 +25,14 @@ std::string without_end(const std::string& text, std::string_view end) {
   return text.ends_with(end) ? text.substr(0, text.size() - end.size()) : text;
 }
 
+std::vector<std::string> names_in(const NamesAndTypes& names) {
+  std::vector<std::string> list;
+  for (const auto& [name, types] : names) {
+    list.push_back(name);
+  }
+  return list;
+}
+
 NamesAndTypes actions_with(const NamesAndTypes& names, std::string_view end, std::string_view type_end) {
   NamesAndTypes actions;
   for (const auto& [name, types] : names) {
@@ -89,6 +97,39 @@ NamesAndTypes actions_among(const NamesAndTypes& services) {
 
 NamesAndTypes actions_of_graph(GraphSession& session) {
   return actions_with(session.node().get_topic_names_and_types(), kFeedback, "_FeedbackMessage");
+}
+
+const NamesOfGraph kTopics{"topic", "msg", "std_msgs/msg/String",
+                           [](GraphSession& session) { return session.node().get_topic_names_and_types(); }};
+const NamesOfGraph kServices{"service", "srv", "std_srvs/srv/Empty",
+                             [](GraphSession& session) { return session.node().get_service_names_and_types(); }};
+const NamesOfGraph kActions{"action", "action", "example_interfaces/action/Fibonacci", actions_of_graph};
+
+std::vector<std::string> types_of(GraphSession& session, const NamesOfGraph& names, const std::string& name) {
+  const NamesAndTypes all = names.look(session);
+  const auto found = all.find(name);
+  if (found == all.end()) {
+    throw unknown_name(session, names, name);
+  }
+  return found->second;
+}
+
+CommandError unknown_name(GraphSession& session, const NamesOfGraph& names, const std::string& name) {
+  return CommandError(fmt::format("unknown {} '{}'", names.kind, name),
+                      did_you_mean(name, names_in(names.look(session))));
+}
+
+std::vector<std::string> all_names(const NamesOfGraph& names) {
+  GraphSession session;
+  session.discover(std::nullopt);
+  return names_in(names.look(session));
+}
+
+int stopped_or(const std::string& message) {
+  if (GraphSession::is_stopped()) {
+    return 1;
+  }
+  throw CommandError(message);
 }
 
 void put_names(const NamesAndTypes& names, bool show_types, bool count) {

@@ -25,6 +25,19 @@ NamesAndTypes actions_among(const NamesAndTypes& services);
 // All actions of the graph.
 NamesAndTypes actions_of_graph(GraphSession& session);
 
+// A kind of names that the graph has.
+struct NamesOfGraph {
+  const char* kind;     // "topic"
+  const char* folder;   // of its types: "msg"
+  const char* example;  // of a type
+  NamesAndTypes (*look)(GraphSession& session);
+};
+extern const NamesOfGraph kTopics, kServices, kActions;
+
+// Throws CommandError if there is none of this name.
+std::vector<std::string> types_of(GraphSession& session, const NamesOfGraph& names, const std::string& name);
+CommandError unknown_name(GraphSession& session, const NamesOfGraph& names, const std::string& name);
+
 // Prints the names, a line each, with their types if asked for. `count`: prints only how many there are.
 void put_names(const NamesAndTypes& names, bool show_types, bool count);
 
@@ -45,12 +58,17 @@ struct Reply {
 };
 Reply ask(GraphSession& session, const std::string& service, const std::string& type, const std::string& request);
 
+// The exit code if the user has asked to stop, who does not want to hear of an error any more. Otherwise throws
+// CommandError.
+int stopped_or(const std::string& message);
+
 // A member of a message that is an element of a list, by name.
 const MessageValue& member(const MessageType& type, const MessageValue& value, const std::string& name);
 const std::string& text_of(const MessageValue& value);
 std::int64_t number_of(const MessageValue& value);
 
 // For the shell's completion.
+std::vector<std::string> all_names(const NamesOfGraph& names);
 std::vector<std::string> all_node_names();
 
 }  // namespace launch

@@ -136,4 +136,10 @@ void GraphSession::wait(const WakeUps& wake_ups, SessionClock::time_point until)
   }
 }
 
+void GraphSession::sleep_until(SessionClock::time_point until) {
+  while (!is_stopped() && SessionClock::now() < until) {
+    wait({}, until);
+  }
+}
+
 }  // namespace launch

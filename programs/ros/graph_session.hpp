@@ -46,6 +46,8 @@ class GraphSession {
   };
   // Waits for one of these, for a change of the graph, for the signal or for the time.
   void wait(const WakeUps& wake_ups, SessionClock::time_point until);
+  // Waits for the time, or for the signal.
+  void sleep_until(SessionClock::time_point until);
 
  private:
   std::shared_ptr<rclcpp::Node> node_;

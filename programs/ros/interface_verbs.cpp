@@ -202,20 +202,12 @@ class InterfaceProto final : public Verb {
 
 }  // namespace
 
-std::unique_ptr<Verb> make_interface_list() {
-  return std::make_unique<InterfaceList>();
-}
-std::unique_ptr<Verb> make_interface_package() {
-  return std::make_unique<InterfacePackage>();
-}
-std::unique_ptr<Verb> make_interface_packages() {
-  return std::make_unique<InterfacePackages>();
-}
-std::unique_ptr<Verb> make_interface_proto() {
-  return std::make_unique<InterfaceProto>();
-}
-std::unique_ptr<Verb> make_interface_show() {
-  return std::make_unique<InterfaceShow>();
+std::vector<VerbInfo> interface_verbs() {
+  return {{"interface", "list", "lists the installed interfaces", make_verb<InterfaceList>},
+          {"interface", "package", "lists the interfaces of a package", make_verb<InterfacePackage>},
+          {"interface", "packages", "lists the packages that have interfaces", make_verb<InterfacePackages>},
+          {"interface", "proto", "prints a message with its defaults, to be edited", make_verb<InterfaceProto>},
+          {"interface", "show", "prints the definition of an interface", make_verb<InterfaceShow>}};
 }
 
 }  // namespace launch

@@ -183,17 +183,11 @@ class LifecycleSet final : public LifecycleVerb {
 
 }  // namespace
 
-std::unique_ptr<Verb> make_lifecycle_nodes() {
-  return std::make_unique<LifecycleNodes>();
-}
-std::unique_ptr<Verb> make_lifecycle_list() {
-  return std::make_unique<LifecycleList>();
-}
-std::unique_ptr<Verb> make_lifecycle_get() {
-  return std::make_unique<LifecycleGet>();
-}
-std::unique_ptr<Verb> make_lifecycle_set() {
-  return std::make_unique<LifecycleSet>();
+std::vector<VerbInfo> lifecycle_verbs() {
+  return {{"lifecycle", "get", "prints the state of nodes with a life cycle", make_verb<LifecycleGet>},
+          {"lifecycle", "list", "lists the transitions of a node", make_verb<LifecycleList>},
+          {"lifecycle", "nodes", "lists the nodes with a life cycle", make_verb<LifecycleNodes>},
+          {"lifecycle", "set", "makes a transition", make_verb<LifecycleSet>}};
 }
 
 }  // namespace launch

@@ -165,8 +165,8 @@ class Loglevel final : public Verb {
 
 }  // namespace
 
-std::unique_ptr<Verb> make_loglevel() {
-  return std::make_unique<Loglevel>();
+std::vector<VerbInfo> loglevel_verbs() {
+  return {{"loglevel", "", "prints or sets the level of the loggers of nodes", make_verb<Loglevel>}};
 }
 
 }  // namespace launch

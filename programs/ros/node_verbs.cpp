@@ -86,11 +86,9 @@ class NodeInfo final : public Verb {
 
 }  // namespace
 
-std::unique_ptr<Verb> make_node_list() {
-  return std::make_unique<NodeList>();
-}
-std::unique_ptr<Verb> make_node_info() {
-  return std::make_unique<NodeInfo>();
+std::vector<VerbInfo> node_verbs() {
+  return {{"node", "info", "describes a node", make_verb<NodeInfo>},
+          {"node", "list", "lists the nodes", make_verb<NodeList>}};
 }
 
 }  // namespace launch

@@ -145,11 +145,9 @@ class ParamLoad final : public ParameterVerb {
 
 }  // namespace
 
-std::unique_ptr<Verb> make_param_dump() {
-  return std::make_unique<ParamDump>();
-}
-std::unique_ptr<Verb> make_param_load() {
-  return std::make_unique<ParamLoad>();
+std::vector<VerbInfo> param_file_verbs() {
+  return {{"param", "dump", "prints all parameters of a node as a parameter file", make_verb<ParamDump>},
+          {"param", "load", "sets the parameters of a parameter file", make_verb<ParamLoad>}};
 }
 
 }  // namespace launch

@@ -192,20 +192,12 @@ class ParamDescribe final : public ParameterVerb {
 
 }  // namespace
 
-std::unique_ptr<Verb> make_param_list() {
-  return std::make_unique<ParamList>();
-}
-std::unique_ptr<Verb> make_param_get() {
-  return std::make_unique<ParamGet>();
-}
-std::unique_ptr<Verb> make_param_set() {
-  return std::make_unique<ParamSet>();
-}
-std::unique_ptr<Verb> make_param_delete() {
-  return std::make_unique<ParamDelete>();
-}
-std::unique_ptr<Verb> make_param_describe() {
-  return std::make_unique<ParamDescribe>();
+std::vector<VerbInfo> param_verbs() {
+  return {{"param", "delete", "deletes a parameter", make_verb<ParamDelete>},
+          {"param", "describe", "describes parameters", make_verb<ParamDescribe>},
+          {"param", "get", "prints the value of a parameter", make_verb<ParamGet>},
+          {"param", "list", "lists the parameters", make_verb<ParamList>},
+          {"param", "set", "sets a parameter", make_verb<ParamSet>}};
 }
 
 }  // namespace launch

@@ -11,6 +11,7 @@
 #include "launcher/message_types/print_value.hpp"
 #include "launcher/message_types/python_text.hpp"
 #include "programs/ros/endpoints.hpp"
+#include "programs/ros/graph_names.hpp"
 #include "programs/ros/topic_graph.hpp"
 
 namespace launch {
@@ -60,7 +61,7 @@ class TopicEcho final : public Verb {
     if (type == nullptr) {
       const auto name = type_of_topic(session, topic);
       if (!name) {
-        throw unknown_topic(session, topic);
+        throw unknown_name(session, kTopics, topic);
       }
       type = installed_interfaces().message(*name);
       compile(type);
@@ -81,7 +82,7 @@ class TopicEcho final : public Verb {
   }
 
   std::vector<std::string> complete(const std::vector<std::string>& words) override {
-    return words.empty()       ? topic_names()
+    return words.empty()       ? all_names(kTopics)
            : words.size() == 1 ? types_of_topic_or_all(words.front())
                                : std::vector<std::string>();
   }
@@ -153,8 +154,8 @@ class TopicEcho final : public Verb {
 
 }  // namespace
 
-std::unique_ptr<Verb> make_topic_echo() {
-  return std::make_unique<TopicEcho>();
+std::vector<VerbInfo> topic_echo_verbs() {
+  return {{"topic", "echo", "prints the messages of a topic", make_verb<TopicEcho>}};
 }
 
 }  // namespace launch

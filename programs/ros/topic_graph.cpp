@@ -5,6 +5,8 @@
 #include <rmw/qos_profiles.h>
 
 #include <CLI/CLI.hpp>
+#include <iostream>
+#include <iterator>
 #include <map>
 
 #include "base/diagnostics/diagnostic.hpp"
@@ -67,6 +69,18 @@ void LookOptions::declare(CLI::App& app) {
 
 std::optional<Seconds> LookOptions::time() const {
   return spin_time ? std::optional<Seconds>(*spin_time) : std::nullopt;
+}
+
+void ValuesOption::declare(CLI::App& app, const std::string& name, const std::string& what) {
+  CLI::Option* const values = app.add_option(name, text, fmt::format("the {} as YAML; default: {{}}", what));
+  app.add_flag("--stdin", from_standard_input, fmt::format("read the {} from standard input", what))->excludes(values);
+}
+
+LocatedText ValuesOption::read(const std::string& name) {
+  if (from_standard_input) {
+    text.assign(std::istreambuf_iterator<char>(std::cin), {});
+  }
+  return word_of_command_line(from_standard_input ? "standard input" : name, text);
 }
 
 void QosOptions::declare(CLI::App& app, const std::string& verb, const std::string& default_profile) {
@@ -161,30 +175,12 @@ std::string wait_for_type(GraphSession& session, const std::string& topic) {
   return type_of_topic(session, topic).value_or("");
 }
 
-std::vector<std::string> topic_names() {
-  GraphSession session;
-  session.discover(std::nullopt);
-  std::vector<std::string> names;
-  for (const auto& [name, types] : session.node().get_topic_names_and_types()) {
-    names.push_back(name);
-  }
-  return names;
-}
-
 std::vector<std::string> types_of_topic_or_all(const std::string& topic) {
   GraphSession session;
   session.discover(std::nullopt);
   const auto topics = session.node().get_topic_names_and_types();
   const auto found = topics.find(full_name(topic));
   return found == topics.end() ? installed_interfaces().names("msg") : found->second;
-}
-
-CommandError unknown_topic(GraphSession& session, const std::string& topic) {
-  std::vector<std::string> names;
-  for (const auto& [name, types] : session.node().get_topic_names_and_types()) {
-    names.push_back(name);
-  }
-  return CommandError(fmt::format("unknown topic '{}'", topic), did_you_mean(topic, names));
 }
 
 }  // namespace launch

@@ -19,6 +19,16 @@ struct LookOptions {
   std::optional<Seconds> time() const;
 };
 
+// A message on the command line, as YAML, or on standard input.
+struct ValuesOption {
+  std::string text = "{}";
+  bool from_standard_input = false;
+
+  // `name` is that of the word on the command line, `what` "message", "request" or "goal".
+  void declare(CLI::App& app, const std::string& name, const std::string& what);
+  LocatedText read(const std::string& name);
+};
+
 // Options for the quality of service.
 struct QosOptions {
   std::string profile;
@@ -43,11 +53,7 @@ std::optional<std::string> type_of_topic(GraphSession& session, const std::strin
 // Waits until the topic has a type, without end, and says once that it waits. Empty if the user has asked to stop.
 std::string wait_for_type(GraphSession& session, const std::string& topic);
 
-// The names of all topics, or the types of one, for the shell's completion.
-std::vector<std::string> topic_names();
+// The types of a topic, for the shell's completion.
 std::vector<std::string> types_of_topic_or_all(const std::string& topic);
-
-// For a topic that does not exist.
-CommandError unknown_topic(GraphSession& session, const std::string& topic);
 
 }  // namespace launch

@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <iostream>
-#include <iterator>
 
 #include "launcher/message_types/python_text.hpp"
 #include "launcher/message_types/read_value.hpp"
 #include "programs/ros/endpoints.hpp"
+#include "programs/ros/graph_names.hpp"
 #include "programs/ros/topic_graph.hpp"
 
 namespace launch {
@@ -24,8 +23,7 @@ class TopicPub final : public Verb {
   void declare(CLI::App& app) override {
     app.add_option("topic", topic_, "name of the topic")->required();
     app.add_option("type", type_, "type of the messages, such as std_msgs/msg/String")->required();
-    CLI::Option* const values = app.add_option("values", values_, "the message as YAML; default: {}");
-    app.add_flag("--stdin", stdin_, "read the message from standard input")->excludes(values);
+    values_.declare(app, "values", "message");
     app.add_option("-r,--rate", rate_, "messages in a second")->check(CLI::PositiveNumber)->capture_default_str();
     app.add_option("-p,--print", print_nth_, "print each N-th message")
         ->check(CLI::NonNegativeNumber)
@@ -48,10 +46,7 @@ class TopicPub final : public Verb {
   int run() override {
     const std::string topic = full_name(topic_);
     const std::shared_ptr<const MessageType> type = installed_interfaces().message(type_);
-    if (stdin_) {
-      values_.assign(std::istreambuf_iterator<char>(std::cin), {});
-    }
-    MessageText message = read_message(*type, word_of_command_line(stdin_ ? "standard input" : "values", values_));
+    MessageText message = read_message(*type, values_.read("values"));
     times_ = once_ ? 1 : times_;
     const std::size_t wanted = wait_.value_or(times_ != 0 ? 1 : 0);
     if (wanted == 0 && longest_wait_) {
@@ -72,20 +67,17 @@ class TopicPub final : public Verb {
       }
       publisher.publish(message.value);
       next += period;
-      while (count != times_ && !GraphSession::is_stopped() && SessionClock::now() < next) {
-        session.wait({}, next);
+      if (count != times_) {
+        session.sleep_until(next);
       }
     }
     publisher.wait_for_all_acked(kAckPatience);
-    const auto end = SessionClock::now() + std::chrono::duration_cast<SessionClock::duration>(Seconds(keep_alive_));
-    while (!GraphSession::is_stopped() && SessionClock::now() < end) {
-      session.wait({}, end);
-    }
+    session.sleep_until(SessionClock::now() + std::chrono::duration_cast<SessionClock::duration>(Seconds(keep_alive_)));
     return 0;
   }
 
   std::vector<std::string> complete(const std::vector<std::string>& words) override {
-    return words.empty()       ? topic_names()
+    return words.empty()       ? all_names(kTopics)
            : words.size() == 1 ? types_of_topic_or_all(words.front())
                                : std::vector<std::string>();
   }
@@ -109,8 +101,9 @@ class TopicPub final : public Verb {
     return true;
   }
 
-  std::string topic_, type_, values_ = "{}", node_name_;
-  bool stdin_ = false, once_ = false;
+  std::string topic_, type_, node_name_;
+  ValuesOption values_;
+  bool once_ = false;
   double rate_ = 1.0;
   std::uint64_t print_nth_ = 1;
   std::uint64_t times_ = 0;
@@ -123,8 +116,8 @@ class TopicPub final : public Verb {
 
 }  // namespace
 
-std::unique_ptr<Verb> make_topic_pub() {
-  return std::make_unique<TopicPub>();
+std::vector<VerbInfo> topic_pub_verbs() {
+  return {{"topic", "pub", "publishes messages", make_verb<TopicPub>}};
 }
 
 }  // namespace launch

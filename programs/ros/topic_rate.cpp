@@ -9,6 +9,7 @@
 #include "launcher/message_types/message_condition.hpp"
 #include "launcher/message_types/message_part.hpp"
 #include "programs/ros/endpoints.hpp"
+#include "programs/ros/graph_names.hpp"
 #include "programs/ros/rate_statistics.hpp"
 #include "programs/ros/topic_graph.hpp"
 
@@ -102,7 +103,7 @@ class TopicHz final : public Verb {
 
   std::vector<std::string> complete(const std::vector<std::string>& words) override {
     (void)words;
-    return topic_names();
+    return all_names(kTopics);
   }
 
  private:
@@ -136,10 +137,13 @@ class TopicHz final : public Verb {
   std::map<std::string, MessageCondition> conditions_;
 };
 
-class TopicBw final : public Verb {
+// Commands that measure one topic.
+class OneTopicVerb : public Verb {
  public:
+  explicit OneTopicVerb(std::string help = "name of the topic") : help_(std::move(help)) {}
+
   void declare(CLI::App& app) override {
-    app.add_option("topic", topic_, "name of the topic")->required();
+    app.add_option("topic", topic_, help_)->required();
     app.add_option("-w,--window", window_, "the last so many messages count")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
@@ -147,6 +151,22 @@ class TopicBw final : public Verb {
     look_.declare(app);
   }
 
+  std::vector<std::string> complete(const std::vector<std::string>& words) override {
+    return words.empty() ? all_names(kTopics) : std::vector<std::string>();
+  }
+
+ protected:
+  std::string topic_;
+  std::size_t window_ = 100;
+  QosOptions qos_;
+  LookOptions look_;
+
+ private:
+  std::string help_;
+};
+
+class TopicBw final : public OneTopicVerb {
+ public:
   int run() override {
     GraphSession session;
     std::vector<Measured> measured;
@@ -163,28 +183,11 @@ class TopicBw final : public Verb {
     }
     return 0;
   }
-
-  std::vector<std::string> complete(const std::vector<std::string>& words) override {
-    return words.empty() ? topic_names() : std::vector<std::string>();
-  }
-
- private:
-  std::string topic_;
-  std::size_t window_ = 100;
-  QosOptions qos_;
-  LookOptions look_;
 };
 
-class TopicDelay final : public Verb {
+class TopicDelay final : public OneTopicVerb {
  public:
-  void declare(CLI::App& app) override {
-    app.add_option("topic", topic_, "name of the topic; its messages have a header")->required();
-    app.add_option("-w,--window", window_, "the last so many messages count")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
-    qos_.declare(app, "subscribe", "sensor_data");
-    look_.declare(app);
-  }
+  TopicDelay() : OneTopicVerb("name of the topic; its messages have a header") {}
 
   int run() override {
     GraphSession session;
@@ -221,28 +224,14 @@ class TopicDelay final : public Verb {
         });
     return 0;
   }
-
-  std::vector<std::string> complete(const std::vector<std::string>& words) override {
-    return words.empty() ? topic_names() : std::vector<std::string>();
-  }
-
- private:
-  std::string topic_;
-  std::size_t window_ = 100;
-  QosOptions qos_;
-  LookOptions look_;
 };
 
 }  // namespace
 
-std::unique_ptr<Verb> make_topic_hz() {
-  return std::make_unique<TopicHz>();
-}
-std::unique_ptr<Verb> make_topic_bw() {
-  return std::make_unique<TopicBw>();
-}
-std::unique_ptr<Verb> make_topic_delay() {
-  return std::make_unique<TopicDelay>();
+std::vector<VerbInfo> topic_rate_verbs() {
+  return {{"topic", "bw", "measures the bytes that come on a topic", make_verb<TopicBw>},
+          {"topic", "delay", "measures how old the messages of a topic are when they come", make_verb<TopicDelay>},
+          {"topic", "hz", "measures how often messages come", make_verb<TopicHz>}};
 }
 
 }  // namespace launch

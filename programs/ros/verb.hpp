@@ -58,6 +58,12 @@ struct VerbInfo {
   std::unique_ptr<Verb> (*make)();
 };
 
+template <typename V, typename... Arguments>
+std::unique_ptr<Verb> make_verb(const Arguments&... arguments) {
+  return std::make_unique<V>(arguments...);
+}
+
+// Those of a command in the order of their names.
 const std::vector<VerbInfo>& all_verbs();
 
 // The interfaces that this process finds.
@@ -76,47 +82,21 @@ bool is_hidden(std::string_view name);
 // Writes to standard output at once.
 void put(std::string_view text);
 
-std::unique_ptr<Verb> make_clock();
-std::unique_ptr<Verb> make_topic_list();
-std::unique_ptr<Verb> make_topic_info();
-std::unique_ptr<Verb> make_topic_type();
-std::unique_ptr<Verb> make_topic_find();
-std::unique_ptr<Verb> make_topic_echo();
-std::unique_ptr<Verb> make_topic_hz();
-std::unique_ptr<Verb> make_topic_bw();
-std::unique_ptr<Verb> make_topic_delay();
-std::unique_ptr<Verb> make_topic_pub();
-std::unique_ptr<Verb> make_node_info();
-std::unique_ptr<Verb> make_node_list();
-std::unique_ptr<Verb> make_service_call();
-std::unique_ptr<Verb> make_service_find();
-std::unique_ptr<Verb> make_service_info();
-std::unique_ptr<Verb> make_service_list();
-std::unique_ptr<Verb> make_service_type();
-std::unique_ptr<Verb> make_param_delete();
-std::unique_ptr<Verb> make_param_describe();
-std::unique_ptr<Verb> make_param_dump();
-std::unique_ptr<Verb> make_param_get();
-std::unique_ptr<Verb> make_param_list();
-std::unique_ptr<Verb> make_param_load();
-std::unique_ptr<Verb> make_param_set();
-std::unique_ptr<Verb> make_action_info();
-std::unique_ptr<Verb> make_action_list();
-std::unique_ptr<Verb> make_action_send_goal();
-std::unique_ptr<Verb> make_action_type();
-std::unique_ptr<Verb> make_loglevel();
-std::unique_ptr<Verb> make_lifecycle_get();
-std::unique_ptr<Verb> make_lifecycle_list();
-std::unique_ptr<Verb> make_lifecycle_nodes();
-std::unique_ptr<Verb> make_lifecycle_set();
-std::unique_ptr<Verb> make_component_list();
-std::unique_ptr<Verb> make_component_load();
-std::unique_ptr<Verb> make_component_types();
-std::unique_ptr<Verb> make_component_unload();
-std::unique_ptr<Verb> make_interface_list();
-std::unique_ptr<Verb> make_interface_package();
-std::unique_ptr<Verb> make_interface_packages();
-std::unique_ptr<Verb> make_interface_proto();
-std::unique_ptr<Verb> make_interface_show();
+// The verbs that a file has.
+std::vector<VerbInfo> action_verbs();
+std::vector<VerbInfo> clock_verbs();
+std::vector<VerbInfo> component_verbs();
+std::vector<VerbInfo> graph_name_verbs();
+std::vector<VerbInfo> interface_verbs();
+std::vector<VerbInfo> lifecycle_verbs();
+std::vector<VerbInfo> loglevel_verbs();
+std::vector<VerbInfo> node_verbs();
+std::vector<VerbInfo> param_file_verbs();
+std::vector<VerbInfo> param_verbs();
+std::vector<VerbInfo> service_verbs();
+std::vector<VerbInfo> topic_echo_verbs();
+std::vector<VerbInfo> topic_info_verbs();
+std::vector<VerbInfo> topic_pub_verbs();
+std::vector<VerbInfo> topic_rate_verbs();
 
 }  // namespace launch

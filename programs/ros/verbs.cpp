@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <tuple>
 
 #include "base/environment/own_environment.hpp"
 #include "base/environment/own_prefix.hpp"
@@ -12,50 +13,21 @@
 namespace launch {
 
 const std::vector<VerbInfo>& all_verbs() {
-  static const std::vector<VerbInfo> verbs = {
-      {"topic", "bw", "measures the bytes that come on a topic", make_topic_bw},
-      {"topic", "delay", "measures how old the messages of a topic are when they come", make_topic_delay},
-      {"topic", "echo", "prints the messages of a topic", make_topic_echo},
-      {"topic", "find", "lists the topics of a type", make_topic_find},
-      {"topic", "hz", "measures how often messages come", make_topic_hz},
-      {"topic", "info", "describes a topic", make_topic_info},
-      {"topic", "list", "lists the topics", make_topic_list},
-      {"topic", "pub", "publishes messages", make_topic_pub},
-      {"topic", "type", "prints the type of a topic", make_topic_type},
-      {"node", "info", "describes a node", make_node_info},
-      {"node", "list", "lists the nodes", make_node_list},
-      {"service", "call", "calls a service", make_service_call},
-      {"service", "find", "lists the services of a type", make_service_find},
-      {"service", "info", "describes a service", make_service_info},
-      {"service", "list", "lists the services", make_service_list},
-      {"service", "type", "prints the type of a service", make_service_type},
-      {"param", "delete", "deletes a parameter", make_param_delete},
-      {"param", "describe", "describes parameters", make_param_describe},
-      {"param", "dump", "prints all parameters of a node as a parameter file", make_param_dump},
-      {"param", "get", "prints the value of a parameter", make_param_get},
-      {"param", "list", "lists the parameters", make_param_list},
-      {"param", "load", "sets the parameters of a parameter file", make_param_load},
-      {"param", "set", "sets a parameter", make_param_set},
-      {"action", "info", "describes an action", make_action_info},
-      {"action", "list", "lists the actions", make_action_list},
-      {"action", "send_goal", "sends a goal and waits for its result", make_action_send_goal},
-      {"action", "type", "prints the type of an action", make_action_type},
-      {"lifecycle", "get", "prints the state of nodes with a life cycle", make_lifecycle_get},
-      {"lifecycle", "list", "lists the transitions of a node", make_lifecycle_list},
-      {"lifecycle", "nodes", "lists the nodes with a life cycle", make_lifecycle_nodes},
-      {"lifecycle", "set", "makes a transition", make_lifecycle_set},
-      {"clock", "", "publishes simulated time on /clock", make_clock},
-      {"loglevel", "", "prints or sets the level of the loggers of nodes", make_loglevel},
-      {"component", "list", "lists containers and their components", make_component_list},
-      {"component", "load", "loads a component into a container", make_component_load},
-      {"component", "types", "lists the components that are installed", make_component_types},
-      {"component", "unload", "unloads components from a container", make_component_unload},
-      {"interface", "list", "lists the installed interfaces", make_interface_list},
-      {"interface", "package", "lists the interfaces of a package", make_interface_package},
-      {"interface", "packages", "lists the packages that have interfaces", make_interface_packages},
-      {"interface", "proto", "prints a message with its defaults, to be edited", make_interface_proto},
-      {"interface", "show", "prints the definition of an interface", make_interface_show},
-  };
+  static const std::vector<VerbInfo> verbs = [] {
+    std::vector<VerbInfo> all;
+    for (const auto& verbs_of_file :
+         {action_verbs, clock_verbs, component_verbs, graph_name_verbs, interface_verbs, lifecycle_verbs,
+          loglevel_verbs, node_verbs, param_file_verbs, param_verbs, service_verbs, topic_echo_verbs, topic_info_verbs,
+          topic_pub_verbs, topic_rate_verbs}) {
+      for (VerbInfo& verb : verbs_of_file()) {
+        all.push_back(std::move(verb));
+      }
+    }
+    std::sort(all.begin(), all.end(), [](const VerbInfo& a, const VerbInfo& b) {
+      return std::tie(a.command, a.name) < std::tie(b.command, b.name);
+    });
+    return all;
+  }();
   return verbs;
 }
 

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// launch topic info
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "programs/ros/graph_names.hpp"
+#include "programs/ros/qos_text.hpp"
+#include "programs/ros/topic_graph.hpp"
+
+namespace launch {
+
+namespace {
+
+class TopicInfo final : public Verb {
+ public:
+  void declare(CLI::App& app) override {
+    app.add_option("topic", topic_, "name of the topic")->required();
+    look_.declare(app);
+    app.add_flag("-v,--verbose", verbose_, "also print node, type, GID and quality of service of each end");
+  }
+
+  int run() override {
+    const std::string topic = full_name(topic_);
+    GraphSession session;
+    session.discover(look_.time());
+    const std::vector<std::string> types = types_of(session, kTopics, topic);
+    const char* const line_end = verbose_ ? "\n\n" : "\n";
+    put(types.size() == 1 ? fmt::format("Type: {}{}", types.front(), line_end)
+                          : fmt::format("Type: ['{}']{}", fmt::join(types, "', '"), line_end));
+    put(fmt::format("Publisher count: {}{}", session.node().count_publishers(topic), line_end));
+    if (verbose_) {
+      put_endpoints(session.node().get_publishers_info_by_topic(topic));
+    }
+    put(fmt::format("Subscription count: {}{}", session.node().count_subscribers(topic), line_end));
+    if (verbose_) {
+      put_endpoints(session.node().get_subscriptions_info_by_topic(topic));
+    }
+    return 0;
+  }
+
+  std::vector<std::string> complete(const std::vector<std::string>& words) override {
+    return words.empty() ? all_names(kTopics) : std::vector<std::string>();
+  }
+
+ private:
+  static void put_endpoints(const std::vector<rclcpp::TopicEndpointInfo>& endpoints) {
+    for (const rclcpp::TopicEndpointInfo& endpoint : endpoints) {
+      put(endpoint_text(endpoint) + "\n\n");
+    }
+  }
+
+  std::string topic_;
+  LookOptions look_;
+  bool verbose_ = false;
+};
+
+}  // namespace
+
+std::vector<VerbInfo> topic_info_verbs() {
+  return {{"topic", "info", "describes a topic", make_verb<TopicInfo>}};
+}
+
+}  // namespace launch
