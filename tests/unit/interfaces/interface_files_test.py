@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The generator reads the files of tests/golden/interfaces as their `.expected` say.
 
-tests/unit/messages/interface_files_test.cpp expects the same of the launcher's own parser, so both read alike. A line that
-begins with `generator:` or `launcher:` is for one of the two. With LAUNCH_UPDATE_GOLDEN=1 expected texts that are missing
-are written; read them before committing.
+tests/unit/messages/interface_files_test.cpp expects the same of the launcher's own parser, so both read alike. A line
+that begins with `generator:` or `launcher:` is for one of the two. With LAUNCH_UPDATE_GOLDEN=1 expected texts that are
+missing are written; read them before committing.
 """
 
 import json
@@ -52,8 +52,9 @@ def content(path):
     for message in messages[:max(1, len(PARTS[namespace]))]:
         lines.append(message.name)
         lines += [f'  constant {type_text(c.type)} {c.name} = {value_text(c.value)}' for c in message.constants]
-        lines += [f'  field {type_text(f.type)} {f.name}' + ('' if is_zero(f.default) else f' = {value_text(f.default)}')
-                  for f in message.fields]
+        for field in message.fields:
+            default = '' if is_zero(field.default) else f' = {value_text(field.default)}'
+            lines.append(f'  field {type_text(field.type)} {field.name}{default}')
     return lines
 
 
