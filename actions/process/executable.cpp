@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // <executable cmd="…"/>: runs any program.
-#include "actions/process/process_fields.hpp"
+#include "actions/process/process_settings.hpp"
 
 namespace launch {
 
@@ -8,48 +8,39 @@ namespace {
 
 class ExecuteProcess : public Action {
  public:
-  explicit ExecuteProcess(const Fields& fields)
-      : Action(fields.where(), fields.condition()),
-        command_(fields.words("cmd")),
-        command_where_(fields.where("cmd")),
-        name_(fields.optional_text("name")),
-        process_(fields) {}
+  explicit ExecuteProcess(const Fields& fields) : Action(fields.where(), fields.condition()), fields_(fields) {
+    check_process(fields_);
+  }
 
  protected:
   void execute(LaunchContext& context) const override {
     ProcessSpec spec;
-    for (const Template& word : command_) {
+    for (const Template& word : fields_.words("cmd")) {
       spec.argv.push_back(word.perform(context.scope()));
     }
     if (spec.argv.empty() || spec.argv.front().empty()) {
-      throw LaunchError("the command is empty", command_where_);
+      throw LaunchError("the command is empty", fields_.where("cmd"));
     }
-    if (name_) {
-      spec.name = name_->perform(context.scope());
+    if (fields_.has("name")) {
+      spec.name = fields_.text("name").perform(context.scope());
     }
-    process_.request(context, std::move(spec));
+    request_process(fields_, context, std::move(spec));
   }
 
  private:
-  std::vector<Template> command_;
-  SourceRange command_where_;
-  std::optional<Template> name_;
-  ProcessFields process_;
+  Fields fields_;
 };
 
 }  // namespace
 
 ActionType executable_action() {
-  std::vector<AttributeSpec> attributes = {
-      {"cmd", AttributeType::kCommandLine, true, "", "the command line; split into words, not run by a shell"},
-      {"name", AttributeType::kText, false, "base name of the program", "label of the process"}};
-  const std::vector<AttributeSpec> common = ProcessFields::attributes();
-  attributes.insert(attributes.end(), common.begin(), common.end());
   return {
       .tag = "executable",
       .help = "Runs a program.",
-      .attributes = std::move(attributes),
-      .items = ProcessFields::items(),
+      .attributes = with_process_attributes(
+          {{"cmd", AttributeType::kCommandLine, true, "", "the command line; split into words, not run by a shell"},
+           {"name", AttributeType::kText, false, "base name of the program", "label of the process"}}),
+      .items = process_items(),
       .make = [](const Fields& fields) { return std::make_shared<ExecuteProcess>(fields); },
   };
 }

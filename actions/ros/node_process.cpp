@@ -39,56 +39,46 @@ void append_global_parameters(ProcessSpec& spec, LaunchContext& context) {
 }  // namespace
 
 std::vector<AttributeSpec> NodeProcess::attributes(bool named) {
-  std::vector<AttributeSpec> attributes = {
-      {"exec", AttributeType::kText, true, "", "the program, looked up in the package"},
-      {"pkg", AttributeType::kText, false, "", "the package; none: exec is a path or found on PATH"},
-      {"name", AttributeType::kText, named, named ? "" : "the program decides", "name of the node"},
-      {"exec_name", AttributeType::kText, false, "base name of the program", "label of the process"},
-      {"namespace", AttributeType::kText, named, "", "namespace of the node, below that of the scope"},
-      {"args", AttributeType::kCommandLine, false, "", "more arguments, before --ros-args"},
-      {"ros_args", AttributeType::kCommandLine, false, "", "more ROS arguments, after --ros-args"}};
-  const std::vector<AttributeSpec> common = ProcessFields::attributes();
-  attributes.insert(attributes.end(), common.begin(), common.end());
-  return attributes;
+  return with_process_attributes(
+      {{"exec", AttributeType::kText, true, "", "the program, looked up in the package"},
+       {"pkg", AttributeType::kText, false, "", "the package; none: exec is a path or found on PATH"},
+       {"name", AttributeType::kText, named, named ? "" : "the program decides", "name of the node"},
+       {"exec_name", AttributeType::kText, false, "base name of the program", "label of the process"},
+       {"namespace", AttributeType::kText, named, "", "namespace of the node, below that of the scope"},
+       {"args", AttributeType::kCommandLine, false, "", "more arguments, before --ros-args"},
+       {"ros_args", AttributeType::kCommandLine, false, "", "more ROS arguments, after --ros-args"}});
 }
 
 std::vector<ItemSpec> NodeProcess::items() {
-  std::vector<ItemSpec> items = ProcessFields::items();
+  std::vector<ItemSpec> items = process_items();
   items.push_back(Parameters::item());
   items.push_back(remap_item());
   return items;
 }
 
-NodeProcess::NodeProcess(const Fields& fields)
-    : where_(fields.where()),
-      package_(fields.optional_text("pkg")),
-      executable_(fields.text("exec")),
-      name_(fields.optional_text("name")),
-      exec_name_(fields.optional_text("exec_name")),
-      namespace_(fields.optional_text("namespace")),
-      arguments_(fields.words("args")),
-      ros_arguments_(fields.optional_words("ros_args")),
-      remaps_(remaps_of(fields)),
-      process_(fields) {
-  const std::vector<const Fields*> parameters = fields.items("param");
+NodeProcess::NodeProcess(const Fields& fields) : fields_(fields) {
+  const std::vector<const Fields*> parameters = fields_.items("param");
   parameters_.reserve(parameters.size());
   for (const Fields* parameter : parameters) {
     parameters_.emplace_back(*parameter);
   }
+  check_process(fields_);
 }
 
 std::string NodeProcess::request(LaunchContext& context) const {
   Scope& scope = context.scope();
   ProcessSpec spec;
-  spec.argv.reserve(arguments_.size() + 2 * (parameters_.size() + remaps_.size()) + 8);
+  const std::vector<Template> arguments = fields_.words("args");
+  const std::vector<const Fields*> remaps = fields_.items("remap");
+  spec.argv.reserve(arguments.size() + 2 * (parameters_.size() + remaps.size()) + 8);
   spec.files.reserve(parameters_.size());
   spec.argv.push_back(program(scope));
-  for (const Template& word : arguments_) {
+  for (const Template& word : arguments) {
     spec.argv.push_back(word.perform(scope));
   }
-  if (ros_arguments_) {
+  if (fields_.has("ros_args")) {
     spec.argv.push_back("--ros-args");
-    for (const Template& word : *ros_arguments_) {
+    for (const Template& word : fields_.words("ros_args")) {
       spec.argv.push_back(word.perform(scope));
     }
   }
@@ -96,10 +86,10 @@ std::string NodeProcess::request(LaunchContext& context) const {
 
   NodeDescription node;
   node.process = context.requests().processes.size();
-  node.package = package_ ? std::optional(package_->perform(scope)) : std::nullopt;
-  node.executable = executable_.perform(scope);
+  node.package = fields_.has("pkg") ? std::optional(fields_.text("pkg").perform(scope)) : std::nullopt;
+  node.executable = fields_.text("exec").perform(scope);
   node.name = node_name(scope);
-  node.name_space = resolve_namespace(namespace_, scope, where_);
+  node.name_space = resolve_namespace(fields_.optional_text("namespace"), scope, fields_.where());
   const auto remap = [&](std::string rule) {
     spec.argv.emplace_back("-r");
     spec.argv.push_back(std::move(rule));
@@ -124,10 +114,10 @@ std::string NodeProcess::request(LaunchContext& context) const {
   for (const auto& [from, to] : scope.global_remaps) {
     remap(from + ":=" + to);
   }
-  for (const auto& [from, to] : remaps_) {
-    const std::string before = from.perform(scope);
-    const std::string after = to.perform(scope);
-    find_invalid_remap(before, from.where(), after, to.where(), context);
+  for (const Fields* each : remaps) {
+    const std::string before = each->text("from").perform(scope);
+    const std::string after = each->text("to").perform(scope);
+    find_invalid_remap(before, each->where("from"), after, each->where("to"), context);
     remap(before + ":=" + after);
   }
 
@@ -139,20 +129,20 @@ std::string NodeProcess::request(LaunchContext& context) const {
     }
   }
 
-  if (exec_name_) {
-    spec.name = exec_name_->perform(scope);
+  if (fields_.has("exec_name")) {
+    spec.name = fields_.text("exec_name").perform(scope);
   }
-  process_.request(context, std::move(spec));
+  request_process(fields_, context, std::move(spec));
   context.requests().nodes.push_back(std::move(node));
   return full_name;
 }
 
 std::string NodeProcess::program(Scope& scope) const {
-  const std::string executable = executable_.perform(scope);
-  if (!package_) {
+  const std::string executable = fields_.text("exec").perform(scope);
+  if (!fields_.has("pkg")) {
     return executable;
   }
-  const std::string package = package_->perform(scope);
+  const std::string package = fields_.text("pkg").perform(scope);
   try {
     return scope.packages->executable(executable, package, scope.environment);
   } catch (const std::runtime_error& error) {
@@ -160,22 +150,22 @@ std::string NodeProcess::program(Scope& scope) const {
     try {
       scope.packages->prefix(package, scope.environment);
     } catch (const std::runtime_error&) {
-      throw LaunchError(error.what(), package_->where(), scope.packages->help_for_missing(package, scope.environment),
-                        Finding::kMissingPackage);
+      throw LaunchError(error.what(), fields_.where("pkg"),
+                        scope.packages->help_for_missing(package, scope.environment), Finding::kMissingPackage);
     }
-    throw LaunchError(error.what(), executable_.where(),
+    throw LaunchError(error.what(), fields_.where("exec"),
                       did_you_mean(executable, scope.packages->executables(package, scope.environment)),
                       Finding::kMissingProgram);
   }
 }
 
 std::optional<std::string> NodeProcess::node_name(Scope& scope) const {
-  if (!name_) {
+  if (!fields_.has("name")) {
     return std::nullopt;
   }
-  std::string name = name_->perform(scope);
+  std::string name = fields_.text("name").perform(scope);
   if (!is_valid_node_name(name)) {
-    throw LaunchError(fmt::format("invalid node name '{}'", name), name_->where(),
+    throw LaunchError(fmt::format("invalid node name '{}'", name), fields_.where("name"),
                       "use letters, digits and underscores, not starting with a digit", Finding::kInvalidName);
   }
   return name;

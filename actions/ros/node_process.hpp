@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "actions/process/process_fields.hpp"
+#include "actions/process/process_settings.hpp"
 #include "actions/ros/parameters.hpp"
 
 namespace launch {
@@ -28,17 +28,8 @@ class NodeProcess {
   std::string program(Scope& scope) const;
   std::optional<std::string> node_name(Scope& scope) const;
 
-  SourceRange where_;
-  std::optional<Template> package_;
-  Template executable_;
-  std::optional<Template> name_;
-  std::optional<Template> exec_name_;
-  std::optional<Template> namespace_;
-  std::vector<Template> arguments_;
-  std::optional<std::vector<Template>> ros_arguments_;
+  Fields fields_;
   std::vector<Parameters> parameters_;
-  std::vector<std::pair<Template, Template>> remaps_;
-  ProcessFields process_;
 };
 
 // The <remap> items of nodes and components.

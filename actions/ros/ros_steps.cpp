@@ -6,7 +6,7 @@
 
 #include <functional>
 
-#include "actions/process/process_fields.hpp"
+#include "actions/process/process_settings.hpp"
 #include "actions/ros/lifecycle_names.hpp"
 #include "actions/values/message_texts.hpp"
 #include "base/environment/own_prefix.hpp"
@@ -45,9 +45,9 @@ class RosStep : public Action {
   RosStep(const Fields& fields, const StepType& type)
       : Action(fields.where(), fields.condition()),
         type_(type),
-        name_(fields.optional_text("name")),
-        condition_(fields.optional_text("where")),
-        process_(fields) {
+        fields_(fields),
+        condition_(fields.optional_text("where")) {
+    check_process(fields_);
     for (const std::string& word : type_.words) {
       words_.push_back(fields.optional_text(word));
     }
@@ -88,8 +88,8 @@ class RosStep : public Action {
       spec.argv.emplace_back("--");
     }
     spec.argv.insert(spec.argv.end(), words.begin(), words.end());
-    spec.name = name_ ? name_->perform(scope) : type_.tag;
-    process_.request(context, std::move(spec));
+    spec.name = fields_.has("name") ? fields_.text("name").perform(scope) : type_.tag;
+    request_process(fields_, context, std::move(spec));
   }
 
  private:
@@ -109,11 +109,10 @@ class RosStep : public Action {
   }
 
   const StepType& type_;
+  Fields fields_;
   std::vector<std::optional<Template>> words_;
   std::vector<std::optional<NumberField>> numbers_;
-  std::optional<Template> name_;
   std::optional<Template> condition_;
-  ProcessFields process_;
 };
 
 AttributeSpec text(const char* name, const char* help) {
@@ -128,12 +127,10 @@ AttributeSpec values(const char* help) {
 ActionType action_of(const StepType& type) {
   std::vector<AttributeSpec> attributes = type.attributes;
   attributes.push_back({"name", AttributeType::kText, false, type.tag, "label of the process"});
-  const std::vector<AttributeSpec> common = ProcessFields::attributes();
-  attributes.insert(attributes.end(), common.begin(), common.end());
   return {.tag = type.tag,
           .help = type.help,
-          .attributes = std::move(attributes),
-          .items = ProcessFields::items(),
+          .attributes = with_process_attributes(std::move(attributes)),
+          .items = process_items(),
           .extension = true,
           .make = [&type](const Fields& fields) { return std::make_shared<RosStep>(fields, type); }};
 }

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "actions/process/resource_fields.hpp"
+#include "actions/process/resource_settings.hpp"
 
 namespace launch {
 

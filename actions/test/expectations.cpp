@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "actions/process/resource_fields.hpp"
+#include "actions/process/resource_settings.hpp"
 #include "actions/test/expectation_fields.hpp"
 #include "actions/values/ros_condition.hpp"
 

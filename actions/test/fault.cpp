@@ -12,7 +12,7 @@
 #include <chrono>
 
 #include "actions/process/depends_on.hpp"
-#include "actions/process/resource_fields.hpp"
+#include "actions/process/resource_settings.hpp"
 #include "actions/test/clock_fault.hpp"
 #include "actions/test/disk_fault.hpp"
 #include "actions/test/expectation_fields.hpp"

@@ -25,10 +25,10 @@ AttributeSpec extension(const char* name, Type type, const std::string& fallback
   return {name, type, false, fallback, help, true};
 }
 
-// The place of a member of the struct, or of one of its parts.
+// The place of a member of the trace, or of what the launcher does with it.
 template <typename Member>
 auto at(Member Config::*member) {
-  return [member](TraceRequest& request) -> SettingPlace { return &(request.config.*member); };
+  return place_of(&TraceRequest::config, member);
 }
 template <typename Member>
 auto at(Member tracing::ChannelBuffers::*member) {
@@ -36,11 +36,7 @@ auto at(Member tracing::ChannelBuffers::*member) {
 }
 template <typename Member, typename Struct>
 auto of_choices(Member Struct::*member) {
-  return [member](TraceRequest& request) -> SettingPlace { return &(request.choices.*member); };
-}
-template <typename Member>
-auto of_channel(Member Channel::*member) {
-  return [member](Channel& channel) -> SettingPlace { return &(channel.*member); };
+  return place_of(&TraceRequest::choices, member);
 }
 
 enum class Tracepoints { kUserspace /* PROVIDER:NAME */, kKernel /* NAME */ };
@@ -348,30 +344,30 @@ std::vector<Setting<Channel>> make_channel_settings() {
     return AttributeSpec{name, type, false, "as the domain's own channel", help};
   };
   return {
-      {.attribute = {"name", Type::kText, true, "", "its name"}, .place = of_channel(&Channel::name)},
+      {.attribute = {"name", Type::kText, true, "", "its name"}, .place = place_of(&Channel::name)},
       {.attribute = {"events-ust", Type::kWords, false, "none", "userspace events"},
        .perform = events<Channel>("events-ust", Tracepoints::kUserspace,
                                   [](Channel& channel) -> auto& { return channel.events_ust; })},
       {.attribute = {"events-kernel", Type::kWords, false, "none", "kernel tracepoints"},
        .perform = events<Channel>("events-kernel", Tracepoints::kKernel,
                                   [](Channel& channel) -> auto& { return channel.events_kernel; })},
-      {.attribute = {"syscalls", Type::kWords, false, "none", "system calls"}, .place = of_channel(&Channel::syscalls)},
+      {.attribute = {"syscalls", Type::kWords, false, "none", "system calls"}, .place = place_of(&Channel::syscalls)},
       {.attribute = {"context-fields", Type::kWords, false, "those of the trace", ""},
        .perform = [](const Fields& fields, Scope& scope,
                      Channel& channel) { channel.context_fields = perform_names(fields, "context-fields", scope); }},
-      {.attribute = own("subbuffer-size", Type::kInteger, "bytes"), .place = of_channel(&Channel::subbuffer_size)},
+      {.attribute = own("subbuffer-size", Type::kInteger, "bytes"), .place = place_of(&Channel::subbuffer_size)},
       {.attribute = own("subbuffer-count", Type::kInteger, "sub-buffers for each processor"),
-       .place = of_channel(&Channel::subbuffer_count)},
+       .place = place_of(&Channel::subbuffer_count)},
       {.attribute = own("read-timer", Type::kInteger, "microseconds between two reads of the buffers"),
-       .place = of_channel(&Channel::read_timer)},
+       .place = place_of(&Channel::read_timer)},
       {.attribute =
            own("switch-timer", Type::kInteger, "microseconds until a part-full sub-buffer is written; 0: never"),
-       .place = of_channel(&Channel::switch_timer)},
+       .place = place_of(&Channel::switch_timer)},
       {.attribute = own("overwrite", Type::kBoolean, "lose the oldest events, not the newest"),
-       .place = of_channel(&Channel::overwrite)},
+       .place = place_of(&Channel::overwrite)},
       {.attribute = {"blocking-timeout", Type::kInteger, false, "0",
                      "microseconds that a traced thread waits for room; -1: for ever"},
-       .place = of_channel(&Channel::blocking_timeout)},
+       .place = place_of(&Channel::blocking_timeout)},
   };
 }
 

@@ -27,18 +27,20 @@ struct WithoutOptional<std::optional<Value>> {
 template <typename Pointer>
 using ValueAt = typename WithoutOptional<std::remove_pointer_t<Pointer>>::Type;
 
-template <typename Value>
-constexpr bool kIsCount = std::is_unsigned_v<Value> && !std::is_same_v<Value, bool>;
+using Duration = std::chrono::nanoseconds;
 
 template <typename Value>
-Value read_number(const AttributeSpec& attribute, const Fields& fields, Scope& scope) {
-  NumberField field = *fields.number(attribute.name);
-  if constexpr (kIsCount<Value>) {
-    field.require_not_negative();
-  }
-  const double number = field.perform(scope);
+constexpr bool kIsCount = std::is_unsigned_v<Value> && !std::is_same_v<Value, bool>;
+template <typename Value>
+constexpr bool kIsFromZero =
+    kIsCount<Value> || std::is_same_v<Value, Duration> || std::is_same_v<Value, NumberFromZero>;
+
+template <typename Value>
+Value to_value(double number) {
   if constexpr (std::is_same_v<Value, std::uint32_t>) {
     return static_cast<Value>(std::min<double>(number, std::numeric_limits<Value>::max()));
+  } else if constexpr (std::is_same_v<Value, Duration>) {
+    return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(number));
   } else {
     return static_cast<Value>(number);
   }
@@ -61,11 +63,15 @@ std::size_t read_choice(const AttributeSpec& attribute, const Fields& fields, Sc
 void check_setting(const AttributeSpec& attribute, const Fields& fields, const SettingPlace& place) {
   std::visit(
       [&](const auto& at) {
-        if constexpr (kIsCount<ValueAt<std::decay_t<decltype(at)>>>) {
+        if constexpr (kIsFromZero<ValueAt<std::decay_t<decltype(at)>>>) {
           fields.number(attribute.name)->require_not_negative();
         }
       },
       place);
+}
+
+bool is_literal(const AttributeSpec& attribute, const Fields& fields) {
+  return attribute.type == AttributeType::kLiteral || fields.text(attribute.name).is_literal();
 }
 
 void perform_setting(const AttributeSpec& attribute, const Fields& fields, Scope& scope, const SettingPlace& place) {
@@ -82,7 +88,16 @@ void perform_setting(const AttributeSpec& attribute, const Fields& fields, Scope
         } else if constexpr (std::is_same_v<Read, std::vector<std::string>>) {
           *at = perform_names(fields, attribute.name, scope);
         } else {
-          *at = read_number<Read>(attribute, fields, scope);
+          NumberField field = *fields.number(attribute.name);
+          if constexpr (kIsFromZero<Read>) {
+            field.require_not_negative();
+          }
+          const double number = field.perform(scope);
+          if constexpr (std::is_same_v<Place, NumberFromZero>) {
+            *at.number = number;
+          } else {
+            *at = to_value<Read>(number);
+          }
         }
       },
       place);
@@ -95,10 +110,14 @@ SettingValue shown_value(const SettingPlace& place) {
         using Shown = std::remove_pointer_t<Place>;
         if constexpr (std::is_same_v<Place, SettingChoice>) {
           return at.words[at.chosen];
+        } else if constexpr (std::is_same_v<Place, NumberFromZero>) {
+          return shown_value(at.number);
         } else if constexpr (!std::is_same_v<Shown, ValueAt<Place>>) {  // optional
           return *at ? shown_value(&**at) : SettingValue(std::string());
         } else if constexpr (std::is_same_v<Shown, double>) {
           return fmt::format("{}", *at);
+        } else if constexpr (std::is_same_v<Shown, Duration>) {
+          return fmt::format("{}", std::chrono::duration<double>(*at).count());
         } else if constexpr (std::is_integral_v<Shown> && !std::is_same_v<Shown, bool>) {
           return static_cast<std::int64_t>(*at);
         } else {

@@ -11,6 +11,7 @@
 // command that has the same settings. An action keeps its Fields and performs the rows when it is visited.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -22,6 +23,7 @@
 
 #include "launcher/language/fields.hpp"
 #include "launcher/language/registry.hpp"
+#include "launcher/substitution/scope.hpp"
 
 namespace launch {
 
@@ -32,11 +34,27 @@ struct SettingChoice {
   std::function<void(std::size_t)> choose;
 };
 
+// A number that must not be negative.
+struct NumberFromZero {
+  double* number;
+};
+
 // Where the value of a setting goes. The type tells how it is read: numbers without a sign must not be negative, those
-// of 32 bits are at most the largest one (LTTng's timers), texts of a list may hold several words.
+// of 32 bits are at most the largest one (LTTng's timers), times are given in seconds, texts of a list may hold several
+// words.
 using SettingPlace = std::variant<bool*, std::optional<bool>*, std::int64_t*, std::uint64_t*, std::uint32_t*,
-                                  std::optional<std::uint64_t>*, std::optional<std::uint32_t>*, double*, std::string*,
-                                  std::vector<std::string>*, SettingChoice>;
+                                  std::optional<std::uint64_t>*, std::optional<std::uint32_t>*, double*, NumberFromZero,
+                                  std::chrono::nanoseconds*, std::string*, std::vector<std::string>*, SettingChoice>;
+
+// The place of a member of the struct, or of a member of one of its parts.
+template <typename Struct, typename Member>
+auto place_of(Member Struct::*member) {
+  return [member](Struct& target) -> SettingPlace { return &(target.*member); };
+}
+template <typename Struct, typename Part, typename Owner, typename Member>
+auto place_of(Part Struct::*part, Member Owner::*member) {
+  return [part, member](Struct& target) -> SettingPlace { return &(target.*part.*member); };
+}
 
 // An evaluated setting, for people and programs.
 using SettingValue = std::variant<bool, std::int64_t, std::string, std::vector<std::string>>;
@@ -52,7 +70,7 @@ struct SettingOption {
   std::string help = {};
 };
 
-// Every row has a place, a function of its own, or both.
+// A row has a place, a function of its own, or both. One without is a declaration: its action reads the field itself.
 template <typename Target>
 struct Setting {
   AttributeSpec attribute;  // without a name: only shown
@@ -62,10 +80,13 @@ struct Setting {
   std::string shown = {};                           // the name in a dry run; empty: not shown
   std::function<SettingValue(const Target&)> show;  // instead of the value at the place
   SettingOption option;
+  // `perform` is also called when the file is loaded, to tell what is wrong with a text without substitutions.
+  bool checks_literal = false;
 };
 
 // The parts of the functions below that do not depend on the struct.
 void check_setting(const AttributeSpec& attribute, const Fields& fields, const SettingPlace& place);
+bool is_literal(const AttributeSpec& attribute, const Fields& fields);
 void perform_setting(const AttributeSpec& attribute, const Fields& fields, Scope& scope, const SettingPlace& place);
 SettingValue shown_value(const SettingPlace& place);
 
@@ -92,8 +113,15 @@ template <typename Target>
 void check_settings(const std::vector<Setting<Target>>& settings, const Fields& fields) {
   Target nothing{};
   for (const Setting<Target>& setting : settings) {
-    if (setting.place && fields.has(setting.attribute.name)) {
+    if (!fields.has(setting.attribute.name)) {
+      continue;
+    }
+    if (setting.place) {
       check_setting(setting.attribute, fields, setting.place(nothing));
+    }
+    if (setting.checks_literal && is_literal(setting.attribute, fields)) {
+      Scope without_substitutions;
+      setting.perform(fields, without_substitutions, nothing);
     }
   }
 }
@@ -108,7 +136,7 @@ void perform_settings(const std::vector<Setting<Target>>& settings, const Fields
     }
     if (setting.perform) {
       setting.perform(fields, scope, target);
-    } else {
+    } else if (setting.place) {
       perform_setting(setting.attribute, fields, scope, setting.place(target));
     }
   }

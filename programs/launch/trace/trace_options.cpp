@@ -61,6 +61,18 @@ void add_option(CLI::App& command, const launch::SettingOption& option, const la
           add_names(command, option.flags, *at, option.unit, option.help);
         } else if constexpr (std::is_same_v<Place, bool*>) {
           command.add_flag(option.flags, *at, option.help);
+        } else if constexpr (std::is_same_v<Place, launch::NumberFromZero>) {
+          command.add_option(option.flags, *at.number, option.help)->option_text(option.unit)->check(not_negative);
+        } else if constexpr (std::is_same_v<Place, std::chrono::nanoseconds*>) {
+          command
+              .add_option_function<double>(
+                  option.flags,
+                  [at](double seconds) {
+                    *at = std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(seconds));
+                  },
+                  option.help)
+              ->option_text(option.unit)
+              ->check(not_negative);
         } else {
           CLI::Option* const made = command.add_option(option.flags, *at, option.help)->option_text(option.unit);
           if constexpr (!std::is_same_v<Place, std::int64_t*> && !std::is_same_v<Place, std::string*>) {
