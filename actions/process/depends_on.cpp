@@ -58,14 +58,7 @@ ItemSpec DependsOn::item_of_fault() {
 }
 
 DependsOn::DependsOn(const Fields& fields)
-    : where_(fields.where()),
-      condition_(fields.condition()),
-      process_(fields.optional_text("process")),
-      exit_code_(fields.optional_text("exit_code")),
-      pattern_(fields.optional_text("pattern")),
-      stream_(fields.optional_text("stream")),
-      occurrence_(RangeField::of(fields, "occurrence", true)),
-      timeout_(fields.number("timeout")),
+    : fields_(fields),
       on_failure_(static_cast<OnFailure>(choice(fields, "on_failure", {"shutdown", "start", "skip"}))) {
   const std::string subject = RosCondition::subject_of(fields, {"process"});
   if (subject == "process") {
@@ -83,37 +76,42 @@ DependsOn::DependsOn(const Fields& fields)
   require_state(fields, "pattern", "output", state_ == State::kOutput);
   require_state(fields, "stream", "output", state_ == State::kOutput);
   require_state(fields, "occurrence", "output", state_ == State::kOutput);
-  if (timeout_) {
-    timeout_->require_not_negative();
+  if (std::optional<NumberField> timeout = fields.number("timeout")) {
+    timeout->require_not_negative();
   }
+  RangeField::of(fields, "occurrence", true);
+}
+
+NumberRange DependsOn::occurrence(Scope& scope) const {
+  const std::optional<RangeField> given = RangeField::of(fields_, "occurrence", true);
+  return given ? given->perform(scope) : NumberRange{1, 1};
 }
 
 void DependsOn::request(LaunchContext& context, std::size_t process) const {
   Scope& scope = context.scope();
-  if (!condition_.holds(scope)) {
+  if (!fields_.condition().holds(scope)) {
     return;
   }
-  const NumberRange occurrence = occurrence_ ? occurrence_->perform(scope) : NumberRange{1, 1};
-  if (occurrence.is_random()) {
-    throw LaunchError("only the depends_on of a <fault> draws a number of a range", occurrence_->where(),
+  const NumberRange number = occurrence(scope);
+  if (number.is_random()) {
+    throw LaunchError("only the depends_on of a <fault> draws a number of a range", fields_.where("occurrence"),
                       "give one number", Finding::kExclusive);
   }
-  Dependency made = dependency(context, static_cast<std::uint64_t>(occurrence.from));
+  Dependency made = dependency(context, static_cast<std::uint64_t>(number.from));
   made.process = process;
   context.requests().dependencies.push_back(std::move(made));
 }
 
 std::optional<Dependency> DependsOn::perform(LaunchContext& context, const FaultDraw& draw, std::size_t number) const {
   Scope& scope = context.scope();
-  if (!condition_.holds(scope)) {
+  if (!fields_.condition().holds(scope)) {
     return std::nullopt;
   }
-  const NumberRange occurrence = occurrence_ ? occurrence_->perform(scope) : NumberRange{1, 1};
-  return dependency(context, draw.whole(fmt::format("occurrence {}", number), occurrence));
+  return dependency(context, draw.whole(fmt::format("occurrence {}", number), occurrence(scope)));
 }
 
 bool DependsOn::is_random(Scope& scope) const {
-  return occurrence_ && occurrence_->perform(scope).is_random();
+  return occurrence(scope).is_random();
 }
 
 Dependency DependsOn::dependency(LaunchContext& context, std::uint64_t occurrence) const {
@@ -124,31 +122,32 @@ Dependency DependsOn::dependency(LaunchContext& context, std::uint64_t occurrenc
   } else {
     dependency.condition = process_condition(scope, occurrence);
   }
-  if (timeout_) {
-    dependency.timeout = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(timeout_->perform(scope)));
+  if (std::optional<NumberField> timeout = fields_.number("timeout")) {
+    timeout->require_not_negative();
+    dependency.timeout = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(timeout->perform(scope)));
   }
   dependency.on_failure = on_failure_;
-  dependency.where = where_;
+  dependency.where = fields_.where();
   return dependency;
 }
 
 ProcessCondition DependsOn::process_condition(Scope& scope, std::uint64_t occurrence) const {
-  const auto text = [&](const std::optional<Template>& given, const char* otherwise) {
-    return given ? given->perform(scope) : std::string(otherwise);
+  const auto text = [&](const char* attribute, const char* otherwise) {
+    return fields_.has(attribute) ? fields_.text(attribute).perform(scope) : std::string(otherwise);
   };
-  const auto place = [&](const std::optional<Template>& given) { return given ? given->where() : where_; };
   ProcessCondition condition;
-  condition.process = process_->perform(scope);
+  condition.process = fields_.text("process").perform(scope);
   switch (state_) {
     case State::kStarted:
       condition.state = UntilStarted{};
       break;
     case State::kExited:
-      condition.state = UntilExited{ExitCodeFilter(text(exit_code_, "0"), place(exit_code_))};
+      condition.state = UntilExited{ExitCodeFilter(text("exit_code", "0"), fields_.where("exit_code"))};
       break;
     case State::kOutput:
       condition.state = UntilOutput{
-          OutputPattern(text(pattern_, ""), place(pattern_), text(stream_, "both"), place(stream_)), occurrence};
+          OutputPattern(text("pattern", ""), fields_.where("pattern"), text("stream", "both"), fields_.where("stream")),
+          occurrence};
       break;
   }
   return condition;

@@ -33,19 +33,13 @@ class DependsOn {
  private:
   enum class State { kStarted, kExited, kOutput };
 
+  NumberRange occurrence(Scope& scope) const;
   Dependency dependency(LaunchContext& context, std::uint64_t occurrence) const;
   ProcessCondition process_condition(Scope& scope, std::uint64_t occurrence) const;
 
-  SourceRange where_;
-  Condition condition_;
+  Fields fields_;
   std::optional<RosCondition> ros_condition_;  // without it, the item is about a process
-  std::optional<Template> process_;
   State state_ = State::kStarted;
-  std::optional<Template> exit_code_;
-  std::optional<Template> pattern_;
-  std::optional<Template> stream_;
-  std::optional<RangeField> occurrence_;
-  std::optional<NumberField> timeout_;
   OnFailure on_failure_ = OnFailure::kShutdown;
 };
 
