@@ -7,18 +7,6 @@
 
 namespace launch {
 
-namespace {
-
-const Template& clock_of(const Fields& fields) {
-  if (!fields.has("clock")) {
-    throw LaunchError("it is not said which clock", fields.where(), "clock=\"clock\": the name of a <clock>",
-                      Finding::kMissingAttribute);
-  }
-  return fields.text("clock");
-}
-
-}  // namespace
-
 std::string ClockFaultRanges::identity() const {
   return fmt::format("clock {} {}..{} {}..{}", static_cast<int>(kind), rate.from, rate.to, by.from, by.to);
 }
@@ -35,9 +23,12 @@ std::vector<AttributeSpec> ClockFaultFields::attributes() {
 
 ClockFaultFields::ClockFaultFields(const Fields& fields, ClockFault::Kind kind)
     : kind_(kind),
-      clock_(clock_of(fields)),
       rate_(RangeField::of(fields, "rate")),
       by_(kind == ClockFault::Kind::kJump ? RangeField::of(fields, "by", false, true) : std::nullopt) {
+  if (!fields.has("clock")) {
+    throw LaunchError("it is not said which clock", fields.where(), "clock=\"clock\": the name of a <clock>",
+                      Finding::kMissingAttribute);
+  }
   if (kind_ == ClockFault::Kind::kSkew && !rate_) {
     throw LaunchError("it is not said how fast the time is", fields.where(), "rate=\"0.5\": half as fast",
                       Finding::kMissingAttribute);

@@ -32,14 +32,11 @@ class ClockFaultFields {
   // Throws LaunchError when attributes don't go together.
   ClockFaultFields(const Fields& fields, ClockFault::Kind kind);
 
-  // The process of the clock.
-  const Template& clock() const { return clock_; }
   // Throws LaunchError.
   ClockFaultRanges perform(Scope& scope) const;
 
  private:
   ClockFault::Kind kind_;
-  Template clock_;
   std::optional<RangeField> rate_;
   std::optional<RangeField> by_;
 };

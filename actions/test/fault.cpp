@@ -20,7 +20,7 @@
 #include "actions/test/network_fault.hpp"
 #include "actions/values/range_field.hpp"
 #include "launcher/language/exit_code_filter.hpp"
-#include "launcher/language/fields.hpp"
+#include "launcher/language/setting.hpp"
 #include "launcher/visit/launch_context.hpp"
 
 namespace launch {
@@ -105,26 +105,93 @@ unsigned percent(const Template& given, Scope& scope) {
   return value;
 }
 
+// What the attributes of all faults, and of those of a process, say in a scope.
+struct FaultSettings {
+  NumberRange at = {};
+  std::optional<NumberRange> lasts = {};
+  double probability = 1;
+  int signal = SIGKILL;
+  unsigned percent = 0;
+  LimitFault limit = {};
+  std::string name = {};
+};
+
+void perform_probability(const Fields& fields, Scope& scope, FaultSettings& settings) {
+  settings.probability = from_zero(fields, "probability")->perform(scope);
+  if (settings.probability > 1) {
+    throw LaunchError(fmt::format("a probability is at most 1, got {:g}", settings.probability),
+                      fields.where("probability"), {}, Finding::kWrongValue);
+  }
+}
+
+// Rows without a place are read by the action.
+const std::vector<Setting<FaultSettings>>& fault_settings() {
+  using Type = AttributeType;
+  static const std::vector<Setting<FaultSettings>> rows = {
+      {.attribute = {"process", Type::kText, false, "",
+                     "name of the process or of its node; all processes of that name are meant. With topic and "
+                     "service: each process",
+                     true}},
+      {.attribute = {"do", Type::kLiteral, true, "",
+                     "kill: sends it a signal; stop: it stands still; slow: it runs for a part of the time; limit: it "
+                     "gets no more memory or descriptors; drop, duplicate, corrupt, delay: messages of a topic or "
+                     "service are lost, come twice, with other bytes, or late; partition, lose, delay: packets "
+                     "between processes are lost or late; stop, skew, jump: simulated time stands still, is faster or "
+                     "slower, or jumps; fill_disk: a disk is full",
+                     true}},
+      {.attribute = {"at", Type::kText, false, "0",
+                     "seconds from the begin of the test, or from when all depends_on hold; a range such as 1..5, "
+                     "from which the seed draws",
+                     true},
+       .perform = [](const Fields& fields, Scope& scope,
+                     FaultSettings& settings) { settings.at = RangeField::of(fields, "at")->perform(scope); },
+       .checks_literal = true},
+      {.attribute = {"for", Type::kText, false, "until the end", "not with kill and jump: seconds, or a range of them",
+                     true},
+       .perform = [](const Fields& fields, Scope& scope,
+                     FaultSettings& settings) { settings.lasts = RangeField::of(fields, "for")->perform(scope); },
+       .checks_literal = true},
+      {.attribute = {"probability", Type::kFloat, false, "1", "in how many runs it happens, from 0 to 1", true},
+       .place = [](FaultSettings& settings) -> SettingPlace { return NumberFromZero{&settings.probability}; },
+       .perform = perform_probability},
+      {.attribute = {"signal", Type::kText, false, "SIGKILL", "with kill: the name or number of the signal", true},
+       .perform =
+           [](const Fields& fields, Scope& scope, FaultSettings& settings) {
+             settings.signal = signal_of(fields.text("signal").perform(scope), fields.where("signal"));
+           },
+       .checks_literal = true},
+      {.attribute = {"to", Type::kText, false, "", "with slow: the part of the time in which it runs, such as 25%",
+                     true},
+       .perform = [](const Fields& fields, Scope& scope,
+                     FaultSettings& settings) { settings.percent = percent(fields.text("to"), scope); },
+       .checks_literal = true},
+      {.attribute = {"memory", Type::kText, false, "none", "with limit: its address space in bytes, or with K, M or G",
+                     true},
+       .perform =
+           [](const Fields& fields, Scope& scope, FaultSettings& settings) {
+             settings.limit.memory = parse_bytes(fields.text("memory").perform(scope), fields.where("memory"));
+           },
+       .checks_literal = true},
+      {.attribute = {"files", Type::kInteger, false, "none", "with limit: its open descriptors", true},
+       .place = place_of(&FaultSettings::limit, &LimitFault::files)},
+      {.attribute = {"name", Type::kText, false, "all attributes", "what tells its draws from those of other faults",
+                     true},
+       .place = place_of(&FaultSettings::name)},
+  };
+  return rows;
+}
+
 class Fault : public Action {
  public:
   explicit Fault(const Fields& fields)
       : Action(fields.where(), fields.condition()),
         kind_(static_cast<Kind>(choice(fields, "do", kKinds))),
-        process_(fields.optional_text("process")),
-        name_(fields.optional_text("name")),
-        at_(RangeField::of(fields, "at")),
-        lasts_(RangeField::of(fields, "for")),
-        probability_(from_zero(fields, "probability")),
-        probability_where_(fields.where("probability")),
-        signal_(fields.optional_text("signal")),
-        share_(fields.optional_text("to")),
-        memory_(fields.optional_text("memory")),
-        files_(from_zero(fields, "files")) {
+        fields_(fields) {
     check_attributes(fields);
+    check_settings(fault_settings(), fields);
     for (const Fields* const item : fields.items("depends_on")) {
       dependencies_.emplace_back(*item);
     }
-    check_literals();
     if (const auto network = network_kind(kind_, fields)) {
       network_.emplace(fields, *network);
     } else if (const auto clock = clock_kind(kind_, fields)) {
@@ -147,15 +214,17 @@ class Fault : public Action {
     std::vector<FaultRequest>& others = context.requests().faults;
     FaultRequest fault;
     fault.number = others.size() + 1;
-    if (const Template* const process = clock_ ? &clock_->clock() : process_ ? &*process_ : nullptr) {
-      fault.process = process->perform(scope);
-      fault.process_where = process->where();
+    if (const char* const process = clock_ ? "clock" : "process"; fields_.has(process)) {
+      fault.process = fields_.text(process).perform(scope);
+      fault.process_where = fields_.where(process);
     }
     fault.where = where();
-    const double probability = perform_probability(scope);
-    const NumberRange at = at_ ? at_->perform(scope) : NumberRange{};
-    const NumberRange lasts = lasts_ ? lasts_->perform(scope) : NumberRange{};
-    set_what(fault, scope);
+    FaultSettings settings;
+    perform_settings(fault_settings(), fields_, scope, settings);
+    const NumberRange at = settings.at;
+    const double probability = settings.probability;
+    const NumberRange lasts = settings.lasts.value_or(NumberRange{});
+    set_what(fault, settings);
     const std::optional<MessageFaultRanges> messages =
         messages_ ? std::optional(messages_->perform(scope)) : std::nullopt;
     const std::optional<NetworkFaultRanges> network = network_ ? std::optional(network_->perform(scope)) : std::nullopt;
@@ -168,15 +237,15 @@ class Fault : public Action {
                              : clock   ? fmt::format("{} {}", fault.process, clock->identity())
                              : disk_   ? disk_->identity()
                                        : describe(fault);
-    fault.identity = name_
-                         ? name_->perform(scope)
+    fault.identity = fields_.has("name")
+                         ? settings.name
                          : fmt::format("{} {}..{} {}..{} {}", what, at.from, at.to, lasts.from, lasts.to, probability);
     const auto equal = std::count_if(others.begin(), others.end(),
                                      [&](const FaultRequest& other) { return other.identity == fault.identity; });
 
     const FaultDraw draw(context.tests().fault_choice().seed, fmt::format("{} {}", fault.identity, equal));
     fault.at = as_duration(draw.number("at", at));
-    if (lasts_) {
+    if (settings.lasts) {
       fault.lasts = as_duration(draw.number("for", lasts));
     }
     fault.is_random = at.is_random() || lasts.is_random() || probability < 1;
@@ -251,88 +320,49 @@ class Fault : public Action {
       }
     }
     const bool is_of_clock = clock_kind(kind_, fields).has_value();
-    if (is_of_clock && process_) {
+    if (is_of_clock && fields.has("process")) {
       throw LaunchError("either a process or a clock suffers", fields.where("process"), {}, Finding::kExclusive);
     }
-    if (kind_ == Kind::kFillDisk && process_) {
+    if (kind_ == Kind::kFillDisk && fields.has("process")) {
       throw LaunchError("process does not go with do=\"fill_disk\": all processes of the test share the disk",
                         fields.where("process"), {}, Finding::kExclusive);
     }
     const bool has_process = !is_of_network && !is_of_clock && !message_kind(kind_) && kind_ != Kind::kFillDisk;
-    if (!process_ && has_process) {
+    if (!fields.has("process") && has_process) {
       throw LaunchError("it is not said which process suffers", fields.where(),
                         "process=\"…\": the name of the process or of its node", Finding::kMissingAttribute);
     }
-    if (kind_ == Kind::kSlow && !share_) {
+    if (kind_ == Kind::kSlow && !fields.has("to")) {
       throw LaunchError("it is not said how slow the process is", fields.where(), "to=\"25%\": a quarter of the time",
                         Finding::kMissingAttribute);
     }
-    if (kind_ == Kind::kLimit && !memory_ && !files_) {
+    if (kind_ == Kind::kLimit && !fields.has("memory") && !fields.has("files")) {
       throw LaunchError("it is not said what is limited", fields.where(), "give memory, files or both",
                         Finding::kMissingAttribute);
     }
   }
 
-  void check_literals() const {
-    Scope nothing;
-    if (signal_ && signal_->is_literal()) {
-      signal_of(signal_->perform(nothing), signal_->where());
-    }
-    if (share_ && share_->is_literal()) {
-      percent(*share_, nothing);
-    }
-    if (memory_ && memory_->is_literal()) {
-      parse_bytes(memory_->perform(nothing), memory_->where());
-    }
-  }
-
-  double perform_probability(Scope& scope) const {
-    const double probability = probability_ ? probability_->perform(scope) : 1;
-    if (probability > 1) {
-      throw LaunchError(fmt::format("a probability is at most 1, got {:g}", probability), probability_where_, {},
-                        Finding::kWrongValue);
-    }
-    return probability;
-  }
-
-  void set_what(FaultRequest& fault, Scope& scope) const {
+  void set_what(FaultRequest& fault, const FaultSettings& settings) const {
     switch (kind_) {
       case Kind::kKill:
-        fault.what = KillFault{signal_ ? signal_of(signal_->perform(scope), signal_->where()) : SIGKILL};
+        fault.what = KillFault{settings.signal};
         break;
       case Kind::kStop:
         fault.what = StopFault{};
         break;
       case Kind::kSlow:
-        fault.what = SlowFault{percent(*share_, scope)};
+        fault.what = SlowFault{settings.percent};
         break;
-      case Kind::kLimit: {
-        LimitFault limit;
-        if (memory_) {
-          limit.memory = parse_bytes(memory_->perform(scope), memory_->where());
-        }
-        if (files_) {
-          limit.files = static_cast<std::uint64_t>(files_->perform(scope));
-        }
-        fault.what = limit;
+      case Kind::kLimit:
+        fault.what = settings.limit;
         break;
-      }
       default:
         break;  // of messages
     }
   }
 
   Kind kind_;
-  std::optional<Template> process_;
-  std::optional<Template> name_;
-  std::optional<RangeField> at_;
-  std::optional<RangeField> lasts_;
-  std::optional<NumberField> probability_;
-  SourceRange probability_where_;
-  std::optional<Template> signal_;
-  std::optional<Template> share_;
-  std::optional<Template> memory_;
-  std::optional<NumberField> files_;
+  Fields fields_;
   std::optional<MessageFaultFields> messages_;
   std::optional<NetworkFaultFields> network_;
   std::optional<ClockFaultFields> clock_;
@@ -349,34 +379,7 @@ ActionType fault_action() {
           "In a test: does something to a process, to messages, to the network, to simulated time or to a disk, at a "
           "time "
           "or when something is ready.",
-      .attributes =
-          {{"process", AttributeType::kText, false, "",
-            "name of the process or of its node; all processes of that name are meant. With topic and service: each "
-            "process",
-            true},
-           {"do", AttributeType::kLiteral, true, "",
-            "kill: sends it a signal; stop: it stands still; slow: it runs for a part of the time; limit: it gets "
-            "no more memory or descriptors; drop, duplicate, corrupt, delay: messages of a topic or service are lost, "
-            "come twice, "
-            "with other bytes, or late; partition, lose, delay: packets between processes are lost or late; stop, "
-            "skew, jump: simulated time stands still, is faster or "
-            "slower, or jumps; fill_disk: a disk is full",
-            true},
-           {"at", AttributeType::kText, false, "0",
-            "seconds from the begin of the test, or from when all depends_on hold; a range such as 1..5, from which "
-            "the seed draws",
-            true},
-           {"for", AttributeType::kText, false, "until the end", "not with kill and jump: seconds, or a range of them",
-            true},
-           {"probability", AttributeType::kFloat, false, "1", "in how many runs it happens, from 0 to 1", true},
-           {"signal", AttributeType::kText, false, "SIGKILL", "with kill: the name or number of the signal", true},
-           {"to", AttributeType::kText, false, "", "with slow: the part of the time in which it runs, such as 25%",
-            true},
-           {"memory", AttributeType::kText, false, "none", "with limit: its address space in bytes, or with K, M or G",
-            true},
-           {"files", AttributeType::kInteger, false, "none", "with limit: its open descriptors", true},
-           {"name", AttributeType::kText, false, "all attributes", "what tells its draws from those of other faults",
-            true}},
+      .attributes = declared_attributes(fault_settings()),
       .items = {DependsOn::item_of_fault()},
       .extension = true,
       .make = [](const Fields& fields) { return std::make_shared<Fault>(fields); }};
