@@ -8,9 +8,9 @@
 #include <functional>
 #include <span>
 
-#include "actions/values/parameter_value.hpp"
 #include "base/diagnostics/read_source_file.hpp"
 #include "launcher/frontend/yaml_document.hpp"
+#include "launcher/language/parameter_value.hpp"
 
 namespace launch {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "actions/values/parameter_value.hpp"
+#include "launcher/language/parameter_value.hpp"
 
 namespace launch {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "actions/values/parameter_value.hpp"
 #include "launcher/language/fields.hpp"
+#include "launcher/language/parameter_value.hpp"
 #include "launcher/process/process_spec.hpp"
 #include "launcher/visit/launch_context.hpp"
 

@@ -2,8 +2,8 @@
 // <set_parameter> and <set_parameters_from_file>: parameters of every later node of the scope.
 #include <filesystem>
 
-#include "actions/values/parameter_value.hpp"
 #include "launcher/language/fields.hpp"
+#include "launcher/language/parameter_value.hpp"
 #include "launcher/visit/launch_context.hpp"
 
 namespace launch {

@@ -4,10 +4,10 @@
 
 #include <charconv>
 
-#include "actions/values/parameter_value.hpp"
 #include "base/text/ascii.hpp"
 #include "launcher/frontend/yaml_document.hpp"
 #include "launcher/language/fields.hpp"
+#include "launcher/language/parameter_value.hpp"
 #include "launcher/visit/launch_context.hpp"
 
 namespace launch {

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "actions/values/parameter_value.hpp"
 #include "actions/values/ros_names.hpp"
+#include "launcher/language/parameter_value.hpp"
 #include "launcher/ros/ros_readiness.hpp"
 
 namespace launch {

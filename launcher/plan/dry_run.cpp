@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "actions/values/parameter_value.hpp"
 #include "base/overloaded.hpp"
 #include "base/text/shell_quoted.hpp"
+#include "launcher/language/parameter_value.hpp"
 #include "launcher/plan/parameter_json.hpp"
 
 namespace launch {

@@ -7,7 +7,6 @@
 #include <exception>
 #include <vector>
 
-#include "actions/builtin_actions.hpp"
 #include "base/diagnostics/command_error.hpp"
 #include "base/environment/own_environment.hpp"
 #include "launcher/testing/engine.hpp"
@@ -25,11 +24,10 @@ class Silent final : public QueueObserver {
 
 }  // namespace
 
-int run_task(const std::string& word) {
+int run_task(const std::string& word, const Registry& registry) {
   try {
     const EngineTask task = task_of(word);
     const Environment environment = own_environment();
-    const Registry registry = builtin_actions();
     std::vector<TestCase> tests = {find_test(task.file, registry, environment, task.arguments, task.number, task.name)};
     tests.front().seed = task.seed;
     tests.front().faults = task.faults;

@@ -4,9 +4,11 @@
 
 #include <string>
 
+#include "launcher/language/registry.hpp"
+
 namespace launch {
 
 // Runs the test of the word and prints its result. Returns the exit code.
-int run_task(const std::string& word);
+int run_task(const std::string& word, const Registry& registry);
 
 }  // namespace launch

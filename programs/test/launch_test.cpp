@@ -255,7 +255,7 @@ int run(const Options& options) {
 // launch file has an error, 2 for a wrong command line, 128+N after signal N.
 int test_command(std::vector<std::string> words) {
   if (words.size() == 2 && words.front() == "--task") {
-    return run_task(words.back());
+    return run_task(words.back(), builtin_actions());
   }
   Options options;
   Subcommand command("launch test", "Runs the tests of launch files, each in its own isolation.");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "actions/values/parameter_value.hpp"
+#include "launcher/language/parameter_value.hpp"
 
 #include <fmt/format.h>
 
