@@ -27,28 +27,13 @@ std::vector<AttributeSpec> line_attributes() {
       own_attribute("stream", AttributeType::kText, false, "both", "stdout, stderr or both")};
 }
 
-class Line {
- public:
-  explicit Line(const Fields& fields)
-      : where_(fields.where()),
-        text_(fields.optional_text("text")),
-        pattern_(fields.optional_text("pattern")),
-        stream_(fields.optional_text("stream")) {}
-
-  ExpectedLine perform(Scope& scope) const {
-    const auto text = [&](const std::optional<Template>& given, const char* otherwise) {
-      return given ? given->perform(scope) : std::string(otherwise);
-    };
-    const auto place = [&](const std::optional<Template>& given) { return given ? given->where() : where_; };
-    return {OutputPattern(text(pattern_, ""), place(pattern_), text(stream_, "both"), place(stream_)), text(text_, "")};
-  }
-
- private:
-  SourceRange where_;
-  std::optional<Template> text_;
-  std::optional<Template> pattern_;
-  std::optional<Template> stream_;
-};
+ExpectedLine perform_line(const Fields& fields, Scope& scope) {
+  const auto text = [&](const char* attribute, const char* otherwise) {
+    return fields.has(attribute) ? fields.text(attribute).perform(scope) : std::string(otherwise);
+  };
+  return {OutputPattern(text("pattern", ""), fields.where("pattern"), text("stream", "both"), fields.where("stream")),
+          text("text", "")};
+}
 
 PerformExpectation exit_expectation(const Fields& fields) {
   const ExpectationSubject subject(fields);
@@ -64,7 +49,6 @@ PerformExpectation exit_expectation(const Fields& fields) {
 
 PerformExpectation output_expectation(const Fields& fields) {
   const ExpectationSubject subject(fields);
-  const Line line(fields);
   const std::optional<NumberField> least = from_zero(fields, "min");
   const std::optional<NumberField> most = from_zero(fields, "max");
   const BooleanField absent = fields.boolean("absent", false);
@@ -77,10 +61,9 @@ PerformExpectation output_expectation(const Fields& fields) {
     throw LaunchError("absent means max=\"0\": it goes without min and max", fields.where("absent"), {},
                       Finding::kExclusive);
   }
-  const SourceRange& most_where = fields.where("max");
   return [=](LaunchContext& context) {
     Scope& scope = context.scope();
-    ExpectedOutput expected{line.perform(scope), 1, std::nullopt, after_shutdown};
+    ExpectedOutput expected{perform_line(fields, scope), 1, std::nullopt, after_shutdown};
     if (most) {
       expected.most = static_cast<std::uint64_t>(most->perform(scope));
       expected.least = 0;
@@ -93,7 +76,7 @@ PerformExpectation output_expectation(const Fields& fields) {
       expected.most = 0;
     }
     if (expected.most && *expected.most < expected.least) {
-      throw LaunchError(fmt::format("max is less than min, {}", expected.least), most_where);
+      throw LaunchError(fmt::format("max is less than min, {}", expected.least), fields.where("max"));
     }
     return subject.of(std::move(expected), scope);
   };
@@ -101,18 +84,14 @@ PerformExpectation output_expectation(const Fields& fields) {
 
 PerformExpectation in_order_expectation(const Fields& fields) {
   const ExpectationSubject subject(fields);
-  std::vector<Line> lines;
-  for (const Fields* const item : fields.items("line")) {
-    lines.emplace_back(*item);
-  }
-  if (lines.empty()) {
+  if (fields.items("line").empty()) {
     throw LaunchError("there are no lines to be in order", fields.where(), "give the first one: <line text=\"…\"/>",
                       Finding::kMissingAttribute);
   }
   return [=](LaunchContext& context) {
     ExpectedSequence sequence;
-    for (const Line& line : lines) {
-      sequence.lines.push_back(line.perform(context.scope()));
+    for (const Fields* const line : fields.items("line")) {
+      sequence.lines.push_back(perform_line(*line, context.scope()));
     }
     return subject.of(std::move(sequence), context.scope());
   };

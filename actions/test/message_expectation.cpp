@@ -16,19 +16,9 @@ namespace {
 
 class Messages {
  public:
-  explicit Messages(const Fields& fields)
-      : subject_(fields),
-        topic_(fields.text("topic")),
-        type_(fields.text("type")),
-        condition_(fields.optional_text("where")),
-        least_(from_zero(fields, "min")),
-        most_(from_zero(fields, "max")),
-        most_where_(fields.where("max")),
-        absent_(fields.boolean("absent", false)),
-        least_rate_(from_zero(fields, "min_rate")),
-        most_rate_(from_zero(fields, "max_rate")),
-        rate_where_(fields.where("max_rate")) {
+  explicit Messages(const Fields& fields) : fields_(fields), subject_(fields) {
     for (const char* const other : {"min", "max", "min_rate", "max_rate"}) {
+      from_zero(fields, other);
       if (fields.has("absent") && fields.has(other)) {
         throw LaunchError("absent means max=\"0\": it goes without min, max and rates", fields.where("absent"), {},
                           Finding::kExclusive);
@@ -39,34 +29,35 @@ class Messages {
   Expectation perform(LaunchContext& context) const {
     Scope& scope = context.scope();
     ExpectedMessages expected;
-    WatchMessages watch{resolve_name(topic_, scope), type_.perform(scope),
-                        condition_ ? condition_->perform(scope) : ""};
+    WatchMessages watch{resolve_name(fields_.text("topic"), scope), fields_.text("type").perform(scope),
+                        fields_.has("where") ? fields_.text("where").perform(scope) : ""};
     check(scope, watch);
     expected.watch = std::make_shared<RosMessageWatch>(context.ros_client(), std::move(watch), scope.environment);
-    if (least_rate_) {
-      expected.least_rate = least_rate_->perform(scope);
+    if (const std::optional<NumberField> rate = from_zero(fields_, "min_rate")) {
+      expected.least_rate = rate->perform(scope);
     }
-    if (most_rate_) {
-      expected.most_rate = most_rate_->perform(scope);
+    if (const std::optional<NumberField> rate = from_zero(fields_, "max_rate")) {
+      expected.most_rate = rate->perform(scope);
       if (expected.least_rate && *expected.most_rate < *expected.least_rate) {
-        throw LaunchError(fmt::format("max_rate is less than min_rate, {:g}", *expected.least_rate), rate_where_);
+        throw LaunchError(fmt::format("max_rate is less than min_rate, {:g}", *expected.least_rate),
+                          fields_.where("max_rate"));
       }
     }
-    const bool has_rate = least_rate_ || most_rate_;
+    const bool has_rate = expected.least_rate || expected.most_rate;
     expected.least = has_rate ? 2 : 1;  // a rate needs two
-    if (most_) {
-      expected.most = static_cast<std::uint64_t>(most_->perform(scope));
+    if (const std::optional<NumberField> most = from_zero(fields_, "max")) {
+      expected.most = static_cast<std::uint64_t>(most->perform(scope));
       expected.least = has_rate ? 2 : 0;
     }
-    if (least_) {
-      expected.least = std::max(static_cast<std::uint64_t>(least_->perform(scope)), std::uint64_t(has_rate ? 2 : 0));
+    if (const std::optional<NumberField> least = from_zero(fields_, "min")) {
+      expected.least = std::max(static_cast<std::uint64_t>(least->perform(scope)), std::uint64_t(has_rate ? 2 : 0));
     }
-    if (absent_.perform(scope)) {
+    if (fields_.boolean("absent", false).perform(scope)) {
       expected.least = 0;
       expected.most = 0;
     }
     if (expected.most && *expected.most < expected.least) {
-      throw LaunchError(fmt::format("max is less than min, {}", expected.least), most_where_);
+      throw LaunchError(fmt::format("max is less than min, {}", expected.least), fields_.where("max"));
     }
     return subject_.of(std::move(expected), scope);
   }
@@ -76,24 +67,16 @@ class Messages {
   void check(Scope& scope, WatchMessages& watch) const {
     InterfaceLibrary library(*scope.packages, scope.environment);
     std::shared_ptr<const MessageType> type;
-    at_place(type_.where(), [&] { type = library.message(watch.type); });
+    at_place(fields_.where("type"), [&] { type = library.message(watch.type); });
     watch.type = type->name;
-    if (condition_) {
-      at_place(condition_->where(), [&] { MessageCondition(type, located(watch.condition, condition_->where())); });
+    if (fields_.has("where")) {
+      const SourceRange& place = fields_.where("where");
+      at_place(place, [&] { MessageCondition(type, located(watch.condition, place)); });
     }
   }
 
+  Fields fields_;
   ExpectationSubject subject_;
-  Template topic_;
-  Template type_;
-  std::optional<Template> condition_;
-  std::optional<NumberField> least_;
-  std::optional<NumberField> most_;
-  SourceRange most_where_;
-  BooleanField absent_;
-  std::optional<NumberField> least_rate_;
-  std::optional<NumberField> most_rate_;
-  SourceRange rate_where_;
 };
 
 }  // namespace
