@@ -44,21 +44,9 @@ std::vector<ItemSpec> ComposableNodes::items() {
 ComposableNodes::ComposableNodes(const Fields& fields) {
   for (const char* const tag : kTags) {
     for (const Fields* item : fields.items(tag)) {
-      Description node{item->where(),
-                       item->condition(),
-                       item->text("pkg"),
-                       item->text("plugin"),
-                       item->text("name"),
-                       item->optional_text("namespace"),
-                       {},
-                       remaps_of(*item),
-                       {},
-                       item->boolean("autostart", false)};
+      Description node{*item, {}};
       for (const Fields* parameter : item->items("param")) {
         node.parameters.emplace_back(*parameter);
-      }
-      for (const Fields* argument : item->items("extra_arg")) {
-        node.extra_arguments.emplace_back(argument->text("name"), argument->text("value"));
       }
       nodes_.push_back(std::move(node));
     }
@@ -72,7 +60,7 @@ void ComposableNodes::request(LaunchContext& context, const std::string& target,
   request.environment = environment;
   request.origin = where;
   for (const Description& node : nodes_) {
-    if (node.condition.holds(context.scope())) {
+    if (node.fields.condition().holds(context.scope())) {
       request.nodes.push_back(evaluate(node, environment, context));
     }
   }
@@ -84,14 +72,15 @@ void ComposableNodes::request(LaunchContext& context, const std::string& target,
 ComposableNode ComposableNodes::evaluate(const Description& node, const Environment& environment,
                                          LaunchContext& context) {
   Scope& scope = context.scope();
+  const Fields& fields = node.fields;
   ComposableNode result;
-  result.origin = node.where;
-  result.package = node.package.perform(scope);
-  result.plugin = node.plugin.perform(scope);
-  result.name = node.name.perform(scope);
-  result.name_space = resolve_namespace(node.name_space, scope, node.where).value_or("");
-  result.autostart = node.autostart.perform(scope);
-  find_missing_plugin(result, environment, node.package.where(), node.plugin.where(), context);
+  result.origin = fields.where();
+  result.package = fields.text("pkg").perform(scope);
+  result.plugin = fields.text("plugin").perform(scope);
+  result.name = fields.text("name").perform(scope);
+  result.name_space = resolve_namespace(fields.optional_text("namespace"), scope, fields.where()).value_or("");
+  result.autostart = fields.boolean("autostart", false).perform(scope);
+  find_missing_plugin(result, environment, fields.where("pkg"), fields.where("plugin"), context);
   const std::string full_name = qualified_name(result.name_space, result.name);
   if (!result.name_space.empty() && !result.name.empty()) {
     context.note_node(full_name);
@@ -108,12 +97,13 @@ ComposableNode ComposableNodes::evaluate(const Description& node, const Environm
     parameters.append_to(result.parameters, context, full_name);
   }
   result.remaps = scope.global_remaps;
-  for (const auto& [from, to] : node.remaps) {
-    const auto& [before, after] = result.remaps.emplace_back(from.perform(scope), to.perform(scope));
-    find_invalid_remap(before, from.where(), after, to.where(), context);
+  for (const Fields* each : fields.items("remap")) {
+    result.remaps.push_back(perform_remap(*each, context));
   }
-  for (const auto& [name, value] : node.extra_arguments) {
-    result.extra_arguments.push_back({name.perform(scope), typed_parameter(value.perform(scope), value.where())});
+  for (const Fields* argument : fields.items("extra_arg")) {
+    const Template& value = argument->text("value");
+    result.extra_arguments.push_back(
+        {argument->text("name").perform(scope), typed_parameter(value.perform(scope), value.where())});
   }
   return result;
 }

@@ -27,16 +27,8 @@ class ComposableNodes {
 
  private:
   struct Description {
-    SourceRange where;
-    Condition condition;
-    Template package;
-    Template plugin;
-    Template name;
-    std::optional<Template> name_space;
+    Fields fields;
     std::vector<Parameters> parameters;
-    std::vector<std::pair<Template, Template>> remaps;
-    std::vector<std::pair<Template, Template>> extra_arguments;
-    BooleanField autostart;
   };
   static ComposableNode evaluate(const Description& node, const Environment& environment, LaunchContext& context);
 

@@ -115,10 +115,8 @@ std::string NodeProcess::request(LaunchContext& context) const {
     remap(from + ":=" + to);
   }
   for (const Fields* each : remaps) {
-    const std::string before = each->text("from").perform(scope);
-    const std::string after = each->text("to").perform(scope);
-    find_invalid_remap(before, each->where("from"), after, each->where("to"), context);
-    remap(before + ":=" + after);
+    const auto [from, to] = perform_remap(*each, context);
+    remap(from + ":=" + to);
   }
 
   for (const LaunchContext::NodeLogLevel& wish : context.log_levels()) {
@@ -178,14 +176,11 @@ ItemSpec remap_item() {
            {"to", AttributeType::kText, true, "", "the name to use"}}};
 }
 
-std::vector<std::pair<Template, Template>> remaps_of(const Fields& fields) {
-  std::vector<std::pair<Template, Template>> remaps;
-  const std::vector<const Fields*> items = fields.items("remap");
-  remaps.reserve(items.size());
-  for (const Fields* remap : items) {
-    remaps.emplace_back(remap->text("from"), remap->text("to"));
-  }
-  return remaps;
+std::pair<std::string, std::string> perform_remap(const Fields& remap, LaunchContext& context) {
+  std::string from = remap.text("from").perform(context.scope());
+  std::string to = remap.text("to").perform(context.scope());
+  find_invalid_remap(from, remap.where("from"), to, remap.where("to"), context);
+  return {std::move(from), std::move(to)};
 }
 
 }  // namespace launch

@@ -34,6 +34,7 @@ class NodeProcess {
 
 // The <remap> items of nodes and components.
 ItemSpec remap_item();
-std::vector<std::pair<Template, Template>> remaps_of(const Fields& fields);
+// From and to of one of them.
+std::pair<std::string, std::string> perform_remap(const Fields& remap, LaunchContext& context);
 
 }  // namespace launch
