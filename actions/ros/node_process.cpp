@@ -179,7 +179,7 @@ ItemSpec remap_item() {
 std::pair<std::string, std::string> perform_remap(const Fields& remap, LaunchContext& context) {
   std::string from = remap.text("from").perform(context.scope());
   std::string to = remap.text("to").perform(context.scope());
-  find_invalid_remap(from, remap.where("from"), to, remap.where("to"), context);
+  find_invalid_remap(from, remap.text("from").where(), to, remap.text("to").where(), context);
   return {std::move(from), std::move(to)};
 }
 
