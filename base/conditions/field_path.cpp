@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <string_view>
+#include <utility>
 
 #include "base/diagnostics/diagnostic.hpp"
 
@@ -38,6 +39,13 @@ FieldPath FieldPath::parse(const LocatedText& text) {
 FieldPath FieldPath::take(const LocatedText& located, std::size_t& at) {
   const std::string_view text = located.text();
   FieldPath path;
+  // Made in its place: GCC 12 takes the text of a moved number for read.
+  const auto add = [&path](auto step, std::size_t begin, std::size_t end) {
+    Part& part = path.parts.emplace_back();
+    part.step = std::move(step);
+    part.begin = begin;
+    part.end = end;
+  };
   bool may_be_name = true;
   for (;;) {
     const std::size_t begin = behind_blanks(text, at);
@@ -56,7 +64,7 @@ FieldPath FieldPath::take(const LocatedText& located, std::size_t& at) {
         throw LaunchError("expected ']'", located.range(close, 1));
       }
       at = close + 1;
-      path.parts.push_back({index, begin, at});
+      add(index, begin, at);
       may_be_name = at < text.size() && kNameCharacters.find(text[at]) != kNameCharacters.npos;
     } else {
       const std::size_t end = behind(text, kNameCharacters, begin);
@@ -64,7 +72,7 @@ FieldPath FieldPath::take(const LocatedText& located, std::size_t& at) {
         return path;
       }
       at = end;
-      path.parts.push_back({std::string(text.substr(begin, end - begin)), begin, end});
+      add(std::string(text.substr(begin, end - begin)), begin, end);
       may_be_name = false;
     }
   }
