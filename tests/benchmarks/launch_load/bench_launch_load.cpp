@@ -91,7 +91,7 @@ void load_and_visit(const std::string& file, std::size_t processes) {
 int explore(const bench::CorpusTree& tree) {
   launch::LaunchContext context(registry(), tree.environment, "", [](auto...) {});
   context.scope().configurations = tree.arguments;
-  context.explore({.report = [](const launch::LaunchError&, bool) {}, .left_out = {}});
+  context.exploration().begin({.report = [](const launch::LaunchError&, bool) {}, .left_out = {}});
   const auto description = launch::load_launch_description(tree.file, registry(), context.scope());
   return launch::plan_launch(context, *description).includes;
 }
@@ -145,8 +145,8 @@ void bench_nodes(const fs::path& directory, const std::string& suffix, std::stri
     return measure([&] { load_and_visit(file, static_cast<std::size_t>(count)); }, [&] { bare(file); });
   };
   print(fmt::format("{} nodes, {}", kNodes, suffix), measure_nodes(kNodes), parser);
-  const double one_of_few = measure_nodes(kNodes / 2).ours / (kNodes / 2);
-  const double one_of_many = measure_nodes(kNodes * 2).ours / (kNodes * 2);
+  const double one_of_few = median(measure_nodes(kNodes / 2).ours) / (kNodes / 2);
+  const double one_of_many = median(measure_nodes(kNodes * 2).ours) / (kNodes * 2);
   fmt::print("  {:<34} {:8.2f} us of {}, {:.2f} us of {}: ratio {:.2f}\n", "one node, " + suffix, one_of_few * 1e3,
              kNodes / 2, one_of_many * 1e3, kNodes * 2, one_of_many / one_of_few);
 }
