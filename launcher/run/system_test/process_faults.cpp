@@ -9,7 +9,6 @@
 #include <utility>
 #include <variant>
 
-
 namespace launch {
 namespace {
 

@@ -57,7 +57,7 @@ class Experiment(unittest.TestCase):
         file = self.output / 'evaluation.json'
         done = evaluate('--from', file, '--compare', file)
         self.assertEqual((done.returncode, done.stderr), (0, ''))
-        self.assertRegex(done.stdout, r'\n\d+ figures compared, none changed beyond noise\n$')
+        self.assertRegex(done.stdout, r'(^|\n)\d+ figures compared, none changed beyond noise\n$')
 
     def test_goes_into_a_page(self):
         self.result()

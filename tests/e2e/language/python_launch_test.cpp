@@ -5,8 +5,8 @@
 
 #include <set>
 
-#include "tests/support/recorded_trace.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/recorded_trace.hpp"
 #include "tests/support/sandbox.hpp"
 #include "tests/support/sanitized.hpp"
 

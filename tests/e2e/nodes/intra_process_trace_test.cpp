@@ -6,8 +6,8 @@
 #include <set>
 
 #include "launch_trace_testing/matchers.hpp"
-#include "tests/support/main_thread.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/main_thread.hpp"
 #include "tests/support/sandbox.hpp"
 
 namespace {

@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <signal.h>
 
-#include "tests/support/recorded_trace.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/recorded_trace.hpp"
 #include "tests/support/sandbox.hpp"
 
 namespace {

@@ -5,8 +5,8 @@
 #include <fstream>
 
 #include "launch_trace_testing/matchers.hpp"
-#include "tests/support/main_thread.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/main_thread.hpp"
 #include "tests/support/sandbox.hpp"
 
 namespace {

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "launch_trace_testing/matchers.hpp"
-#include "tests/support/main_thread.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/main_thread.hpp"
 #include "tests/support/sandbox.hpp"
 
 namespace {

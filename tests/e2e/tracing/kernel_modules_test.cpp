@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
-#include "tests/support/recorded_trace.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/recorded_trace.hpp"
 #include "tests/support/sandbox.hpp"
 
 namespace {

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "tests/support/recorded_trace.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/recorded_trace.hpp"
 #include "tests/support/sandbox.hpp"
 
 namespace {
