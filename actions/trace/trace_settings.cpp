@@ -5,6 +5,7 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "actions/trace/trace_overhead.hpp"
 #include "base/diagnostics/diagnostic.hpp"
@@ -67,11 +68,11 @@ std::vector<std::string> perform_events(const Fields& fields, const std::string&
   return events;
 }
 
-// Reads the events of an attribute into the list that `list` gives.
-template <typename Target, typename List>
-auto events(const char* attribute, Tracepoints of, List list) {
-  return [attribute, of, list](const Fields& fields, Scope& scope, Target& target) {
-    list(target) = perform_events(fields, attribute, scope, of);
+// Reads the events of an attribute into the list at `place`.
+template <typename Target>
+auto events(const char* attribute, Tracepoints of, std::function<SettingPlace(Target&)> place) {
+  return [attribute, of, place](const Fields& fields, Scope& scope, Target& target) {
+    *std::get<std::vector<std::string>*>(place(target)) = perform_events(fields, attribute, scope, of);
   };
 }
 
@@ -150,14 +151,12 @@ std::vector<Setting<TraceRequest>> make_trace_settings() {
                      "userspace events; * matches any text; `'ros2:* except ros2:rcl_init level INFO if vpid > 1'` in "
                      "quotes"},
        .place = at(&Config::events_ust),
-       .perform = events<TraceRequest>("events-ust", Tracepoints::kUserspace,
-                                       [](TraceRequest& request) -> auto& { return request.config.events_ust; }),
+       .perform = events<TraceRequest>("events-ust", Tracepoints::kUserspace, at(&Config::events_ust)),
        .shown = "events-ust",
        .option = {"-u,--ust", "EVENT", "userspace events (default: all ROS 2 events)"}},
       {.attribute = {"events-kernel", Type::kWords, false, "none", "kernel tracepoints"},
        .place = at(&Config::events_kernel),
-       .perform = events<TraceRequest>("events-kernel", Tracepoints::kKernel,
-                                       [](TraceRequest& request) -> auto& { return request.config.events_kernel; }),
+       .perform = events<TraceRequest>("events-kernel", Tracepoints::kKernel, at(&Config::events_kernel)),
        .shown = "events-kernel",
        .option = {"-k,--kernel", "EVENT", "kernel events (default: none)"}},
       {.attribute = {"syscalls", Type::kWords, false, "none", "system calls"},
@@ -287,9 +286,8 @@ std::vector<Setting<TraceRequest>> make_trace_settings() {
            extension("snapshot-on-events", Type::kWords, "none",
                      "take a snapshot when a userspace event comes; written as in events-ust; implies snapshot-mode"),
        .place = of_choices(&TraceChoices::snapshot_on_events),
-       .perform =
-           events<TraceRequest>("snapshot-on-events", Tracepoints::kUserspace,
-                                [](TraceRequest& request) -> auto& { return request.choices.snapshot_on_events; }),
+       .perform = events<TraceRequest>("snapshot-on-events", Tracepoints::kUserspace,
+                                       of_choices(&TraceChoices::snapshot_on_events)),
        .shown = "snapshot-on-events"},
       {.attribute = extension("snapshot-on-late-callback", Type::kFloat, "none",
                               "milliseconds: take a snapshot when a callback takes longer; implies snapshot-mode"),
@@ -346,11 +344,9 @@ std::vector<Setting<Channel>> make_channel_settings() {
   return {
       {.attribute = {"name", Type::kText, true, "", "its name"}, .place = place_of(&Channel::name)},
       {.attribute = {"events-ust", Type::kWords, false, "none", "userspace events"},
-       .perform = events<Channel>("events-ust", Tracepoints::kUserspace,
-                                  [](Channel& channel) -> auto& { return channel.events_ust; })},
+       .perform = events<Channel>("events-ust", Tracepoints::kUserspace, place_of(&Channel::events_ust))},
       {.attribute = {"events-kernel", Type::kWords, false, "none", "kernel tracepoints"},
-       .perform = events<Channel>("events-kernel", Tracepoints::kKernel,
-                                  [](Channel& channel) -> auto& { return channel.events_kernel; })},
+       .perform = events<Channel>("events-kernel", Tracepoints::kKernel, place_of(&Channel::events_kernel))},
       {.attribute = {"syscalls", Type::kWords, false, "none", "system calls"}, .place = place_of(&Channel::syscalls)},
       {.attribute = {"context-fields", Type::kWords, false, "those of the trace", ""},
        .perform = [](const Fields& fields, Scope& scope,
