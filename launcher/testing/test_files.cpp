@@ -14,6 +14,7 @@
 #include "base/environment/own_prefix.hpp"
 #include "base/environment/test_run_variables.hpp"
 #include "launcher/invocation/find_launch_file.hpp"
+#include "launcher/substitution/package_index.hpp"
 #include "launcher/testing/checks/trace_check.hpp"
 #include "launcher/visit/launch_plan.hpp"
 #include "launcher/visit/process_table.hpp"
@@ -71,6 +72,7 @@ struct TestFile {
       : file(path), registry(with), environment(with_variables_of_a_test_run(in)), arguments(given) {
     Scope scope;
     scope.environment = environment;
+    scope.packages = std::make_shared<PackageIndex>(own_prefix());
     description = load_launch_files({file}, registry, scope);
   }
 

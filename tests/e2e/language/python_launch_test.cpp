@@ -251,6 +251,19 @@ TEST_F(PythonLaunch, ArgumentsAreShownAndChecked) {
   EXPECT_THAT(wrong.err, HasSubstr("did you mean 'pairs'?"));
 }
 
+TEST_F(PythonLaunch, ThePackagesThatALoadAsksForAreLookedUpForTestsToo) {
+  const std::string path = write("asks.launch.py", R"(from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch.actions import LogInfo
+
+def generate_launch_description():
+    return LaunchDescription([LogInfo(msg=get_package_share_directory('no_such_package'))])
+)");
+  const CommandResult listed = launch({"test", "--list", path});
+  EXPECT_EQ(listed.exit_code, 1) << listed.err;
+  EXPECT_THAT(listed.err, HasSubstr("no_such_package"));
+}
+
 TEST_F(PythonLaunch, CoroutinesRunBesideTheProcesses) {
   const CommandResult result = launch({write("coroutine.launch.py", R"py(
 import asyncio
