@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # write_link_graph(<file>): a line for each target of the project: its folder below the top, its name, and what it links
-# directly, PUBLIC and PRIVATE alike. tests/repository/arrows_test.py holds it against cmake/arrows.txt.
+# directly, PUBLIC and PRIVATE alike. tests/repository/arrows_test.py holds it against the table of docs/architecture.md.
 function(write_link_graph file)
   set(lines "")
   set(folders ${PROJECT_SOURCE_DIR})

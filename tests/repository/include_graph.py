@@ -2,7 +2,7 @@
 """
 The includes of the sources: which file includes which, and which room which. Nothing is compiled.
 
-A room is a folder whose files belong together. cmake/arrows.txt names the rooms and what each may use.
+A room is a folder whose files belong together. docs/architecture.md names the rooms and what each may use.
 """
 
 import re

@@ -160,7 +160,7 @@ class Runtime {
   virtual ~Runtime() = default;
   // From now on errors carry Python's traceback. To make one takes longer than all else of an error.
   virtual void show_tracebacks() = 0;
-  // str() of the value of an expression (launcher/python/interpreter/python_expression.hpp). Throws std::runtime_error.
+  // str() of the value of an expression (evaluate_python() in python_module.hpp). Throws std::runtime_error.
   virtual std::string evaluate(const std::string& expression, const std::string& modules) = 0;
   // Runs a launch file. `text` is its content. Throws Error.
   virtual std::vector<Entity> load(const std::string& path, const std::string& text, Host& host) = 0;
