@@ -3,24 +3,15 @@
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <poll.h>
 #include <signal.h>
-#include <sys/prctl.h>
-#include <sys/stat.h>
-#include <sys/syscall.h>
-#include <sys/wait.h>
-#include <sys/xattr.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
-#include <vector>
 
-#include "launcher/process/process_runner.hpp"
-#include "temporary_directory.hpp"
+#include "guardian_fixture.hpp"
 
 namespace launch {
 namespace {
@@ -28,114 +19,10 @@ namespace {
 using testing::HasSubstr;
 using testing::MatchesRegex;
 
-constexpr int kPatience = 60'000;  // milliseconds, before a test fails
-const std::string kSleeper = "echo ready; exec sleep 1000";
 // Leaves a process that has a session of its own, ignores SIGINT, and whose parent has died. The shell would let it
 // ignore SIGINT anyway, because it starts it in the background, but it may tell its number before.
 const std::string kDaemon =
     "pid=$(setsid sh -c 'trap \"\" INT; sleep 1000 >/dev/null 2>&1 </dev/null & echo $!'); echo $pid; ";
-
-bool wait_for_end(const UniqueFd& fd) {
-  pollfd descriptor{fd.get(), POLLIN, 0};
-  return ::poll(&descriptor, 1, kPatience) == 1;
-}
-
-UniqueFd open_process(pid_t pid) {
-  return UniqueFd(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
-}
-
-bool runs(const UniqueFd& pidfd) {
-  pollfd descriptor{pidfd.get(), POLLIN, 0};
-  return ::poll(&descriptor, 1, 0) == 0;
-}
-
-std::string read_file(const std::string& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-// Empty when the process has gone.
-std::string name_of(pid_t process) {
-  std::ifstream file(fmt::format("/proc/{}/comm", process));
-  std::string name;
-  std::getline(file, name);
-  return name;
-}
-
-class GuardianTest : public testing::Test {
- protected:
-  // What a dead guardian leaves becomes ours.
-  GuardianTest() { ::prctl(PR_SET_CHILD_SUBREAPER, 1); }
-  ~GuardianTest() override { ::prctl(PR_SET_CHILD_SUBREAPER, 0); }
-
-  // Starts a launcher and reads the numbers of guardian, launcher and the shell of each script. With --exit in its
-  // words the launcher exits after that.
-  void start(std::vector<std::string> words, std::size_t shells) {
-    const bool exits = std::ranges::find(words, "--exit") != words.end();
-    words.insert(words.begin(), {DOOMED_LAUNCHER, LAUNCH_GUARDIAN});
-    ProcessSpec spec;
-    spec.name = "test";
-    spec.argv = std::move(words);
-    spec.environment = {{"PATH", "/usr/bin:/bin"}};
-    run = runner->spawn(spec);
-    guardian = read_pid();
-    launcher = read_pid();
-    EXPECT_EQ(guardian, run.pid);
-    for (std::size_t i = 0; i < shells; ++i) {
-      shell_pids.push_back(read_pid());
-      shells_.push_back(open_process(shell_pids.back()));
-      EXPECT_TRUE(shells_.back()) << "shell " << i;
-    }
-    if (exits) {
-      ::kill(launcher, SIGUSR1);
-    }
-  }
-  std::string read_line() {
-    std::string line;
-    pollfd readable{run.out.get(), POLLIN, 0};
-    for (char byte = 0; ::poll(&readable, 1, kPatience) == 1 && ::read(run.out.get(), &byte, 1) == 1 && byte != '\n';) {
-      line.push_back(byte);
-    }
-    return line;
-  }
-  // Throws std::invalid_argument if there is none: a signal to process -1 would go to all processes.
-  pid_t read_pid() { return std::stoi(read_line()); }
-  // How the guardian ended. Everything else has ended then.
-  int end() {
-    EXPECT_TRUE(wait_for_end(run.pidfd));
-    return runner->reap(run).code;
-  }
-  // Nothing that was started is left, neither as our child.
-  static void expect_nothing_left() {
-    while (::waitpid(-1, nullptr, 0) > 0) {
-    }
-    EXPECT_EQ(errno, ECHILD);
-  }
-  pid_t child_of_guardian(const std::string& name) const {
-    std::ifstream children(fmt::format("/proc/{0}/task/{0}/children", guardian));
-    for (pid_t child; children >> child;) {
-      if (name_of(child) == name) {
-        return child;
-      }
-    }
-    return -1;
-  }
-  pid_t wait_for_spare(pid_t former = -1) const {
-    for (pid_t spare = -1;; ::sched_yield()) {
-      if ((spare = child_of_guardian("guardian-spare")) > 0 && spare != former) {
-        return spare;
-      }
-    }
-  }
-
-  const TemporaryDirectory directory;
-  std::unique_ptr<ProcessRunner> runner = make_posix_process_runner();
-  Process run;
-  pid_t guardian = -1;
-  pid_t launcher = -1;
-  std::vector<pid_t> shell_pids;
-  std::vector<UniqueFd> shells_;
-};
 
 TEST_F(GuardianTest, EndsAllProcessesOfALauncherThatIsKilled) {
   start({kSleeper, kSleeper, kSleeper}, 3);
@@ -343,96 +230,6 @@ TEST_F(GuardianTest, ReapsOrphans) {
   }
   ::kill(launcher, SIGKILL);
   EXPECT_EQ(end(), -SIGKILL);
-}
-
-// A process that has emptied its environment, left its session and lost its parent.
-const std::string kHidden =
-    "env -i setsid sh -c 'sleep 1000 >/dev/null 2>&1 </dev/null & echo $!' | { read pid; echo $pid; }; ";
-
-// What systemd gives to a scope with Delegate=yes.
-class DelegatedCgroup : public GuardianTest {
- protected:
-  DelegatedCgroup() {
-    std::ifstream mounts("/proc/self/mounts");
-    for (std::string device, point, type, rest; mounts >> device >> point >> type && std::getline(mounts, rest);) {
-      if (type == "cgroup2") {
-        root_ = point;
-      }
-    }
-    std::ifstream groups("/proc/self/cgroup");
-    for (std::string line; std::getline(groups, line);) {
-      if (line.starts_with("0::")) {
-        before_ = root_ + line.substr(3);
-      }
-    }
-    path_ = fmt::format("{}/guardian-test-{}", root_, ::getpid());
-  }
-  ~DelegatedCgroup() override {
-    enter(before_);
-    ::rmdir(path_.c_str());
-  }
-
-  // "" or why this machine has no cgroup for a test.
-  std::string prepare() const {
-    if (root_.empty() || ::mkdir(path_.c_str(), 0755) != 0) {
-      return "skipped, because no cgroup of version 2 can be made here";
-    }
-    if (::setxattr(path_.c_str(), "user.delegate", "1", 1, 0) != 0) {
-      return "skipped, because cgroups have no attributes here";
-    }
-    return enter(path_) ? "" : "skipped, because a cgroup can't be entered here";
-  }
-  static bool enter(const std::string& cgroup) {
-    std::ofstream file(cgroup + "/cgroup.procs");
-    file << "0" << std::flush;
-    return file.good();
-  }
-  std::size_t cgroups_below() const {
-    return static_cast<std::size_t>(std::count_if(std::filesystem::directory_iterator(path_), {},
-                                                  [](const auto& entry) { return entry.is_directory(); }));
-  }
-
-  std::string root_;
-  std::string before_;
-  std::string path_;
-};
-
-TEST_F(DelegatedCgroup, HoldsTheLaunchAndIsRemoved) {
-  if (const std::string missing = prepare(); !missing.empty()) {
-    GTEST_SKIP() << missing;
-  }
-  start({kSleeper}, 1);
-  const std::string of_shell = read_file(fmt::format("/proc/{}/cgroup", shell_pids[0]));
-  EXPECT_THAT(of_shell, testing::ContainsRegex("0::/.*guardian-test-[0-9]+/launch-[0-9a-f]{16}\n"));
-  EXPECT_EQ(read_file(fmt::format("/proc/{}/cgroup", launcher)), of_shell);
-  ::kill(launcher, SIGKILL);
-  EXPECT_EQ(end(), -SIGKILL);
-  expect_nothing_left();
-  EXPECT_EQ(cgroups_below(), 0U);
-}
-
-TEST_F(DelegatedCgroup, TellsTheSpareOfAProcessThatHidesFromIt) {
-  if (const std::string missing = prepare(); !missing.empty()) {
-    GTEST_SKIP() << missing;
-  }
-  start({"--timeouts", "100", "100", kHidden + "exec sleep 1000"}, 1);
-  wait_for_spare();
-  ::kill(launcher, SIGKILL);
-  ::kill(guardian, SIGKILL);
-  EXPECT_EQ(end(), -SIGKILL);
-  expect_nothing_left();
-  EXPECT_EQ(cgroups_below(), 0U);
-}
-
-TEST_F(DelegatedCgroup, EndsProcessesThatStartOthersAllTheTime) {
-  if (const std::string missing = prepare(); !missing.empty()) {
-    GTEST_SKIP() << missing;
-  }
-  // Each process lives until it has started the next one.
-  start({"--timeouts", "100", "100", "trap '' INT TERM; flee() { flee & }; echo ready; flee; exec sleep 1000"}, 1);
-  ::kill(launcher, SIGKILL);
-  EXPECT_EQ(end(), -SIGKILL);
-  expect_nothing_left();
 }
 
 TEST_F(GuardianTest, SaysWhichProgramIsMissing) {

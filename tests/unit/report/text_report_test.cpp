@@ -1,207 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <sstream>
 
 #include "tests/unit/report/example_reports.hpp"
 #include "tracing/model/findings/quantity_text.hpp"
-#include "tracing/show/report/recorded_sessions.hpp"
 #include "tracing/show/report/report.hpp"
 
 namespace tracing {
 namespace {
 
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using ::testing::Not;
-
-TEST(TextReport, OfAnEmptyTraceSaysSo) {
-  EXPECT_EQ(text_report({"/traces/run", {}, ""}),
-            "Trace      /traces/run\n"
-            "Events     0 of 0 processes\n"
-            "Losses     no events lost\n");
-}
-
-TEST(TextReport, SaysThatTheTraceIsStillBeingWritten) {
-  Report report{"/traces/run", {}, ""};
-  report.open = {"/traces/run"};
-  report.lacks_descriptions = true;
-  EXPECT_EQ(
-      text_report(report),
-      "Trace      /traces/run\n"
-      "Open       still being written; what is complete so far is in this report\n"
-      "Events     0 of 0 processes\n"
-      "Losses     no events lost\n"
-      "\nNotes\n"
-      "  Events that LTTng has not described yet are left out; it describes them when a traced program ends or the "
-      "session is stopped.\n");
-  EXPECT_EQ(nlohmann::json::parse(json_report(report))["open"], nlohmann::json({"/traces/run"}));
-}
-
-TEST(TextReport, SaysWhatTheTraceCannotTell) {
-  const auto notes_of = [](const Report& report) {
-    const std::string text = text_report(report);
-    const std::size_t notes = text.find("\nNotes\n");
-    return notes == std::string::npos ? "" : text.substr(notes + 7);
-  };
-  Report report{"/traces/run", {}, ""};
-  report.results.overview = overview_of(9, {{71, "ping", 9, false}});
-  report.results.overview.event_counts = {{"sched_switch", 9, {9}}};
-  EXPECT_EQ(notes_of(report),
-            "  The trace has no events of ROS 2, so nothing is known about nodes, callbacks and messages.\n");
-  report.results.overview.event_counts = {{"ros2:callback_start", 9, {9}}};
-  report.results.ros2.callbacks.resize(1);
-  EXPECT_EQ(
-      notes_of(report),
-      "  The trace has no rcl_node_init: callbacks and messages have no nodes. Were these events recorded, and did "
-      "the session begin before the nodes?\n");
-  report.results.ros2.nodes = {{0, "/ping", 1, 1}};
-  EXPECT_EQ(notes_of(report), "");
-  TopicResult topic;
-  topic.name = "/scan";
-  topic.early = 3;
-  topic.earliest_ns = 2'500'000;
-  report.results.ros2.topics = {topic};
-  EXPECT_EQ(notes_of(report),
-            "  3 messages of /scan were taken up to 2.50 ms before they were published: the clocks of two machines "
-            "differ, and times between them are wrong.\n");
-}
-
-TEST(TextReport, ShowsWhereEventsWereLostAndWhoseResultsAreDoubtful) {
-  Report report{"/traces/run", {}, ""};
-  report.results.overview = overview_of(2, {{71, "ping", 1, true}, {72, "pong", 1, true}, {73, "talker", 1, false}});
-  report.results.overview.losses = {loss_of(37, 0, false), loss_of(0, 3, false), loss_of(0, 0, true)};
-  report.results.overview.losses[2].stream = "/elsewhere/ros2_1";
-  report.results.overview.losses[2].begin_ns = std::nullopt;
-  EXPECT_EQ(text_report(report, {.events = true}),
-            R"(Trace      /traces/run
-Recorded   2026-01-01 00:00:00.000000 UTC, for 2.00 s
-Events     2 of 3 processes
-Losses     at least 37 events and 3 packets lost; results marked with * may be wrong
-
-Losses by stream                                            events   packets        from          to
-  ust/uid/0/64-bit/ros2_0                                       37         0    +0.500 s    +1.500 s
-  ust/uid/0/64-bit/ros2_0                                        0         3    +0.500 s    +1.500 s
-  /elsewhere/ros2_1                                           some         0           ?    +1.500 s
-  What follows may be incomplete for: ping [71], pong [72]
-
-Events by process                              total  ping [71]  pong [72]  talker [73]
-)");
-}
-
-TEST(TextReport, PutsProcessesThatDontFitBelow) {
-  Report report{"/traces/run", {}, ""};
-  report.results.overview.processes = {{100001, "first_component", 1, false},
-                                       {100002, "second_componen", 1, false},
-                                       {100003, "third_component", 1, false}};
-  report.results.overview.events = 6;
-  report.results.overview.event_counts = {{"ros2:rcl_take", 6, {1, 2, 3}}};
-  EXPECT_EQ(text_report(report, {.events = true}),
-            R"(Trace      /traces/run
-Events     6 of 3 processes
-Losses     no events lost
-
-Events by process                              total  first_component [100001]
-  ros2:rcl_take                                    6                         1
-
-Events by process                              total  second_componen [100002]
-  ros2:rcl_take                                    6                         2
-
-Events by process                              total  third_component [100003]
-  ros2:rcl_take                                    6                         3
-)");
-}
-
-TEST(TextReport, PutsProcessesThatOnlyTheKernelTellsOfTogether) {
-  Report report{"/traces/run", {}, ""};
-  report.results.overview.processes = {{0, "swapper/0", 3, false}, {71, "ping", 3, false}, {80, "bash", 4, false}};
-  report.results.overview.events = 10;
-  report.results.overview.event_counts = {{"ros2:rcl_take", 1, {0, 1, 0}}, {"sched_switch", 9, {3, 2, 4}}};
-  EXPECT_EQ(text_report(report, {.events = true}),
-            R"(Trace      /traces/run
-Events     10 of 3 processes
-Losses     no events lost
-
-Events by process                              total  ping [71]  2 of the kernel alone
-  ros2:rcl_take                                    1          1                      0
-  sched_switch                                     9          2                      7
-)");
-}
-
-TEST(TextReport, NamesTheMachineInRowsIfThereAreSeveral) {
-  Report report{"/traces/run", {}, ""};
-  CallbackResult callback;
-  callback.node = "/ping";
-  callback.owner = CallbackResult::Owner::kTimer;
-  callback.period_ns = 10'000'000;
-  callback.durations = {7, 1'000.0, 0.0, 1'000, 1'000, 1'000, 1'000, 1'000, true};
-  ExecutorResult executor;
-  executor.vtid = 71;
-  executor.callbacks = 7;
-  ChainResult chain;
-  chain.name = "reaction";
-  chain.steps.resize(3);
-  chain.steps[0].node = "/ping";
-  chain.steps[1].node = "/ping";
-  chain.steps[2].node = "/pong";
-  chain.steps[2].process = 1;
-  LifecycleResult state;
-  state.node = "/ping";
-  state.state = "active";
-  for (const std::size_t process : {0, 1}) {
-    callback.process = executor.process = state.process = process;
-    report.results.ros2.callbacks.push_back(callback);
-    report.results.ros2.executors.push_back(executor);
-    report.results.ros2.lifecycle.push_back(state);
-    report.results.ros2.nodes.push_back({process, "/ping", 7, 7'000});
-  }
-  CallResult call;
-  call.service = "/add";
-  call.client = "/ping";
-  call.client_process = 1;
-  call.requests = 1;
-  report.results.ros2.calls = {call};
-  report.results.ros2.chains = {chain};
-  report.results.overview = overview_of(2, {{71, "ping", 1, false, "left"}, {71, "ping", 1, false, "right"}});
-  const std::string text = text_report(report);
-  for (const char* row : {"left: /ping, timer 10 ms", "right: /ping, timer 10 ms", "left: /ping [71]",
-                          "right: /ping [71]", "left -> right: reaction: /ping -> /ping -> /pong",
-                          "/add, asked by right: /ping", "\n  left: /ping  ", "\n  right: /ping  "}) {
-    EXPECT_THAT(text, HasSubstr(row));
-  }
-  const std::string all = text_report(report, {.all = true});
-  for (const char* row :
-       {"\n  left: /ping, ping [71] ", "\nright: /ping, ping [71]\n  timer 10 ms", "\n  right: /pong, ",
-        "left: ping [71]  right: ping [71]", "/add, right: /ping asks unknown"}) {
-    EXPECT_THAT(all, HasSubstr(row));
-  }
-  report.results.overview.processes[1].host = "left";
-  EXPECT_THAT(text_report(report), Not(HasSubstr("left")));
-}
-
-TEST(TextReport, SaysThatSeveralSessionsAreReadAsOne) {
-  Report report{"/traces", {}, ""};
-  report.results.overview = overview_of(2, {{71, "ping", 1, false, "left"}});
-  EXPECT_THAT(text_report(report), Not(HasSubstr("sessions")));
-  report.sessions = {"monday", "tuesday"};
-  EXPECT_THAT(text_report(report),
-              HasSubstr("\n  2 sessions of one machine are read as one, from the first event to the last: monday, "
-                        "tuesday. Loads count the time between them, too.\n"));
-}
-
-TEST(SeveralSessions, AreOnesOfOneMachineOfDifferentNamesOrTimes) {
-  const auto trace = [](const char* host, const char* name, const char* time) {
-    TraceDescription description;
-    description.environment = {{"hostname", host}, {"trace_name", name}, {"trace_creation_datetime", time}};
-    return description;
-  };
-  EXPECT_THAT(several_sessions({trace("left", "run", "1"), trace("right", "run", "1")}), IsEmpty());
-  EXPECT_THAT(several_sessions({trace("left", "run-snapshot", "1"), trace("left", "run-runtime", "2")}), IsEmpty());
-  EXPECT_THAT(several_sessions({trace("left", "run", "1"), trace("left", "run", "2"), trace("right", "other", "1")}),
-              ElementsAre("run", "run"));
-}
 
 TEST(TextReport, HasNoControlCharactersOfNames) {
   Report report{"/traces/run", {}, ""};
@@ -333,28 +143,6 @@ TEST(TextReport, SortsAndChooses) {
   EXPECT_EQ(first_words({.node = "/[or]*"}), "/often /rare ");
   EXPECT_EQ(first_words({.topic = "/scan"}), "/often ");
   EXPECT_EQ(first_words({.topic = "/none"}), "");
-}
-
-TEST(TextReport, MarksWhatLostEventsMayHaveChanged) {
-  Report report = busy_report();
-  report.results.ros2.callbacks[0].doubtful = true;
-  EXPECT_THAT(text_report(report), HasSubstr("\n  /slow, timer 100 ms *"));
-}
-
-TEST(TextReport, CountsNoCostOfKernelEvents) {
-  Report report = busy_report();
-  report.verdict.ns_per_event = 500;
-  report.results.overview.events = 3000;
-  report.results.overview.event_counts = {{"ros2:rcl_take", 1000, {1000, 0}}, {"sched_switch", 2000, {1000, 1000}}};
-  EXPECT_THAT(
-      text_report(report),
-      HasSubstr("\nCost       500 us of 500 ns for each event, 0.025 % of a processor, without the events of the "
-                "kernel\n"));
-  report.results.overview.events = 1000;
-  report.results.overview.event_counts.pop_back();
-  EXPECT_THAT(text_report(report), HasSubstr("\nCost       500 us of 500 ns for each event, 0.025 % of a processor\n"));
-  report.results.overview.event_counts = {{"sched_switch", 1000, {1000, 0}}};
-  EXPECT_THAT(text_report(report), ::testing::Not(HasSubstr("\nCost ")));
 }
 
 TEST(TextReport, FollowsTheChosenChain) {
