@@ -7,6 +7,7 @@
 #include <array>
 #include <fstream>
 #include <type_traits>
+#include <utility>
 
 namespace tracing::testing {
 
@@ -121,12 +122,16 @@ void TraceWriter::end_packet(unsigned cpu) {
   append(packet, bits);
   append(packet, bits);
   append(packet, stream.sequence_number++);
-  append(packet, stream.discarded);
+  append(packet, std::exchange(stream.hides_discarded, false) ? std::uint64_t{0} : stream.discarded);
   append(packet, std::uint32_t{cpu});
   packet += stream.events;
   std::ofstream(directory_ / fmt::format("ros2_{}", cpu), std::ios::binary | std::ios::app) << packet;
   stream.events.clear();
   stream.begin_ns = stream.end_ns;
+}
+
+void TraceWriter::hide_discarded_events(unsigned cpu) {
+  cpus_[cpu].hides_discarded = true;
 }
 
 void TraceWriter::discard_events(unsigned cpu, std::uint32_t count) {

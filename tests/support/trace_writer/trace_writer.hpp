@@ -49,7 +49,9 @@ class TraceWriter {
 
   void end_packet(unsigned cpu);
   void discard_events(unsigned cpu, std::uint32_t count);  // counted in the packet that is being filled
-  void lose_packets(unsigned cpu, std::uint64_t count);    // between the packet that is being filled and the one before
+  // The packet that is being filled says that nothing was discarded so far, as LTTng's do now and then under overload.
+  void hide_discarded_events(unsigned cpu);
+  void lose_packets(unsigned cpu, std::uint64_t count);  // between the packet that is being filled and the one before
 
   // Writes the packets that are left. Nothing may be written after this.
   void finish();
@@ -61,6 +63,7 @@ class TraceWriter {
     std::int64_t end_ns = 0;
     std::uint64_t sequence_number = 0;
     std::uint64_t discarded = 0;
+    bool hides_discarded = false;
   };
 
   std::string metadata() const;

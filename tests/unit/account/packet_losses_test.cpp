@@ -41,6 +41,15 @@ TEST(PacketLosses, AreTheStepsOfTotalsAndTheGapsOfNumbers) {
   EXPECT_EQ(losses.earlier_discarded_events, 0u);
 }
 
+// Under overload LTTng now and then writes a packet whose total is 0.
+TEST(PacketLosses, AreTheHighestTotalThoughATotalGoesBack) {
+  EXPECT_EQ(losses_of(stream({packet(0, 2), packet(1, 50), packet(2, 0), packet(3, 51)})).discarded_events, 51u);
+  EXPECT_EQ(losses_of(stream({packet(0, 0), packet(1, 50), packet(2, 0)})).discarded_events, 50u);
+  const PacketLosses late = losses_of(stream({packet(7, 100), packet(8, 0), packet(9, 103)}));
+  EXPECT_EQ(late.discarded_events, 3u);
+  EXPECT_EQ(late.earlier_discarded_events, 100u);
+}
+
 TEST(PacketLosses, BeforeTheFirstPacketThatIsThereAreApart) {
   const PacketLosses losses = losses_of(stream({packet(7, 100), packet(8, 103)}));
   EXPECT_EQ(losses.discarded_events, 3u);

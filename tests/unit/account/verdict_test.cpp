@@ -61,6 +61,18 @@ TEST_F(Verdict, NamesTheRunsOfLossesAndTheBuffersThatWouldHaveHeld) {
             "1500 events lost in ust channel ros2 with 2 sub-buffers of 32768 bytes; 4 of 131072 would have held them");
 }
 
+TEST_F(Verdict, ARunOfLossesDoesNotBeginAnewWhereATotalGoesBack) {
+  LossAccount losses = account(301);
+  tracing::explain_losses(losses, {stream("0", {{1000, 2000, 32000, 0},
+                                                {2000, 3000, 32000, 300},
+                                                {3000, 4000, 32000, 0},
+                                                {4000, 5000, 32000, 301}})});
+  const ChannelLoss& channel = losses.channels.at(0);
+  ASSERT_EQ(channel.ranges.size(), 2u);
+  EXPECT_EQ(channel.ranges[0].events, 300u);
+  EXPECT_EQ(channel.ranges[1].events, 1u);
+}
+
 TEST_F(Verdict, AdvisesNothingWhereNoBufferHelps) {
   LossAccount losses = account(10'000'000);
   tracing::explain_losses(losses, {stream("0", {{1000, 2000, 32000, 10'000'000}})});

@@ -127,6 +127,29 @@ TEST(TraceReader, ReportsDiscardedEventsWithStreamTimeAndCount) {
   EXPECT_EQ(sink.losses[0].end_ns, 300);
 }
 
+// Under overload LTTng now and then writes 0 as the total of a packet. What comes after it is not lost a second time.
+TEST(TraceReader, CountsAClimbBackToATotalAsNoLoss) {
+  const TemporaryDirectory directory;
+  TraceWriter writer(directory.path());
+  writer.write(0, 100, kPing, ros2::RclTake{5});
+  writer.end_packet(0);
+  writer.discard_events(0, 37);
+  writer.write(0, 200, kPing, ros2::RclTake{6});
+  writer.end_packet(0);
+  writer.hide_discarded_events(0);
+  writer.write(0, 300, kPing, ros2::RclTake{7});
+  writer.end_packet(0);
+  writer.discard_events(0, 3);
+  writer.write(0, 400, kPing, ros2::RclTake{8});
+  writer.finish();
+
+  const RecordingSink sink = read(directory.path());
+
+  ASSERT_EQ(sink.losses.size(), 2u);
+  EXPECT_EQ(sink.losses[0].count, 37u);
+  EXPECT_EQ(sink.losses[1].count, 3u);
+}
+
 // The count in a packet is a running total: it is not known how much of the first packet's count belongs to this trace.
 TEST(TraceReader, ReportsALossWithoutCountInAStreamsFirstPacket) {
   const TemporaryDirectory directory;

@@ -109,9 +109,11 @@ void StreamCursor::find_losses(const Packet& packet) {
       if (now > 0) {
         losses_.push_back({Item::kDiscardedEvents, std::nullopt, begin, end});
       }
-    } else if (before->discarded_events && now > *before->discarded_events) {
-      losses_.push_back({Item::kDiscardedEvents, now - *before->discarded_events, end_before, end});
+    } else if (before->discarded_events && now > discarded_) {
+      losses_.push_back({Item::kDiscardedEvents, now - discarded_, end_before, end});
     }
+    // Under overload LTTng now and then writes 0 in a packet and goes on from the total before it.
+    discarded_ = std::max(discarded_, now);
   }
   if (before != nullptr && before->sequence_number && packet.sequence_number &&
       *packet.sequence_number > *before->sequence_number + 1) {

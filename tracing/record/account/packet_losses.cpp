@@ -46,6 +46,14 @@ void count_channel(ChannelLoss& channel, const std::vector<Stream>& streams) {
 
 }  // namespace
 
+std::uint64_t discarded_in(const Stream& stream) {
+  std::uint64_t highest = 0;
+  for (const Packet& packet : stream.packets) {
+    highest = std::max(highest, packet.discarded_events);
+  }
+  return highest;
+}
+
 PacketLosses losses_of(const Stream& stream) {
   PacketLosses losses;
   if (stream.packets.empty()) {
@@ -53,11 +61,11 @@ PacketLosses losses_of(const Stream& stream) {
   }
   const Packet& first = stream.packets.front();
   losses.earlier_packets = first.sequence_number.value_or(0);
-  (losses.earlier_packets == 0 ? losses.discarded_events : losses.earlier_discarded_events) = first.discarded_events;
+  losses.earlier_discarded_events = losses.earlier_packets == 0 ? 0 : first.discarded_events;
+  losses.discarded_events = discarded_in(stream) - losses.earlier_discarded_events;
   for (std::size_t i = 1; i < stream.packets.size(); ++i) {
     const Packet& before = stream.packets[i - 1];
     const Packet& packet = stream.packets[i];
-    losses.discarded_events += beyond(packet.discarded_events, before.discarded_events);
     if (packet.sequence_number && before.sequence_number) {
       losses.lost_packets += beyond(*packet.sequence_number, *before.sequence_number + 1);
     }

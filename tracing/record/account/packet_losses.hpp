@@ -10,8 +10,12 @@
 
 namespace tracing {
 
-// The losses of one stream, as every reader of CTF finds them: the total of discarded events in a packet less the total
-// in the packet before it, and gaps between sequence numbers.
+// All events that the stream has discarded since its beginning, as its packets tell: the highest of their totals. Under
+// overload LTTng now and then writes a packet whose total is 0; the totals behind it go on from the one before.
+std::uint64_t discarded_in(const Stream& stream);
+
+// The losses of one stream: the climb of the total of discarded events over all its packets, and gaps between sequence
+// numbers.
 struct PacketLosses {
   std::uint64_t discarded_events = 0;  // also of the first packet, if it is the stream's first of all
   std::uint64_t lost_packets = 0;

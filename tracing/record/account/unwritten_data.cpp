@@ -14,6 +14,7 @@
 #include <limits>
 
 #include "tracing/record/account/loss_account.hpp"
+#include "tracing/record/account/packet_losses.hpp"
 #include "tracing/record/account/stream_packets.hpp"
 
 namespace tracing {
@@ -29,7 +30,7 @@ bool ends_with_losses(const ChannelLoss& channel, const std::vector<Stream>& str
     if (stream.domain != channel.domain || stream.channel != channel.channel || stream.packets.empty()) {
       continue;
     }
-    known += stream.packets.back().discarded_events;
+    known += discarded_in(stream);
   }
   return channel.discarded_events + channel.before_first.discarded_events > known;
 }

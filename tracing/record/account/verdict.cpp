@@ -32,8 +32,8 @@ std::uint64_t add_ranges(const Stream& stream, std::uint64_t origin, std::vector
   bool in_run = false;
   for (std::size_t i = 0; i < stream.packets.size(); ++i) {
     const Packet& packet = stream.packets[i];
-    const std::uint64_t before = std::exchange(discarded, packet.discarded_events);
-    const std::uint64_t lost = packet.discarded_events - std::min(before, packet.discarded_events);
+    const std::uint64_t before = std::exchange(discarded, std::max(discarded, packet.discarded_events));
+    const std::uint64_t lost = discarded - before;
     if (lost != 0) {
       const std::uint64_t begin = i == 0 ? packet.begin : stream.packets[i - 1].end;
       if (!in_run) {
