@@ -53,30 +53,21 @@ struct LogThrottle {
 
 }  // namespace rclcpp::detail
 
-#define RCLCPP_LOG_IF_(severity, logger, condition, ...)                                                 \
-  do {                                                                                                   \
-    static_assert(std::is_same_v<std::decay_t<decltype(logger)>, ::rclcpp::Logger>,                      \
-                  "First argument to logging macros must be an rclcpp::Logger");                         \
-    static const rcutils_log_location_t rclcpp_log_location_ = {__func__, __FILE__, __LINE__};           \
-    const auto& rclcpp_log_logger_ = logger;                                                             \
-    if (rcutils_logging_logger_is_enabled_for(rclcpp_log_logger_.get_name(), severity) && (condition)) { \
-      rcutils_log_internal(&rclcpp_log_location_, severity, rclcpp_log_logger_.get_name(), __VA_ARGS__); \
-    }                                                                                                    \
+// The two forms of a line. `before` is done if the line is written, before its arguments are evaluated.
+#define RCLCPP_LOG_(severity, logger, condition, before, ...)                                                   \
+  do {                                                                                                          \
+    static_assert(std::is_same_v<std::decay_t<decltype(logger)>, ::rclcpp::Logger>,                             \
+                  "First argument to logging macros must be an rclcpp::Logger");                                \
+    static const rcutils_log_location_t rclcpp_log_location_ = {__func__, __FILE__, __LINE__};                  \
+    const auto& rclcpp_log_logger_ = logger;                                                                    \
+    if (rcutils_logging_logger_is_enabled_for(rclcpp_log_logger_.get_name(), severity) && (condition)) {        \
+      before rcutils_log_internal(&rclcpp_log_location_, severity, rclcpp_log_logger_.get_name(), __VA_ARGS__); \
+    }                                                                                                           \
   } while (0)
-
-#define RCLCPP_LOG_STREAM_IF_(severity, logger, condition, stream_arg)                                   \
-  do {                                                                                                   \
-    static_assert(std::is_same_v<std::decay_t<decltype(logger)>, ::rclcpp::Logger>,                      \
-                  "First argument to logging macros must be an rclcpp::Logger");                         \
-    static const rcutils_log_location_t rclcpp_log_location_ = {__func__, __FILE__, __LINE__};           \
-    const auto& rclcpp_log_logger_ = logger;                                                             \
-    if (rcutils_logging_logger_is_enabled_for(rclcpp_log_logger_.get_name(), severity) && (condition)) { \
-      std::ostringstream rclcpp_log_stream_;                                                             \
-      rclcpp_log_stream_ << stream_arg;                                                                  \
-      rcutils_log_internal(&rclcpp_log_location_, severity, rclcpp_log_logger_.get_name(), "%s",         \
-                           rclcpp_log_stream_.str().c_str());                                            \
-    }                                                                                                    \
-  } while (0)
+#define RCLCPP_LOG_TEXT_(severity, logger, condition, ...) RCLCPP_LOG_(severity, logger, condition, , __VA_ARGS__)
+#define RCLCPP_LOG_STREAM_(severity, logger, condition, stream_arg)                                                 \
+  RCLCPP_LOG_(severity, logger, condition, std::ostringstream rclcpp_log_stream_; rclcpp_log_stream_ << stream_arg; \
+              , "%s", rclcpp_log_stream_.str().c_str())
 
 // The memory is a local static of a lambda: one per place in the source.
 #define RCLCPP_LOG_ONCE_CONDITION_         \
@@ -91,152 +82,96 @@ struct LogThrottle {
     return throttle;                                    \
   }()((clock).now().nanoseconds(), static_cast<int64_t>(duration)))
 
-#define RCLCPP_DEBUG(logger, ...) RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, logger, true, __VA_ARGS__)
-#define RCLCPP_DEBUG_STREAM(logger, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_DEBUG, logger, true, stream_arg)
-#define RCLCPP_DEBUG_ONCE(logger, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, logger, RCLCPP_LOG_ONCE_CONDITION_, __VA_ARGS__)
-#define RCLCPP_DEBUG_STREAM_ONCE(logger, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_DEBUG, logger, RCLCPP_LOG_ONCE_CONDITION_, stream_arg)
-#define RCLCPP_DEBUG_EXPRESSION(logger, expression, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, logger, expression, __VA_ARGS__)
-#define RCLCPP_DEBUG_STREAM_EXPRESSION(logger, expression, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_DEBUG, logger, expression, stream_arg)
-#define RCLCPP_DEBUG_FUNCTION(logger, function, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, logger, (function)(), __VA_ARGS__)
-#define RCLCPP_DEBUG_STREAM_FUNCTION(logger, function, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_DEBUG, logger, (function)(), stream_arg)
-#define RCLCPP_DEBUG_SKIPFIRST(logger, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, logger, RCLCPP_LOG_SKIPFIRST_CONDITION_, __VA_ARGS__)
-#define RCLCPP_DEBUG_STREAM_SKIPFIRST(logger, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_DEBUG, logger, RCLCPP_LOG_SKIPFIRST_CONDITION_, stream_arg)
-#define RCLCPP_DEBUG_THROTTLE(logger, clock, duration, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, logger, RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), __VA_ARGS__)
-#define RCLCPP_DEBUG_STREAM_THROTTLE(logger, clock, duration, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_DEBUG, logger, RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), stream_arg)
-#define RCLCPP_DEBUG_SKIPFIRST_THROTTLE(logger, clock, duration, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, logger,                  \
-                 RCLCPP_LOG_SKIPFIRST_CONDITION_&& RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), __VA_ARGS__)
-#define RCLCPP_DEBUG_STREAM_SKIPFIRST_THROTTLE(logger, clock, duration, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_DEBUG, logger,                         \
-                        RCLCPP_LOG_SKIPFIRST_CONDITION_&& RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), stream_arg)
+// The conditions. `form` is TEXT or STREAM. The level is joined to a name before it could be replaced, in case a
+// program defines a macro DEBUG or ERROR.
+#define RCLCPP_LOG_ALWAYS_(form, level, logger, ...) \
+  RCLCPP_LOG_##form##_(RCUTILS_LOG_SEVERITY_##level, logger, true, __VA_ARGS__)
+#define RCLCPP_LOG_ONCE_(form, level, logger, ...) \
+  RCLCPP_LOG_##form##_(RCUTILS_LOG_SEVERITY_##level, logger, RCLCPP_LOG_ONCE_CONDITION_, __VA_ARGS__)
+#define RCLCPP_LOG_EXPRESSION_(form, level, logger, expression, ...) \
+  RCLCPP_LOG_##form##_(RCUTILS_LOG_SEVERITY_##level, logger, expression, __VA_ARGS__)
+#define RCLCPP_LOG_FUNCTION_(form, level, logger, function, ...) \
+  RCLCPP_LOG_##form##_(RCUTILS_LOG_SEVERITY_##level, logger, (function)(), __VA_ARGS__)
+#define RCLCPP_LOG_SKIPFIRST_(form, level, logger, ...) \
+  RCLCPP_LOG_##form##_(RCUTILS_LOG_SEVERITY_##level, logger, RCLCPP_LOG_SKIPFIRST_CONDITION_, __VA_ARGS__)
+#define RCLCPP_LOG_THROTTLE_(form, level, logger, clock, duration, ...)                                       \
+  RCLCPP_LOG_##form##_(RCUTILS_LOG_SEVERITY_##level, logger, RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), \
+                       __VA_ARGS__)
+#define RCLCPP_LOG_SKIPFIRST_THROTTLE_(form, level, logger, clock, duration, ...) \
+  RCLCPP_LOG_##form##_(RCUTILS_LOG_SEVERITY_##level, logger,                      \
+                       RCLCPP_LOG_SKIPFIRST_CONDITION_&& RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), __VA_ARGS__)
 
-#define RCLCPP_INFO(logger, ...) RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, logger, true, __VA_ARGS__)
-#define RCLCPP_INFO_STREAM(logger, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_INFO, logger, true, stream_arg)
-#define RCLCPP_INFO_ONCE(logger, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, logger, RCLCPP_LOG_ONCE_CONDITION_, __VA_ARGS__)
-#define RCLCPP_INFO_STREAM_ONCE(logger, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_INFO, logger, RCLCPP_LOG_ONCE_CONDITION_, stream_arg)
-#define RCLCPP_INFO_EXPRESSION(logger, expression, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, logger, expression, __VA_ARGS__)
-#define RCLCPP_INFO_STREAM_EXPRESSION(logger, expression, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_INFO, logger, expression, stream_arg)
-#define RCLCPP_INFO_FUNCTION(logger, function, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, logger, (function)(), __VA_ARGS__)
-#define RCLCPP_INFO_STREAM_FUNCTION(logger, function, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_INFO, logger, (function)(), stream_arg)
-#define RCLCPP_INFO_SKIPFIRST(logger, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, logger, RCLCPP_LOG_SKIPFIRST_CONDITION_, __VA_ARGS__)
-#define RCLCPP_INFO_STREAM_SKIPFIRST(logger, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_INFO, logger, RCLCPP_LOG_SKIPFIRST_CONDITION_, stream_arg)
-#define RCLCPP_INFO_THROTTLE(logger, clock, duration, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, logger, RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), __VA_ARGS__)
-#define RCLCPP_INFO_STREAM_THROTTLE(logger, clock, duration, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_INFO, logger, RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), stream_arg)
-#define RCLCPP_INFO_SKIPFIRST_THROTTLE(logger, clock, duration, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, logger,                  \
-                 RCLCPP_LOG_SKIPFIRST_CONDITION_&& RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), __VA_ARGS__)
-#define RCLCPP_INFO_STREAM_SKIPFIRST_THROTTLE(logger, clock, duration, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_INFO, logger,                         \
-                        RCLCPP_LOG_SKIPFIRST_CONDITION_&& RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), stream_arg)
+#define RCLCPP_DEBUG(...) RCLCPP_LOG_ALWAYS_(TEXT, DEBUG, __VA_ARGS__)
+#define RCLCPP_DEBUG_ONCE(...) RCLCPP_LOG_ONCE_(TEXT, DEBUG, __VA_ARGS__)
+#define RCLCPP_DEBUG_EXPRESSION(...) RCLCPP_LOG_EXPRESSION_(TEXT, DEBUG, __VA_ARGS__)
+#define RCLCPP_DEBUG_FUNCTION(...) RCLCPP_LOG_FUNCTION_(TEXT, DEBUG, __VA_ARGS__)
+#define RCLCPP_DEBUG_SKIPFIRST(...) RCLCPP_LOG_SKIPFIRST_(TEXT, DEBUG, __VA_ARGS__)
+#define RCLCPP_DEBUG_THROTTLE(...) RCLCPP_LOG_THROTTLE_(TEXT, DEBUG, __VA_ARGS__)
+#define RCLCPP_DEBUG_SKIPFIRST_THROTTLE(...) RCLCPP_LOG_SKIPFIRST_THROTTLE_(TEXT, DEBUG, __VA_ARGS__)
+#define RCLCPP_DEBUG_STREAM(...) RCLCPP_LOG_ALWAYS_(STREAM, DEBUG, __VA_ARGS__)
+#define RCLCPP_DEBUG_STREAM_ONCE(...) RCLCPP_LOG_ONCE_(STREAM, DEBUG, __VA_ARGS__)
+#define RCLCPP_DEBUG_STREAM_EXPRESSION(...) RCLCPP_LOG_EXPRESSION_(STREAM, DEBUG, __VA_ARGS__)
+#define RCLCPP_DEBUG_STREAM_FUNCTION(...) RCLCPP_LOG_FUNCTION_(STREAM, DEBUG, __VA_ARGS__)
+#define RCLCPP_DEBUG_STREAM_SKIPFIRST(...) RCLCPP_LOG_SKIPFIRST_(STREAM, DEBUG, __VA_ARGS__)
+#define RCLCPP_DEBUG_STREAM_THROTTLE(...) RCLCPP_LOG_THROTTLE_(STREAM, DEBUG, __VA_ARGS__)
+#define RCLCPP_DEBUG_STREAM_SKIPFIRST_THROTTLE(...) RCLCPP_LOG_SKIPFIRST_THROTTLE_(STREAM, DEBUG, __VA_ARGS__)
 
-#define RCLCPP_WARN(logger, ...) RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, logger, true, __VA_ARGS__)
-#define RCLCPP_WARN_STREAM(logger, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_WARN, logger, true, stream_arg)
-#define RCLCPP_WARN_ONCE(logger, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, logger, RCLCPP_LOG_ONCE_CONDITION_, __VA_ARGS__)
-#define RCLCPP_WARN_STREAM_ONCE(logger, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_WARN, logger, RCLCPP_LOG_ONCE_CONDITION_, stream_arg)
-#define RCLCPP_WARN_EXPRESSION(logger, expression, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, logger, expression, __VA_ARGS__)
-#define RCLCPP_WARN_STREAM_EXPRESSION(logger, expression, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_WARN, logger, expression, stream_arg)
-#define RCLCPP_WARN_FUNCTION(logger, function, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, logger, (function)(), __VA_ARGS__)
-#define RCLCPP_WARN_STREAM_FUNCTION(logger, function, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_WARN, logger, (function)(), stream_arg)
-#define RCLCPP_WARN_SKIPFIRST(logger, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, logger, RCLCPP_LOG_SKIPFIRST_CONDITION_, __VA_ARGS__)
-#define RCLCPP_WARN_STREAM_SKIPFIRST(logger, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_WARN, logger, RCLCPP_LOG_SKIPFIRST_CONDITION_, stream_arg)
-#define RCLCPP_WARN_THROTTLE(logger, clock, duration, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, logger, RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), __VA_ARGS__)
-#define RCLCPP_WARN_STREAM_THROTTLE(logger, clock, duration, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_WARN, logger, RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), stream_arg)
-#define RCLCPP_WARN_SKIPFIRST_THROTTLE(logger, clock, duration, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, logger,                  \
-                 RCLCPP_LOG_SKIPFIRST_CONDITION_&& RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), __VA_ARGS__)
-#define RCLCPP_WARN_STREAM_SKIPFIRST_THROTTLE(logger, clock, duration, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_WARN, logger,                         \
-                        RCLCPP_LOG_SKIPFIRST_CONDITION_&& RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), stream_arg)
+#define RCLCPP_INFO(...) RCLCPP_LOG_ALWAYS_(TEXT, INFO, __VA_ARGS__)
+#define RCLCPP_INFO_ONCE(...) RCLCPP_LOG_ONCE_(TEXT, INFO, __VA_ARGS__)
+#define RCLCPP_INFO_EXPRESSION(...) RCLCPP_LOG_EXPRESSION_(TEXT, INFO, __VA_ARGS__)
+#define RCLCPP_INFO_FUNCTION(...) RCLCPP_LOG_FUNCTION_(TEXT, INFO, __VA_ARGS__)
+#define RCLCPP_INFO_SKIPFIRST(...) RCLCPP_LOG_SKIPFIRST_(TEXT, INFO, __VA_ARGS__)
+#define RCLCPP_INFO_THROTTLE(...) RCLCPP_LOG_THROTTLE_(TEXT, INFO, __VA_ARGS__)
+#define RCLCPP_INFO_SKIPFIRST_THROTTLE(...) RCLCPP_LOG_SKIPFIRST_THROTTLE_(TEXT, INFO, __VA_ARGS__)
+#define RCLCPP_INFO_STREAM(...) RCLCPP_LOG_ALWAYS_(STREAM, INFO, __VA_ARGS__)
+#define RCLCPP_INFO_STREAM_ONCE(...) RCLCPP_LOG_ONCE_(STREAM, INFO, __VA_ARGS__)
+#define RCLCPP_INFO_STREAM_EXPRESSION(...) RCLCPP_LOG_EXPRESSION_(STREAM, INFO, __VA_ARGS__)
+#define RCLCPP_INFO_STREAM_FUNCTION(...) RCLCPP_LOG_FUNCTION_(STREAM, INFO, __VA_ARGS__)
+#define RCLCPP_INFO_STREAM_SKIPFIRST(...) RCLCPP_LOG_SKIPFIRST_(STREAM, INFO, __VA_ARGS__)
+#define RCLCPP_INFO_STREAM_THROTTLE(...) RCLCPP_LOG_THROTTLE_(STREAM, INFO, __VA_ARGS__)
+#define RCLCPP_INFO_STREAM_SKIPFIRST_THROTTLE(...) RCLCPP_LOG_SKIPFIRST_THROTTLE_(STREAM, INFO, __VA_ARGS__)
 
-#define RCLCPP_ERROR(logger, ...) RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, logger, true, __VA_ARGS__)
-#define RCLCPP_ERROR_STREAM(logger, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_ERROR, logger, true, stream_arg)
-#define RCLCPP_ERROR_ONCE(logger, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, logger, RCLCPP_LOG_ONCE_CONDITION_, __VA_ARGS__)
-#define RCLCPP_ERROR_STREAM_ONCE(logger, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_ERROR, logger, RCLCPP_LOG_ONCE_CONDITION_, stream_arg)
-#define RCLCPP_ERROR_EXPRESSION(logger, expression, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, logger, expression, __VA_ARGS__)
-#define RCLCPP_ERROR_STREAM_EXPRESSION(logger, expression, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_ERROR, logger, expression, stream_arg)
-#define RCLCPP_ERROR_FUNCTION(logger, function, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, logger, (function)(), __VA_ARGS__)
-#define RCLCPP_ERROR_STREAM_FUNCTION(logger, function, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_ERROR, logger, (function)(), stream_arg)
-#define RCLCPP_ERROR_SKIPFIRST(logger, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, logger, RCLCPP_LOG_SKIPFIRST_CONDITION_, __VA_ARGS__)
-#define RCLCPP_ERROR_STREAM_SKIPFIRST(logger, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_ERROR, logger, RCLCPP_LOG_SKIPFIRST_CONDITION_, stream_arg)
-#define RCLCPP_ERROR_THROTTLE(logger, clock, duration, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, logger, RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), __VA_ARGS__)
-#define RCLCPP_ERROR_STREAM_THROTTLE(logger, clock, duration, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_ERROR, logger, RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), stream_arg)
-#define RCLCPP_ERROR_SKIPFIRST_THROTTLE(logger, clock, duration, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, logger,                  \
-                 RCLCPP_LOG_SKIPFIRST_CONDITION_&& RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), __VA_ARGS__)
-#define RCLCPP_ERROR_STREAM_SKIPFIRST_THROTTLE(logger, clock, duration, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_ERROR, logger,                         \
-                        RCLCPP_LOG_SKIPFIRST_CONDITION_&& RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), stream_arg)
+#define RCLCPP_WARN(...) RCLCPP_LOG_ALWAYS_(TEXT, WARN, __VA_ARGS__)
+#define RCLCPP_WARN_ONCE(...) RCLCPP_LOG_ONCE_(TEXT, WARN, __VA_ARGS__)
+#define RCLCPP_WARN_EXPRESSION(...) RCLCPP_LOG_EXPRESSION_(TEXT, WARN, __VA_ARGS__)
+#define RCLCPP_WARN_FUNCTION(...) RCLCPP_LOG_FUNCTION_(TEXT, WARN, __VA_ARGS__)
+#define RCLCPP_WARN_SKIPFIRST(...) RCLCPP_LOG_SKIPFIRST_(TEXT, WARN, __VA_ARGS__)
+#define RCLCPP_WARN_THROTTLE(...) RCLCPP_LOG_THROTTLE_(TEXT, WARN, __VA_ARGS__)
+#define RCLCPP_WARN_SKIPFIRST_THROTTLE(...) RCLCPP_LOG_SKIPFIRST_THROTTLE_(TEXT, WARN, __VA_ARGS__)
+#define RCLCPP_WARN_STREAM(...) RCLCPP_LOG_ALWAYS_(STREAM, WARN, __VA_ARGS__)
+#define RCLCPP_WARN_STREAM_ONCE(...) RCLCPP_LOG_ONCE_(STREAM, WARN, __VA_ARGS__)
+#define RCLCPP_WARN_STREAM_EXPRESSION(...) RCLCPP_LOG_EXPRESSION_(STREAM, WARN, __VA_ARGS__)
+#define RCLCPP_WARN_STREAM_FUNCTION(...) RCLCPP_LOG_FUNCTION_(STREAM, WARN, __VA_ARGS__)
+#define RCLCPP_WARN_STREAM_SKIPFIRST(...) RCLCPP_LOG_SKIPFIRST_(STREAM, WARN, __VA_ARGS__)
+#define RCLCPP_WARN_STREAM_THROTTLE(...) RCLCPP_LOG_THROTTLE_(STREAM, WARN, __VA_ARGS__)
+#define RCLCPP_WARN_STREAM_SKIPFIRST_THROTTLE(...) RCLCPP_LOG_SKIPFIRST_THROTTLE_(STREAM, WARN, __VA_ARGS__)
 
-#define RCLCPP_FATAL(logger, ...) RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, logger, true, __VA_ARGS__)
-#define RCLCPP_FATAL_STREAM(logger, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_FATAL, logger, true, stream_arg)
-#define RCLCPP_FATAL_ONCE(logger, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, logger, RCLCPP_LOG_ONCE_CONDITION_, __VA_ARGS__)
-#define RCLCPP_FATAL_STREAM_ONCE(logger, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_FATAL, logger, RCLCPP_LOG_ONCE_CONDITION_, stream_arg)
-#define RCLCPP_FATAL_EXPRESSION(logger, expression, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, logger, expression, __VA_ARGS__)
-#define RCLCPP_FATAL_STREAM_EXPRESSION(logger, expression, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_FATAL, logger, expression, stream_arg)
-#define RCLCPP_FATAL_FUNCTION(logger, function, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, logger, (function)(), __VA_ARGS__)
-#define RCLCPP_FATAL_STREAM_FUNCTION(logger, function, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_FATAL, logger, (function)(), stream_arg)
-#define RCLCPP_FATAL_SKIPFIRST(logger, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, logger, RCLCPP_LOG_SKIPFIRST_CONDITION_, __VA_ARGS__)
-#define RCLCPP_FATAL_STREAM_SKIPFIRST(logger, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_FATAL, logger, RCLCPP_LOG_SKIPFIRST_CONDITION_, stream_arg)
-#define RCLCPP_FATAL_THROTTLE(logger, clock, duration, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, logger, RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), __VA_ARGS__)
-#define RCLCPP_FATAL_STREAM_THROTTLE(logger, clock, duration, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_FATAL, logger, RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), stream_arg)
-#define RCLCPP_FATAL_SKIPFIRST_THROTTLE(logger, clock, duration, ...) \
-  RCLCPP_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, logger,                  \
-                 RCLCPP_LOG_SKIPFIRST_CONDITION_&& RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), __VA_ARGS__)
-#define RCLCPP_FATAL_STREAM_SKIPFIRST_THROTTLE(logger, clock, duration, stream_arg) \
-  RCLCPP_LOG_STREAM_IF_(RCUTILS_LOG_SEVERITY_FATAL, logger,                         \
-                        RCLCPP_LOG_SKIPFIRST_CONDITION_&& RCLCPP_LOG_THROTTLE_CONDITION_(clock, duration), stream_arg)
+#define RCLCPP_ERROR(...) RCLCPP_LOG_ALWAYS_(TEXT, ERROR, __VA_ARGS__)
+#define RCLCPP_ERROR_ONCE(...) RCLCPP_LOG_ONCE_(TEXT, ERROR, __VA_ARGS__)
+#define RCLCPP_ERROR_EXPRESSION(...) RCLCPP_LOG_EXPRESSION_(TEXT, ERROR, __VA_ARGS__)
+#define RCLCPP_ERROR_FUNCTION(...) RCLCPP_LOG_FUNCTION_(TEXT, ERROR, __VA_ARGS__)
+#define RCLCPP_ERROR_SKIPFIRST(...) RCLCPP_LOG_SKIPFIRST_(TEXT, ERROR, __VA_ARGS__)
+#define RCLCPP_ERROR_THROTTLE(...) RCLCPP_LOG_THROTTLE_(TEXT, ERROR, __VA_ARGS__)
+#define RCLCPP_ERROR_SKIPFIRST_THROTTLE(...) RCLCPP_LOG_SKIPFIRST_THROTTLE_(TEXT, ERROR, __VA_ARGS__)
+#define RCLCPP_ERROR_STREAM(...) RCLCPP_LOG_ALWAYS_(STREAM, ERROR, __VA_ARGS__)
+#define RCLCPP_ERROR_STREAM_ONCE(...) RCLCPP_LOG_ONCE_(STREAM, ERROR, __VA_ARGS__)
+#define RCLCPP_ERROR_STREAM_EXPRESSION(...) RCLCPP_LOG_EXPRESSION_(STREAM, ERROR, __VA_ARGS__)
+#define RCLCPP_ERROR_STREAM_FUNCTION(...) RCLCPP_LOG_FUNCTION_(STREAM, ERROR, __VA_ARGS__)
+#define RCLCPP_ERROR_STREAM_SKIPFIRST(...) RCLCPP_LOG_SKIPFIRST_(STREAM, ERROR, __VA_ARGS__)
+#define RCLCPP_ERROR_STREAM_THROTTLE(...) RCLCPP_LOG_THROTTLE_(STREAM, ERROR, __VA_ARGS__)
+#define RCLCPP_ERROR_STREAM_SKIPFIRST_THROTTLE(...) RCLCPP_LOG_SKIPFIRST_THROTTLE_(STREAM, ERROR, __VA_ARGS__)
+
+#define RCLCPP_FATAL(...) RCLCPP_LOG_ALWAYS_(TEXT, FATAL, __VA_ARGS__)
+#define RCLCPP_FATAL_ONCE(...) RCLCPP_LOG_ONCE_(TEXT, FATAL, __VA_ARGS__)
+#define RCLCPP_FATAL_EXPRESSION(...) RCLCPP_LOG_EXPRESSION_(TEXT, FATAL, __VA_ARGS__)
+#define RCLCPP_FATAL_FUNCTION(...) RCLCPP_LOG_FUNCTION_(TEXT, FATAL, __VA_ARGS__)
+#define RCLCPP_FATAL_SKIPFIRST(...) RCLCPP_LOG_SKIPFIRST_(TEXT, FATAL, __VA_ARGS__)
+#define RCLCPP_FATAL_THROTTLE(...) RCLCPP_LOG_THROTTLE_(TEXT, FATAL, __VA_ARGS__)
+#define RCLCPP_FATAL_SKIPFIRST_THROTTLE(...) RCLCPP_LOG_SKIPFIRST_THROTTLE_(TEXT, FATAL, __VA_ARGS__)
+#define RCLCPP_FATAL_STREAM(...) RCLCPP_LOG_ALWAYS_(STREAM, FATAL, __VA_ARGS__)
+#define RCLCPP_FATAL_STREAM_ONCE(...) RCLCPP_LOG_ONCE_(STREAM, FATAL, __VA_ARGS__)
+#define RCLCPP_FATAL_STREAM_EXPRESSION(...) RCLCPP_LOG_EXPRESSION_(STREAM, FATAL, __VA_ARGS__)
+#define RCLCPP_FATAL_STREAM_FUNCTION(...) RCLCPP_LOG_FUNCTION_(STREAM, FATAL, __VA_ARGS__)
+#define RCLCPP_FATAL_STREAM_SKIPFIRST(...) RCLCPP_LOG_SKIPFIRST_(STREAM, FATAL, __VA_ARGS__)
+#define RCLCPP_FATAL_STREAM_THROTTLE(...) RCLCPP_LOG_THROTTLE_(STREAM, FATAL, __VA_ARGS__)
+#define RCLCPP_FATAL_STREAM_SKIPFIRST_THROTTLE(...) RCLCPP_LOG_SKIPFIRST_THROTTLE_(STREAM, FATAL, __VA_ARGS__)

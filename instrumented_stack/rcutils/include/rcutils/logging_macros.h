@@ -61,180 +61,105 @@ static inline bool rcutils_log_throttle_due_(rcutils_ret_t (*time_function)(rcut
 #define RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration) \
   rcutils_log_throttle_due_(time_function, duration, &rcutils_log_throttle_started_, &rcutils_log_throttle_last_)
 
-#define RCUTILS_LOG_DEBUG(...) RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, , 1, "", __VA_ARGS__)
-#define RCUTILS_LOG_DEBUG_NAMED(name, ...) RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, , 1, name, __VA_ARGS__)
-#define RCUTILS_LOG_DEBUG_ONCE(...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_ONCE_CONDITION_, "", __VA_ARGS__)
-#define RCUTILS_LOG_DEBUG_ONCE_NAMED(name, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_ONCE_CONDITION_, name, __VA_ARGS__)
-#define RCUTILS_LOG_DEBUG_EXPRESSION(expression, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, , expression, "", __VA_ARGS__)
-#define RCUTILS_LOG_DEBUG_EXPRESSION_NAMED(expression, name, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, , expression, name, __VA_ARGS__)
-#define RCUTILS_LOG_DEBUG_FUNCTION(function, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, , (*function)(), "", __VA_ARGS__)
-#define RCUTILS_LOG_DEBUG_FUNCTION_NAMED(function, name, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, , (*function)(), name, __VA_ARGS__)
-#define RCUTILS_LOG_DEBUG_SKIPFIRST(...)                                                                      \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_SKIPFIRST_CONDITION_, "", \
+// The conditions. The level is joined to a name before it could be replaced, in case a program defines a macro DEBUG or
+// ERROR.
+#define RCUTILS_LOG_ALWAYS_(level, name, ...) RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_##level, , 1, name, __VA_ARGS__)
+#define RCUTILS_LOG_ONCE_(level, name, ...)                                                                  \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_##level, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_ONCE_CONDITION_, name, \
                   __VA_ARGS__)
-#define RCUTILS_LOG_DEBUG_SKIPFIRST_NAMED(name, ...)                                                            \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_SKIPFIRST_CONDITION_, name, \
+#define RCUTILS_LOG_EXPRESSION_(level, expression, name, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_##level, , expression, name, __VA_ARGS__)
+#define RCUTILS_LOG_FUNCTION_(level, function, name, ...) \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_##level, , (*function)(), name, __VA_ARGS__)
+#define RCUTILS_LOG_SKIPFIRST_(level, name, ...)                                                                  \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_##level, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_SKIPFIRST_CONDITION_, name, \
                   __VA_ARGS__)
-#define RCUTILS_LOG_DEBUG_THROTTLE(time_function, duration, ...)            \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, RCUTILS_LOG_THROTTLE_BEFORE_, \
-                  RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), "", __VA_ARGS__)
-#define RCUTILS_LOG_DEBUG_THROTTLE_NAMED(time_function, duration, name, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, RCUTILS_LOG_THROTTLE_BEFORE_,  \
-                  RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), name, __VA_ARGS__)
-#define RCUTILS_LOG_DEBUG_SKIPFIRST_THROTTLE(time_function, duration, ...)                                         \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, RCUTILS_LOG_ONCE_BEFORE_ RCUTILS_LOG_THROTTLE_BEFORE_,               \
-                  RCUTILS_LOG_SKIPFIRST_CONDITION_&& RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), "", \
-                  __VA_ARGS__)
-#define RCUTILS_LOG_DEBUG_SKIPFIRST_THROTTLE_NAMED(time_function, duration, name, ...)                               \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_DEBUG, RCUTILS_LOG_ONCE_BEFORE_ RCUTILS_LOG_THROTTLE_BEFORE_,                 \
-                  RCUTILS_LOG_SKIPFIRST_CONDITION_&& RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), name, \
-                  __VA_ARGS__)
+#define RCUTILS_LOG_THROTTLE_(level, now, ms, name, ...)                      \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_##level, RCUTILS_LOG_THROTTLE_BEFORE_, \
+                  RCUTILS_LOG_THROTTLE_CONDITION_(now, ms), name, __VA_ARGS__)
+#define RCUTILS_LOG_SKIPFIRST_THROTTLE_(level, now, ms, name, ...)                                     \
+  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_##level, RCUTILS_LOG_ONCE_BEFORE_ RCUTILS_LOG_THROTTLE_BEFORE_, \
+                  RCUTILS_LOG_SKIPFIRST_CONDITION_&& RCUTILS_LOG_THROTTLE_CONDITION_(now, ms), name, __VA_ARGS__)
 
-#define RCUTILS_LOG_INFO(...) RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, , 1, "", __VA_ARGS__)
-#define RCUTILS_LOG_INFO_NAMED(name, ...) RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, , 1, name, __VA_ARGS__)
-#define RCUTILS_LOG_INFO_ONCE(...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_ONCE_CONDITION_, "", __VA_ARGS__)
-#define RCUTILS_LOG_INFO_ONCE_NAMED(name, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_ONCE_CONDITION_, name, __VA_ARGS__)
-#define RCUTILS_LOG_INFO_EXPRESSION(expression, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, , expression, "", __VA_ARGS__)
-#define RCUTILS_LOG_INFO_EXPRESSION_NAMED(expression, name, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, , expression, name, __VA_ARGS__)
-#define RCUTILS_LOG_INFO_FUNCTION(function, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, , (*function)(), "", __VA_ARGS__)
-#define RCUTILS_LOG_INFO_FUNCTION_NAMED(function, name, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, , (*function)(), name, __VA_ARGS__)
-#define RCUTILS_LOG_INFO_SKIPFIRST(...)                                                                      \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_SKIPFIRST_CONDITION_, "", \
-                  __VA_ARGS__)
-#define RCUTILS_LOG_INFO_SKIPFIRST_NAMED(name, ...)                                                            \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_SKIPFIRST_CONDITION_, name, \
-                  __VA_ARGS__)
-#define RCUTILS_LOG_INFO_THROTTLE(time_function, duration, ...)            \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, RCUTILS_LOG_THROTTLE_BEFORE_, \
-                  RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), "", __VA_ARGS__)
-#define RCUTILS_LOG_INFO_THROTTLE_NAMED(time_function, duration, name, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, RCUTILS_LOG_THROTTLE_BEFORE_,  \
-                  RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), name, __VA_ARGS__)
-#define RCUTILS_LOG_INFO_SKIPFIRST_THROTTLE(time_function, duration, ...)                                          \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, RCUTILS_LOG_ONCE_BEFORE_ RCUTILS_LOG_THROTTLE_BEFORE_,                \
-                  RCUTILS_LOG_SKIPFIRST_CONDITION_&& RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), "", \
-                  __VA_ARGS__)
-#define RCUTILS_LOG_INFO_SKIPFIRST_THROTTLE_NAMED(time_function, duration, name, ...)                                \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_INFO, RCUTILS_LOG_ONCE_BEFORE_ RCUTILS_LOG_THROTTLE_BEFORE_,                  \
-                  RCUTILS_LOG_SKIPFIRST_CONDITION_&& RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), name, \
-                  __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG(...) RCUTILS_LOG_ALWAYS_(DEBUG, "", __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_NAMED(...) RCUTILS_LOG_ALWAYS_(DEBUG, __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_ONCE(...) RCUTILS_LOG_ONCE_(DEBUG, "", __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_ONCE_NAMED(...) RCUTILS_LOG_ONCE_(DEBUG, __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_EXPRESSION(expression, ...) RCUTILS_LOG_EXPRESSION_(DEBUG, expression, "", __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_EXPRESSION_NAMED(...) RCUTILS_LOG_EXPRESSION_(DEBUG, __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_FUNCTION(function, ...) RCUTILS_LOG_FUNCTION_(DEBUG, function, "", __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_FUNCTION_NAMED(...) RCUTILS_LOG_FUNCTION_(DEBUG, __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_SKIPFIRST(...) RCUTILS_LOG_SKIPFIRST_(DEBUG, "", __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_SKIPFIRST_NAMED(...) RCUTILS_LOG_SKIPFIRST_(DEBUG, __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_THROTTLE(now, ms, ...) RCUTILS_LOG_THROTTLE_(DEBUG, now, ms, "", __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_THROTTLE_NAMED(...) RCUTILS_LOG_THROTTLE_(DEBUG, __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_SKIPFIRST_THROTTLE(now, ms, ...) \
+  RCUTILS_LOG_SKIPFIRST_THROTTLE_(DEBUG, now, ms, "", __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_SKIPFIRST_THROTTLE_NAMED(...) RCUTILS_LOG_SKIPFIRST_THROTTLE_(DEBUG, __VA_ARGS__)
 
-#define RCUTILS_LOG_WARN(...) RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, , 1, "", __VA_ARGS__)
-#define RCUTILS_LOG_WARN_NAMED(name, ...) RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, , 1, name, __VA_ARGS__)
-#define RCUTILS_LOG_WARN_ONCE(...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_ONCE_CONDITION_, "", __VA_ARGS__)
-#define RCUTILS_LOG_WARN_ONCE_NAMED(name, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_ONCE_CONDITION_, name, __VA_ARGS__)
-#define RCUTILS_LOG_WARN_EXPRESSION(expression, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, , expression, "", __VA_ARGS__)
-#define RCUTILS_LOG_WARN_EXPRESSION_NAMED(expression, name, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, , expression, name, __VA_ARGS__)
-#define RCUTILS_LOG_WARN_FUNCTION(function, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, , (*function)(), "", __VA_ARGS__)
-#define RCUTILS_LOG_WARN_FUNCTION_NAMED(function, name, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, , (*function)(), name, __VA_ARGS__)
-#define RCUTILS_LOG_WARN_SKIPFIRST(...)                                                                      \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_SKIPFIRST_CONDITION_, "", \
-                  __VA_ARGS__)
-#define RCUTILS_LOG_WARN_SKIPFIRST_NAMED(name, ...)                                                            \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_SKIPFIRST_CONDITION_, name, \
-                  __VA_ARGS__)
-#define RCUTILS_LOG_WARN_THROTTLE(time_function, duration, ...)            \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, RCUTILS_LOG_THROTTLE_BEFORE_, \
-                  RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), "", __VA_ARGS__)
-#define RCUTILS_LOG_WARN_THROTTLE_NAMED(time_function, duration, name, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, RCUTILS_LOG_THROTTLE_BEFORE_,  \
-                  RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), name, __VA_ARGS__)
-#define RCUTILS_LOG_WARN_SKIPFIRST_THROTTLE(time_function, duration, ...)                                          \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, RCUTILS_LOG_ONCE_BEFORE_ RCUTILS_LOG_THROTTLE_BEFORE_,                \
-                  RCUTILS_LOG_SKIPFIRST_CONDITION_&& RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), "", \
-                  __VA_ARGS__)
-#define RCUTILS_LOG_WARN_SKIPFIRST_THROTTLE_NAMED(time_function, duration, name, ...)                                \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_WARN, RCUTILS_LOG_ONCE_BEFORE_ RCUTILS_LOG_THROTTLE_BEFORE_,                  \
-                  RCUTILS_LOG_SKIPFIRST_CONDITION_&& RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), name, \
-                  __VA_ARGS__)
+#define RCUTILS_LOG_INFO(...) RCUTILS_LOG_ALWAYS_(INFO, "", __VA_ARGS__)
+#define RCUTILS_LOG_INFO_NAMED(...) RCUTILS_LOG_ALWAYS_(INFO, __VA_ARGS__)
+#define RCUTILS_LOG_INFO_ONCE(...) RCUTILS_LOG_ONCE_(INFO, "", __VA_ARGS__)
+#define RCUTILS_LOG_INFO_ONCE_NAMED(...) RCUTILS_LOG_ONCE_(INFO, __VA_ARGS__)
+#define RCUTILS_LOG_INFO_EXPRESSION(expression, ...) RCUTILS_LOG_EXPRESSION_(INFO, expression, "", __VA_ARGS__)
+#define RCUTILS_LOG_INFO_EXPRESSION_NAMED(...) RCUTILS_LOG_EXPRESSION_(INFO, __VA_ARGS__)
+#define RCUTILS_LOG_INFO_FUNCTION(function, ...) RCUTILS_LOG_FUNCTION_(INFO, function, "", __VA_ARGS__)
+#define RCUTILS_LOG_INFO_FUNCTION_NAMED(...) RCUTILS_LOG_FUNCTION_(INFO, __VA_ARGS__)
+#define RCUTILS_LOG_INFO_SKIPFIRST(...) RCUTILS_LOG_SKIPFIRST_(INFO, "", __VA_ARGS__)
+#define RCUTILS_LOG_INFO_SKIPFIRST_NAMED(...) RCUTILS_LOG_SKIPFIRST_(INFO, __VA_ARGS__)
+#define RCUTILS_LOG_INFO_THROTTLE(now, ms, ...) RCUTILS_LOG_THROTTLE_(INFO, now, ms, "", __VA_ARGS__)
+#define RCUTILS_LOG_INFO_THROTTLE_NAMED(...) RCUTILS_LOG_THROTTLE_(INFO, __VA_ARGS__)
+#define RCUTILS_LOG_INFO_SKIPFIRST_THROTTLE(now, ms, ...) \
+  RCUTILS_LOG_SKIPFIRST_THROTTLE_(INFO, now, ms, "", __VA_ARGS__)
+#define RCUTILS_LOG_INFO_SKIPFIRST_THROTTLE_NAMED(...) RCUTILS_LOG_SKIPFIRST_THROTTLE_(INFO, __VA_ARGS__)
 
-#define RCUTILS_LOG_ERROR(...) RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, , 1, "", __VA_ARGS__)
-#define RCUTILS_LOG_ERROR_NAMED(name, ...) RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, , 1, name, __VA_ARGS__)
-#define RCUTILS_LOG_ERROR_ONCE(...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_ONCE_CONDITION_, "", __VA_ARGS__)
-#define RCUTILS_LOG_ERROR_ONCE_NAMED(name, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_ONCE_CONDITION_, name, __VA_ARGS__)
-#define RCUTILS_LOG_ERROR_EXPRESSION(expression, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, , expression, "", __VA_ARGS__)
-#define RCUTILS_LOG_ERROR_EXPRESSION_NAMED(expression, name, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, , expression, name, __VA_ARGS__)
-#define RCUTILS_LOG_ERROR_FUNCTION(function, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, , (*function)(), "", __VA_ARGS__)
-#define RCUTILS_LOG_ERROR_FUNCTION_NAMED(function, name, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, , (*function)(), name, __VA_ARGS__)
-#define RCUTILS_LOG_ERROR_SKIPFIRST(...)                                                                      \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_SKIPFIRST_CONDITION_, "", \
-                  __VA_ARGS__)
-#define RCUTILS_LOG_ERROR_SKIPFIRST_NAMED(name, ...)                                                            \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_SKIPFIRST_CONDITION_, name, \
-                  __VA_ARGS__)
-#define RCUTILS_LOG_ERROR_THROTTLE(time_function, duration, ...)            \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, RCUTILS_LOG_THROTTLE_BEFORE_, \
-                  RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), "", __VA_ARGS__)
-#define RCUTILS_LOG_ERROR_THROTTLE_NAMED(time_function, duration, name, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, RCUTILS_LOG_THROTTLE_BEFORE_,  \
-                  RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), name, __VA_ARGS__)
-#define RCUTILS_LOG_ERROR_SKIPFIRST_THROTTLE(time_function, duration, ...)                                         \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, RCUTILS_LOG_ONCE_BEFORE_ RCUTILS_LOG_THROTTLE_BEFORE_,               \
-                  RCUTILS_LOG_SKIPFIRST_CONDITION_&& RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), "", \
-                  __VA_ARGS__)
-#define RCUTILS_LOG_ERROR_SKIPFIRST_THROTTLE_NAMED(time_function, duration, name, ...)                               \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_ERROR, RCUTILS_LOG_ONCE_BEFORE_ RCUTILS_LOG_THROTTLE_BEFORE_,                 \
-                  RCUTILS_LOG_SKIPFIRST_CONDITION_&& RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), name, \
-                  __VA_ARGS__)
+#define RCUTILS_LOG_WARN(...) RCUTILS_LOG_ALWAYS_(WARN, "", __VA_ARGS__)
+#define RCUTILS_LOG_WARN_NAMED(...) RCUTILS_LOG_ALWAYS_(WARN, __VA_ARGS__)
+#define RCUTILS_LOG_WARN_ONCE(...) RCUTILS_LOG_ONCE_(WARN, "", __VA_ARGS__)
+#define RCUTILS_LOG_WARN_ONCE_NAMED(...) RCUTILS_LOG_ONCE_(WARN, __VA_ARGS__)
+#define RCUTILS_LOG_WARN_EXPRESSION(expression, ...) RCUTILS_LOG_EXPRESSION_(WARN, expression, "", __VA_ARGS__)
+#define RCUTILS_LOG_WARN_EXPRESSION_NAMED(...) RCUTILS_LOG_EXPRESSION_(WARN, __VA_ARGS__)
+#define RCUTILS_LOG_WARN_FUNCTION(function, ...) RCUTILS_LOG_FUNCTION_(WARN, function, "", __VA_ARGS__)
+#define RCUTILS_LOG_WARN_FUNCTION_NAMED(...) RCUTILS_LOG_FUNCTION_(WARN, __VA_ARGS__)
+#define RCUTILS_LOG_WARN_SKIPFIRST(...) RCUTILS_LOG_SKIPFIRST_(WARN, "", __VA_ARGS__)
+#define RCUTILS_LOG_WARN_SKIPFIRST_NAMED(...) RCUTILS_LOG_SKIPFIRST_(WARN, __VA_ARGS__)
+#define RCUTILS_LOG_WARN_THROTTLE(now, ms, ...) RCUTILS_LOG_THROTTLE_(WARN, now, ms, "", __VA_ARGS__)
+#define RCUTILS_LOG_WARN_THROTTLE_NAMED(...) RCUTILS_LOG_THROTTLE_(WARN, __VA_ARGS__)
+#define RCUTILS_LOG_WARN_SKIPFIRST_THROTTLE(now, ms, ...) \
+  RCUTILS_LOG_SKIPFIRST_THROTTLE_(WARN, now, ms, "", __VA_ARGS__)
+#define RCUTILS_LOG_WARN_SKIPFIRST_THROTTLE_NAMED(...) RCUTILS_LOG_SKIPFIRST_THROTTLE_(WARN, __VA_ARGS__)
 
-#define RCUTILS_LOG_FATAL(...) RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, , 1, "", __VA_ARGS__)
-#define RCUTILS_LOG_FATAL_NAMED(name, ...) RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, , 1, name, __VA_ARGS__)
-#define RCUTILS_LOG_FATAL_ONCE(...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_ONCE_CONDITION_, "", __VA_ARGS__)
-#define RCUTILS_LOG_FATAL_ONCE_NAMED(name, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_ONCE_CONDITION_, name, __VA_ARGS__)
-#define RCUTILS_LOG_FATAL_EXPRESSION(expression, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, , expression, "", __VA_ARGS__)
-#define RCUTILS_LOG_FATAL_EXPRESSION_NAMED(expression, name, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, , expression, name, __VA_ARGS__)
-#define RCUTILS_LOG_FATAL_FUNCTION(function, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, , (*function)(), "", __VA_ARGS__)
-#define RCUTILS_LOG_FATAL_FUNCTION_NAMED(function, name, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, , (*function)(), name, __VA_ARGS__)
-#define RCUTILS_LOG_FATAL_SKIPFIRST(...)                                                                      \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_SKIPFIRST_CONDITION_, "", \
-                  __VA_ARGS__)
-#define RCUTILS_LOG_FATAL_SKIPFIRST_NAMED(name, ...)                                                            \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, RCUTILS_LOG_ONCE_BEFORE_, RCUTILS_LOG_SKIPFIRST_CONDITION_, name, \
-                  __VA_ARGS__)
-#define RCUTILS_LOG_FATAL_THROTTLE(time_function, duration, ...)            \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, RCUTILS_LOG_THROTTLE_BEFORE_, \
-                  RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), "", __VA_ARGS__)
-#define RCUTILS_LOG_FATAL_THROTTLE_NAMED(time_function, duration, name, ...) \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, RCUTILS_LOG_THROTTLE_BEFORE_,  \
-                  RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), name, __VA_ARGS__)
-#define RCUTILS_LOG_FATAL_SKIPFIRST_THROTTLE(time_function, duration, ...)                                         \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, RCUTILS_LOG_ONCE_BEFORE_ RCUTILS_LOG_THROTTLE_BEFORE_,               \
-                  RCUTILS_LOG_SKIPFIRST_CONDITION_&& RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), "", \
-                  __VA_ARGS__)
-#define RCUTILS_LOG_FATAL_SKIPFIRST_THROTTLE_NAMED(time_function, duration, name, ...)                               \
-  RCUTILS_LOG_IF_(RCUTILS_LOG_SEVERITY_FATAL, RCUTILS_LOG_ONCE_BEFORE_ RCUTILS_LOG_THROTTLE_BEFORE_,                 \
-                  RCUTILS_LOG_SKIPFIRST_CONDITION_&& RCUTILS_LOG_THROTTLE_CONDITION_(time_function, duration), name, \
-                  __VA_ARGS__)
+#define RCUTILS_LOG_ERROR(...) RCUTILS_LOG_ALWAYS_(ERROR, "", __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_NAMED(...) RCUTILS_LOG_ALWAYS_(ERROR, __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_ONCE(...) RCUTILS_LOG_ONCE_(ERROR, "", __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_ONCE_NAMED(...) RCUTILS_LOG_ONCE_(ERROR, __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_EXPRESSION(expression, ...) RCUTILS_LOG_EXPRESSION_(ERROR, expression, "", __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_EXPRESSION_NAMED(...) RCUTILS_LOG_EXPRESSION_(ERROR, __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_FUNCTION(function, ...) RCUTILS_LOG_FUNCTION_(ERROR, function, "", __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_FUNCTION_NAMED(...) RCUTILS_LOG_FUNCTION_(ERROR, __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_SKIPFIRST(...) RCUTILS_LOG_SKIPFIRST_(ERROR, "", __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_SKIPFIRST_NAMED(...) RCUTILS_LOG_SKIPFIRST_(ERROR, __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_THROTTLE(now, ms, ...) RCUTILS_LOG_THROTTLE_(ERROR, now, ms, "", __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_THROTTLE_NAMED(...) RCUTILS_LOG_THROTTLE_(ERROR, __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_SKIPFIRST_THROTTLE(now, ms, ...) \
+  RCUTILS_LOG_SKIPFIRST_THROTTLE_(ERROR, now, ms, "", __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_SKIPFIRST_THROTTLE_NAMED(...) RCUTILS_LOG_SKIPFIRST_THROTTLE_(ERROR, __VA_ARGS__)
+
+#define RCUTILS_LOG_FATAL(...) RCUTILS_LOG_ALWAYS_(FATAL, "", __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_NAMED(...) RCUTILS_LOG_ALWAYS_(FATAL, __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_ONCE(...) RCUTILS_LOG_ONCE_(FATAL, "", __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_ONCE_NAMED(...) RCUTILS_LOG_ONCE_(FATAL, __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_EXPRESSION(expression, ...) RCUTILS_LOG_EXPRESSION_(FATAL, expression, "", __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_EXPRESSION_NAMED(...) RCUTILS_LOG_EXPRESSION_(FATAL, __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_FUNCTION(function, ...) RCUTILS_LOG_FUNCTION_(FATAL, function, "", __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_FUNCTION_NAMED(...) RCUTILS_LOG_FUNCTION_(FATAL, __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_SKIPFIRST(...) RCUTILS_LOG_SKIPFIRST_(FATAL, "", __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_SKIPFIRST_NAMED(...) RCUTILS_LOG_SKIPFIRST_(FATAL, __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_THROTTLE(now, ms, ...) RCUTILS_LOG_THROTTLE_(FATAL, now, ms, "", __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_THROTTLE_NAMED(...) RCUTILS_LOG_THROTTLE_(FATAL, __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_SKIPFIRST_THROTTLE(now, ms, ...) \
+  RCUTILS_LOG_SKIPFIRST_THROTTLE_(FATAL, now, ms, "", __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_SKIPFIRST_THROTTLE_NAMED(...) RCUTILS_LOG_SKIPFIRST_THROTTLE_(FATAL, __VA_ARGS__)
 
 // The clocks for _THROTTLE.
 #define RCUTILS_STEADY_TIME rcutils_steady_time_now
