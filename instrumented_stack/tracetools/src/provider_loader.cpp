@@ -24,7 +24,6 @@
 #include "recording/recording.hpp"
 #include "registration/daemon_arrival.hpp"
 #include "registration/registration_watch.hpp"
-#include "registration/wake_memory.hpp"
 #include "state/object_state.hpp"
 #include "state/state_dump_request.hpp"
 

@@ -7,16 +7,31 @@
 #include <lttng/ust-ctl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
 
-#include "registration/wake_memory.hpp"
-
 namespace tracetools {
 namespace {
+
+// The files of the daemon of root, and of the daemon of this process's user.
+struct WakeFiles {
+  const char* of_root;
+  char of_user[64];
+
+  WakeFiles() noexcept : of_root("/dev/shm/" LTTNG_UST_WAIT_FILENAME) {
+    std::snprintf(of_user, sizeof of_user, "%s-%u", of_root, getuid());
+  }
+};
+
+// Whether the file has memory of its own, and not only a size.
+bool has_memory(const char* path) {
+  struct stat status {};
+  return stat(path, &status) == 0 && status.st_blocks > 0;
+}
 
 constexpr bool kWakesAsKnown = LTTNG_UST_ABI_MAJOR_VERSION_OLDEST_COMPATIBLE == 8;  // lttng-ust 2.13
 constexpr const char* kFolderOfRoot = "/var/run/lttng";
@@ -115,6 +130,17 @@ bool wait_for_daemon(const std::int32_t* number) noexcept {
     }
   }
   return true;
+}
+
+bool wake_memory_can_be_had() noexcept {
+  const WakeFiles files;
+  const unsigned missing = (has_memory(files.of_root) ? 0U : 1U) + (has_memory(files.of_user) ? 0U : 1U);
+  struct statvfs room {};
+  // A file system without a limit has no number of blocks.
+  if (missing == 0 || statvfs("/dev/shm", &room) != 0 || room.f_blocks == 0) {
+    return true;
+  }
+  return room.f_bavail * room.f_frsize >= missing * static_cast<unsigned long>(sysconf(_SC_PAGESIZE));
 }
 
 }  // namespace tracetools

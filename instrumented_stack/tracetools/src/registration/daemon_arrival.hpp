@@ -24,4 +24,8 @@ std::optional<AwaitedDaemons> awaited_daemons() noexcept;
 // Returns true when the daemon has started, and false if it is impossible to wait, because /dev/shm is full.
 bool wait_for_daemon(const std::int32_t* number) noexcept;
 
+// False when this memory is not there and can't be had, because /dev/shm is full. lttng-ust makes a file of one page
+// and reads it; if the page gets no memory, the read ends the process by SIGBUS.
+bool wake_memory_can_be_had() noexcept;
+
 }  // namespace tracetools

@@ -2,12 +2,57 @@
 #include "state/object_state.hpp"
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
-#include "state/dump_tracepoints.hpp"
+#include "counters/stack_tracepoints.hpp"
+#include "provider/provider.h"
+#include "provider/provider_ext.h"
+#include "provider/provider_session.h"
 
 namespace tracetools {
 namespace {
+
+template <typename Recorder>
+void record(const Recorder& recorder, const ProbesInUse& probes, const Session* session, std::uint64_t events) {
+  bool recorded = false;
+  for_each_probe(probes, *recorder.tracepoint, [&](const Probe& probe) {
+    if (session_of(probe) != session) {
+      return;
+    }
+    recorder(probe, events);
+    recorded = true;
+  });
+  if (recorded) {
+    count(recorder.counted);
+  }
+}
+
+// The tracepoint of an init event that the session records. Null if it records none.
+const Tracepoint* recorded_init_tracepoint(const ProbesInUse& probes, const Session* session) {
+  for (const StackTracepoint& each : stack_tracepoints()) {
+    if (std::string_view(each.group) == "init" && has_probe(probes, *each.tracepoint, session)) {
+      return each.tracepoint;
+    }
+  }
+  return nullptr;
+}
+
+// The session has a rule for `ros2_session:no_state_dump`. A rule for all events does not count, which also takes
+// `ros2_session:any`.
+bool wants_no_dump(const ProbesInUse& probes, const Session* session) {
+  return has_probe(probes, lttng_ust_tracepoint_ros2_session___no_state_dump, session) &&
+         !has_probe(probes, lttng_ust_tracepoint_ros2_session___any, session);
+}
+
+// Records ros2_ext:state_dump_begin or state_dump_end into the session alone.
+void record_dump_begin(const ProbesInUse& probes, const Session* session, std::uint64_t events) {
+  record(TRACETOOLS_RECORDER(ros2_ext, state_dump_begin), probes, session, events);
+}
+
+void record_dump_end(const ProbesInUse& probes, const Session* session, std::uint64_t events) {
+  record(TRACETOOLS_RECORDER(ros2_ext, state_dump_end), probes, session, events);
+}
 
 // Calls the probes of the session at the event's tracepoint.
 void record_into(const Session* session, const ProbesInUse& probes, const InitEvent& event) {

@@ -9,8 +9,6 @@
 #include <mutex>
 #include <vector>
 
-#include "probes/lttng_functions.hpp"
-
 namespace tracetools {
 namespace {
 
