@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "node_params.hpp"
-
 #include "memory.hpp"
 #include "rcl_yaml_param_parser/read_yaml.hpp"
-#include "variant.hpp"
+#include "structures.hpp"
 
 namespace rcl_yaml {
 namespace {

@@ -2,9 +2,8 @@
 #include <rcutils/error_handling.h>
 
 #include "memory.hpp"
-#include "node_params.hpp"
 #include "rcl_yaml_param_parser/parser.h"
-#include "variant.hpp"
+#include "structures.hpp"
 
 namespace {
 

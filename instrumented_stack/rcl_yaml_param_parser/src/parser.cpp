@@ -5,9 +5,8 @@
 
 #include <stdexcept>
 
-#include "node_params.hpp"
 #include "rcl_yaml_param_parser/read_yaml.hpp"
-#include "variant.hpp"
+#include "structures.hpp"
 
 namespace {
 

@@ -11,8 +11,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "node_pattern.hpp"
-#include "scalar.hpp"
+#include "words.hpp"
 
 namespace rcl_yaml {
 namespace {

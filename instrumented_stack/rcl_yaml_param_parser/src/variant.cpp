@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "variant.hpp"
-
 #include <algorithm>
 
 #include "memory.hpp"
+#include "structures.hpp"
 
 namespace rcl_yaml {
 namespace {

@@ -2,7 +2,6 @@
 #include "rcl/remap.h"
 
 #include "arguments/arguments_impl.hpp"
-#include "names/c_string.hpp"
 #include "names/names.hpp"
 #include "rcl/error_handling.h"
 

@@ -3,7 +3,6 @@
 
 #include <cctype>
 
-#include "names/c_string.hpp"
 #include "rcl/expand_topic_name.h"
 #include "rcl/validate_topic_name.h"
 #include "rmw/validate_full_topic_name.h"

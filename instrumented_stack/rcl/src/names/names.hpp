@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names of topics and services: expansion and checks, as values and exceptions.
+// Names of topics and services: expansion and checks, as values and exceptions; and strings that the C interface
+// returns.
 #pragma once
 
+#include <cstring>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "rcl/allocator.h"
+#include "rcl/error_handling.h"
 #include "rcl/types.h"
 
 namespace rcl {
@@ -28,5 +32,18 @@ void check_full_topic_name(const std::string& name);
 
 // `/node` or `/ns/node`
 std::string fully_qualified_name(std::string_view node_namespace, std::string_view node_name);
+
+// Allocates a copy, which the caller frees. Returns RCL_RET_BAD_ALLOC if memory runs out.
+inline rcl_ret_t hand_out(std::string_view text, const rcl_allocator_t& allocator, char** output) {
+  char* copy = static_cast<char*>(allocator.allocate(text.size() + 1, allocator.state));
+  if (copy == nullptr) {
+    RCL_SET_ERROR_MSG("out of memory for a name");
+    return RCL_RET_BAD_ALLOC;
+  }
+  std::memcpy(copy, text.data(), text.size());
+  copy[text.size()] = '\0';
+  *output = copy;
+  return RCL_RET_OK;
+}
 
 }  // namespace rcl

@@ -4,7 +4,6 @@
 #include <memory>
 #include <string>
 
-#include "names/c_string.hpp"
 #include "names/names.hpp"
 #include "node/type_cache.hpp"
 #include "rcl/error_handling.h"

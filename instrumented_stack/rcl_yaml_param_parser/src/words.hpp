@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The types that ROS 2 gives to plain values.
+// Single words of parameter files: the types that ROS 2 gives to plain values, and names of nodes.
 #pragma once
 
 #include <cstdint>
@@ -16,5 +16,8 @@ Scalar typed_scalar(std::string text);
 
 // `bool`, `integer`, `double` or `string`.
 const char* type_name(const Scalar& value);
+
+// What is wrong with the name of a node, which may have `*` and `**` in place of whole levels; empty if nothing is.
+std::string wrong_in_node_pattern(const std::string& pattern);
 
 }  // namespace rcl_yaml
