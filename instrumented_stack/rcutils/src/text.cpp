@@ -5,10 +5,12 @@
 #include <string.h>
 #include <strings.h>
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "rcutils/cmdline_parser.h"
 #include "rcutils/error_handling.h"
 #include "rcutils/find.h"
 #include "rcutils/qsort.h"
@@ -151,4 +153,13 @@ rcutils_ret_t rcutils_qsort(void* ptr, size_t count, size_t size, int (*comp)(co
     qsort(ptr, count, size, comp);
   }
   return RCUTILS_RET_OK;
+}
+
+bool rcutils_cli_option_exist(char** begin, char** end, const char* option) {
+  return std::find(begin, end, std::string_view(option)) != end;
+}
+
+char* rcutils_cli_get_option(char** begin, char** end, const char* option) {
+  char** const found = std::find(begin, end, std::string_view(option));
+  return found != end && found + 1 != end ? found[1] : nullptr;
 }
