@@ -5,6 +5,9 @@ The figures of `./dev bench`, kept over time: record, compare, page.
 docs/figures.jsonl has a line for each recorded run of the benchmarks, in the order of time: when, of which commit, on which machine, and every
 figure with its interval and its floor. docs/performance.md shows the newest of each. `compare` measures again and says what has
 changed beyond noise; it never fails for that, since a machine may be busy.
+
+A record of the preset BY_HAND holds figures that no benchmark reports, or did not report when they were measured: it names their
+command, and an interval is what was seen, not a confidence. They are shown, and nothing is compared with them.
 """
 
 import argparse
@@ -22,6 +25,8 @@ from .drawing import number
 from .measures.benchmark import BenchmarkError, run
 from .results import Figure, figure_of
 
+BY_HAND = 'by hand'
+RANGE = 'only the range is known'  # a note of a figure: its value is just the middle of it
 BEGIN, END = '<!-- figures: begin -->', '<!-- figures: end -->'
 
 
@@ -65,17 +70,37 @@ def newest(records):
     return {**records[-1], 'figures': list(figures.values())}
 
 
+def shown(value, low, high, seen, has_value):
+    """A number of a figure, with the range if it is one that was seen."""
+    if not seen or low is None or low == high:
+        return number(value)
+    seen = f'{number(low)} to {number(high)}'
+    return f'{number(value)} ({seen})' if has_value else seen
+
+
+def row(record, figure):
+    by_hand = record['preset'] == BY_HAND
+    value = shown(figure.value, figure.low, figure.high, by_hand, figure.note != RANGE)
+    floor = f'{shown(figure.floor, figure.floor_low, figure.floor_high, by_hand, False)} ({figure.floor_name})' if figure.floor else ''
+    ratio = number(figure.ratio.value) if figure.ratio else ''
+    command = record.get('command', f'./dev bench {figure.group}')
+    command = f'`{command}`' if command else ''
+    measured = ', '.join(filter(None, (record['date'], record['commit'][:8])))
+    return f'| {figure.name} | {value} {figure.unit} | {floor} | {ratio} | {command} | {measured} |'
+
+
 def table(records):
-    """The newest of each figure as a table of Markdown."""
+    """The newest of each figure as a table of Markdown, by subject."""
     rows = {}
     for record in records:
         for one in record['figures']:
             figure = Figure(**one)
-            ratio = figure.ratio
-            floor = f'{number(figure.floor)} ({figure.floor_name})' if figure.floor else ''
-            rows[figure.group, figure.name] = (f'| {figure.name} | {number(figure.value)} {figure.unit} | {floor} | {number(ratio.value) if ratio else ""} '
-                                               f'| `./dev bench {figure.group}` | {record["date"]}, {record["commit"][:8]} |')
-    return '\n'.join(['| what | median | floor | ratio | command | measured |', '| --- | --- | --- | --- | --- | --- |', *rows.values()])
+            rows[figure.group, figure.name] = row(record, figure)
+    subjects = dict.fromkeys(group for group, _ in rows)
+    lines = ['| what | median | floor | ratio | command | measured |', '| --- | --- | --- | --- | --- | --- |']
+    for subject in sorted(subjects):
+        lines += [text for (group, _), text in rows.items() if group == subject]
+    return '\n'.join(lines)
 
 
 def page(text, records):
@@ -108,7 +133,7 @@ def main(arguments):
         options.page.write_text(page(options.page.read_text(), [*records, record]))
         print(f'{len(figures)} figures recorded in {options.figures} and {options.page}')
         return 0
-    before = newest(records)
+    before = newest([record for record in records if record['preset'] != BY_HAND])
     if before is None:
         print(f'dev bench: error: {options.figures} has no figures to compare with', file=sys.stderr)
         return 1

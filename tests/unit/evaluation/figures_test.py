@@ -41,6 +41,20 @@ class Figures(unittest.TestCase):
 after
 ''')
 
+    def test_what_was_measured_by_hand_is_shown_with_its_range_and_not_compared(self):
+        figure = {'group': 'start', 'name': 'b', 'unit': 's', 'value': 3, 'low': 2, 'high': 4, 'samples': 1}
+        by_hand = {'date': '2025-12-31', 'commit': '', 'preset': figures.BY_HAND, 'command': 'launch FILE', 'machine': {}, 'warnings': [],
+                   'figures': [figure, {**figure, 'name': 'c', 'note': figures.RANGE, 'floor': 1.5, 'floor_low': 1, 'floor_high': 2, 'floor_name': 'bare'},
+                               {**figure, 'name': 'a', 'low': 3, 'high': 3}]}
+        self.assertEqual(figures.table([by_hand, record('2026-01-01', sample('a', [6.0] * 5))]).splitlines()[2:],
+                         ['| b | 3 (2 to 4) s |  |  | `launch FILE` | 2025-12-31 |',
+                          '| c | 2 to 4 s | 1 to 2 (bare) | 2 | `launch FILE` | 2025-12-31 |',
+                          '| a | 6 ms |  |  | `./dev bench start` | 2026-01-01, aaaaaaaa |'])
+        with tempfile.TemporaryDirectory() as folder:
+            kept = Path(folder) / 'figures.jsonl'
+            kept.write_text(json.dumps(by_hand) + '\n')
+            self.assertEqual(figures.main(['compare', '--figures', str(kept)]), 1, 'there is nothing to compare with')
+
     def test_a_benchmark_is_run_recorded_and_compared(self):
         with tempfile.TemporaryDirectory() as folder:
             folder = Path(folder)
