@@ -13,6 +13,7 @@
 #include <memory>
 
 #include "latency_run.hpp"
+#include "tests/benchmarks/samples/samples_file.hpp"
 #include "tracing_session.hpp"
 
 namespace {
@@ -69,14 +70,23 @@ struct Variant {
   Nanoseconds run(std::size_t size, std::uint64_t messages) const { return pair->run({size, messages, kPeriod}); }
 };
 
-// The median over the rounds of the difference between `variant` and `floor`, in microseconds. Neighbours in time are
-// compared, so that slow drifts of the machine cancel out.
-double added(const Samples& variant, const Samples& floor) {
+// The difference between `variant` and `floor` in each round, in microseconds. Neighbours in time are compared, so that
+// slow drifts of the machine cancel out.
+std::vector<double> added(const Samples& variant, const Samples& floor) {
   std::vector<double> differences;
   for (std::size_t i = 0; i < floor.batch_medians.size(); ++i) {
     differences.push_back(variant.batch_medians[i] - floor.batch_medians[i]);
   }
-  return median(differences);
+  return differences;
+}
+
+// The median of each generation, for intervals: rounds of one generation are not independent of each other.
+std::vector<double> by_generation(const std::vector<double>& rounds) {
+  std::vector<double> medians;
+  for (auto at = rounds.begin(); at != rounds.end(); at += kRounds) {
+    medians.push_back(median({at, at + kRounds}));
+  }
+  return medians;
 }
 
 // Asks a process that is traced like the stack.
@@ -176,9 +186,23 @@ int main() try {
              "of that pace");
   for (std::size_t size = 0; size < kSizes.size(); ++size) {
     const double path = median(paced_costs[size]);
-    const double by_recording = added(recorded[size], beside_recorded[size]);
+    const double by_recording = median(added(recorded[size], beside_recorded[size]));
     fmt::print("{:<8}{:>16.2f}{:>24.2f}{:>26.2f}{:>16.2f}\n", kSizes[size] / 1024, path,
-               added(idle.sizes[size], without.sizes[size]), by_recording, by_recording / path);
+               median(added(idle.sizes[size], without.sizes[size])), by_recording, by_recording / path);
+  }
+
+  for (std::size_t size = 0; size < kSizes.size(); ++size) {
+    const std::string bytes = fmt::format("{} KiB, ", kSizes[size] / 1024);
+    const std::vector<double> floor = by_generation(bare.sizes[size].batch_medians);
+    for (const Variant* variant : {&idle, &disabled, &without, &listener}) {
+      benchmarks::report(
+          {bytes + variant->name, "us", by_generation(variant->sizes[size].batch_medians), bare.name, floor});
+    }
+    benchmarks::report(
+        {bytes + "added by idle tracepoints", "us", by_generation(added(idle.sizes[size], without.sizes[size]))});
+    benchmarks::report({bytes + "added by recording all events", "us",
+                        by_generation(added(recorded[size], beside_recorded[size])),
+                        "the tracepoints alone, at that pace", paced_costs[size]});
   }
 } catch (const std::exception& error) {
   fmt::print(stderr, "bench_latency: {}\n", error.what());

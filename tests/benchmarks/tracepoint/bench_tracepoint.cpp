@@ -8,10 +8,16 @@
 //
 //   lttng create bench --snapshot && lttng enable-event -u 'ros2:*' && lttng start && bench_tracepoint
 #include <benchmark/benchmark.h>
+#include <unistd.h>
 
 #include <cstdint>
+#include <cstdlib>
 #include <ctime>
+#include <map>
+#include <string>
+#include <vector>
 
+#include "tests/benchmarks/samples/samples_file.hpp"
 #include "tracetools/tracetools.h"
 
 // These are definitions of its own, which the probes of tracetools serve once they are loaded.
@@ -45,6 +51,7 @@ void measure(benchmark::State& state, Step step) {
     floor_ns = per_step;
   }
   state.counters["of_floor"] = per_step / floor_ns;
+  state.counters["step_ns"] = per_step;
   state.SetLabel(TRACETOOLS_TRACEPOINT_ENABLED(rcl_publish) ? "recorded" : "idle");
 }
 
@@ -82,6 +89,48 @@ void InlineTracepointWithText(benchmark::State& state) {
 }
 BENCHMARK(InlineTracepointWithText);
 
+// Prints the runs as usual, and keeps the time of a step in each.
+class SampleReporter : public benchmark::ConsoleReporter {
+ public:
+  SampleReporter() : ConsoleReporter(isatty(STDOUT_FILENO) != 0 ? OO_Color : OO_None) {}
+
+  void ReportRuns(const std::vector<Run>& runs) override {
+    ConsoleReporter::ReportRuns(runs);
+    for (const Run& run : runs) {
+      if (run.run_type == Run::RT_Iteration) {
+        const std::string& name = run.run_name.function_name;
+        std::vector<double>& times = name == "EmptyCall" ? floor_ : cases_[name + ", " + run.report_label];
+        times.push_back(run.counters.at("step_ns"));
+      }
+    }
+  }
+
+  void report_samples() const {
+    for (const auto& [name, times] : cases_) {
+      benchmarks::report({name, "ns", times, "a call of an empty function", floor_});
+    }
+  }
+
+ private:
+  std::vector<double> floor_;
+  std::map<std::string, std::vector<double>> cases_;
+};
+
 }  // namespace
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  std::vector<char*> arguments(argv, argv + argc);
+  std::string repetitions = "--benchmark_repetitions=5";
+  if (std::getenv("BENCHMARK_SAMPLES") != nullptr) {
+    arguments.insert(arguments.begin() + 1, repetitions.data());
+  }
+  int count = static_cast<int>(arguments.size());
+  arguments.push_back(nullptr);
+  benchmark::Initialize(&count, arguments.data());
+  if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) {
+    return EXIT_FAILURE;
+  }
+  SampleReporter reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  reporter.report_samples();
+}
