@@ -9,7 +9,7 @@
 #include "actions/trace/trace_scope.hpp"
 #include "tracing/record/account/event_counters.hpp"
 #include "tracing/record/lttng/session_daemon.hpp"
-#include "tracing/record/plan/buffer_estimate.hpp"
+#include "tracing/record/plan/buffer_sizes.hpp"
 #include "tracing/record/plan/load_addresses.hpp"
 #include "tracing/record/plan/preload.hpp"
 #include "tracing/record/plan/trace_config.hpp"

@@ -10,7 +10,7 @@
 
 #include "actions/trace/trace_settings.hpp"
 #include "launcher/visit/run_scope.hpp"
-#include "tracing/record/plan/plan_channels.hpp"
+#include "tracing/record/plan/channel_plan.hpp"
 #include "tracing/record/session/traced_run.hpp"
 
 namespace launch {

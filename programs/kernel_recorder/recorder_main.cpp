@@ -36,7 +36,6 @@
 #include "base/files/replace_file.hpp"
 #include "base/processes/process_stat.hpp"
 #include "tracing/record/kernel/ctf_writer.hpp"
-#include "tracing/record/kernel/page_history.hpp"
 #include "tracing/record/kernel/ring_page.hpp"
 #include "tracing/record/kernel/snapshot_writer.hpp"
 #include "tracing/record/kernel/thread_table.hpp"

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pages from which a snapshot is written.
-#include "tracing/record/kernel/page_history.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstring>
 
 #include "tracing/record/kernel/ring_page.hpp"
+#include "tracing/record/kernel/snapshot_writer.hpp"
 
 namespace {
 

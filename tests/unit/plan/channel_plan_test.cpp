@@ -10,8 +10,7 @@
 #include <vector>
 
 #include "tests/unit/plan/trace_error_text.hpp"
-#include "tracing/record/plan/plan_channels.hpp"
-#include "tracing/record/plan/shared_memory_fit.hpp"
+#include "tracing/record/plan/buffer_sizes.hpp"
 #include "tracing/record/plan/trace_config.hpp"
 
 namespace {

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "tests/unit/plan/trace_error_text.hpp"
-#include "tracing/record/plan/perf_counters.hpp"
 
 namespace {
 

@@ -8,7 +8,6 @@
 
 #include "tracing/record/plan/channel_plan.hpp"
 #include "tracing/record/plan/event_rule.hpp"
-#include "tracing/record/plan/plan_channels.hpp"
 #include "tracing/record/plan/trace_config.hpp"
 
 namespace {

@@ -8,7 +8,6 @@
 #include <filesystem>
 
 #include "tests/support/command.hpp"
-#include "tracing/record/plan/library_search.hpp"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include "tracing/record/account/event_counters.hpp"
 #include "tracing/record/lttng/channels.hpp"
 #include "tracing/record/lttng/lttng_ctl.hpp"
-#include "tracing/record/plan/plan_channels.hpp"
+#include "tracing/record/plan/channel_plan.hpp"
 #include "tracing/record/plan/trace_error.hpp"
 
 namespace tracing {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tracing/record/plan/channel_plan.hpp"
-#include "tracing/record/plan/perf_counters.hpp"
+#include "tracing/record/plan/context_fields.hpp"
 
 namespace tracing {
 

@@ -12,7 +12,6 @@
 #include <random>
 #include <system_error>
 
-#include "tracing/record/kernel/load.hpp"
 #include "tracing/record/kernel/ring_page.hpp"
 
 namespace tracing::kernel {

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/record/kernel/ring_page.hpp"
 
-#include <cstring>
-
-#include "tracing/record/kernel/load.hpp"
-
 namespace tracing::kernel {
+
 namespace {
 
 constexpr std::size_t kHeaderSize = 16;  // a time stamp and the number of committed bytes, 64 bits each

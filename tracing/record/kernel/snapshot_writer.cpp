@@ -1,13 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/record/kernel/snapshot_writer.hpp"
 
-#include <cstdint>
 #include <span>
 #include <utility>
 
 #include "tracing/record/kernel/ring_page.hpp"
 
 namespace tracing::kernel {
+
+bool PageHistory::add(unsigned cpu, Page page) {
+  Processor& processor = processors_[cpu];
+  const bool has_gap = forget_lost_records(page);
+  if (has_gap) {
+    processor = {.pages = {}, .bytes = 0, .next_number = processor.next_number + 1};
+  }
+  processor.bytes += page.size();
+  processor.pages.push_back({.number = processor.next_number++, .size = page.size(), .bytes = std::move(page)});
+  while (processor.bytes > limit_ && processor.pages.size() > 1) {
+    processor.bytes -= processor.pages.front().size;
+    processor.pages.pop_front();
+  }
+  return has_gap;
+}
+
+void PageHistory::clear() {
+  for (auto& [cpu, processor] : processors_) {
+    processor = {.pages = {}, .bytes = 0, .next_number = processor.next_number};
+  }
+}
 
 SnapshotWriter::SnapshotWriter(std::size_t limit, std::vector<EventFormat> formats,
                                std::vector<std::string> context_fields, ThreadTable no_threads)

@@ -10,7 +10,7 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "tracing/record/kernel/load.hpp"
+#include "tracing/record/kernel/ring_page.hpp"
 
 namespace tracing::kernel {
 namespace {

@@ -53,16 +53,17 @@ std::string read_file(const fs::path& path) {
   return text.str();
 }
 
-// std::ofstream wants to know where the end is, which tracefs does not tell.
-void append(const fs::path& path, const std::string& text) {
-  const int fd = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+// `how` is O_TRUNC or O_APPEND. std::ofstream wants to know where the end is, which tracefs does not tell.
+void write_to(const fs::path& path, int how, const std::string& text) {
+  const int fd = ::open(path.c_str(), O_WRONLY | how | O_CLOEXEC);
   const bool written = fd >= 0 && ::write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size());
   const int error = errno;
   if (fd >= 0) {
     ::close(fd);
   }
   if (!written) {
-    throw KernelTraceError(fmt::format("cannot write '{}' to {}: {}", text, path.string(), std::strerror(error)));
+    throw KernelTraceError(fmt::format("cannot write '{}' to {}: {}", text, path.string(), std::strerror(error)),
+                           error == EACCES || error == EPERM ? kPrivilege : "");
   }
 }
 
@@ -197,7 +198,7 @@ void TracefsInstance::leave_out(const std::vector<std::string>& processes) {
   write("options/event-fork", "1");
   // The second time for threads that began meanwhile, before their starter was left out.
   for (int i = 0; i < 2; ++i) {
-    append(directory_ / kFile, fmt::format("{}", fmt::join(threads_of(processes), " ")));
+    write_to(directory_ / kFile, O_APPEND, fmt::format("{}", fmt::join(threads_of(processes), " ")));
   }
 }
 
@@ -223,17 +224,7 @@ std::vector<std::pair<unsigned, fs::path>> TracefsInstance::ring_buffers() const
 }
 
 void TracefsInstance::write(const fs::path& file, const std::string& text) const {
-  const fs::path path = directory_ / file;
-  const int fd = ::open(path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
-  const bool written = fd >= 0 && ::write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-  const int error = errno;
-  if (fd >= 0) {
-    ::close(fd);
-  }
-  if (!written) {
-    throw KernelTraceError(fmt::format("cannot write '{}' to {}: {}", text, path.string(), std::strerror(error)),
-                           error == EACCES || error == EPERM ? kPrivilege : "");
-  }
+  write_to(directory_ / file, O_TRUNC, text);
 }
 
 }  // namespace tracing::kernel

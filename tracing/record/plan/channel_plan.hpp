@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A channel of a trace: how large its buffers are and what is recorded into it.
+// The channels of a trace: which there are, how large their buffers are and what is recorded into each.
 #pragma once
 
 #include <lttng/domain.h>
@@ -29,5 +29,15 @@ struct ChannelPlan : ChannelBuffers {
   std::uint64_t tracefile_size = 0;  // bytes
   std::uint64_t tracefile_count = 0;
 };
+
+// The channels into which `config` records something: `ros2` and `kchan`, with `init_channel` also `ros2_init`, and the
+// channels of `config.channels`. A name that occurs twice is recorded once. A default event that one of
+// `config.channels` records is recorded in that channel only. Warnings (a sub-buffer size that had to be rounded up)
+// are appended. Throws TraceError for a context field or an event rule that does not exist, and for attributes that
+// exclude each other.
+std::vector<ChannelPlan> plan_channels(const TraceConfig& config, std::vector<std::string>& warnings);
+
+// Whether a channel records the launcher's own events: `launch_events`, beside events of programs.
+bool records_launch_events(const TraceConfig& config);
 
 }  // namespace tracing

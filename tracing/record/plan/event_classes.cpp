@@ -90,27 +90,4 @@ std::vector<DroppableClass> plan_drops(const std::vector<std::string>& order,
   return drops;
 }
 
-void name_ros_events(std::vector<ChannelPlan>& channels) {
-  for (ChannelPlan& channel : channels) {
-    std::set<std::string> named;  // without a condition: an event of two such rules is recorded once
-    std::vector<EventRule> rules;
-    for (const EventRule& rule : channel.events) {
-      if (!rule.pattern.starts_with("ros2:") || rule.pattern.find('*') == std::string::npos) {
-        if (!rule.plain() || named.insert(rule.pattern).second) {
-          rules.push_back(rule);
-        }
-        continue;
-      }
-      for (const std::string& event : default_ros_events()) {
-        if (!matches(rule.pattern, event) || (rule.plain() && !named.insert(event).second)) {
-          continue;
-        }
-        rules.push_back(rule);
-        rules.back().pattern = event;
-      }
-    }
-    channel.events = std::move(rules);
-  }
-}
-
 }  // namespace tracing

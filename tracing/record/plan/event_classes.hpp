@@ -36,8 +36,4 @@ struct DroppableClass {
 // in no class: without them a trace cannot be understood.
 std::vector<DroppableClass> plan_drops(const std::vector<std::string>& order, const std::vector<ChannelPlan>& channels);
 
-// Replaces each pattern of provider ros2 by the names of the events that it matches. LTTng can switch an event off only
-// by the rule that it was given.
-void name_ros_events(std::vector<ChannelPlan>& channels);
-
 }  // namespace tracing

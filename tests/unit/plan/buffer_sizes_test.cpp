@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/record/plan/buffer_estimate.hpp"
+#include "tracing/record/plan/buffer_sizes.hpp"
 
 #include <gtest/gtest.h>
 
