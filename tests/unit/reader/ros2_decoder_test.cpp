@@ -10,8 +10,7 @@
 
 #include "tests/support/trace_writer/temporary_directory.hpp"
 #include "tests/support/trace_writer/trace_writer.hpp"
-#include "tracing/decode/reader/execution_event.hpp"
-#include "tracing/decode/reader/object_end.hpp"
+#include "tracing/decode/reader/ext_events.hpp"
 #include "tracing/decode/reader/trace_reader.hpp"
 
 namespace tracing {

@@ -35,15 +35,6 @@ Error as_error(const tracing::TraceReadError& error) {
   return {error.what(), error.remedy()};
 }
 
-std::string text_in(const Trace& trace, const std::string& name) {
-  const auto found = trace.environment.find(name);
-  if (found == trace.environment.end()) {
-    return {};
-  }
-  const auto* const text = std::get_if<std::string>(&found->second);
-  return text == nullptr ? std::string() : *text;
-}
-
 }  // namespace
 
 const Item* Reader::Implementation::next() {
@@ -103,8 +94,8 @@ const Trace& Reader::Implementation::known_trace(std::size_t index) {
     trace.directories = recorded.directories;
     trace.uuid = recorded.uuid;
     trace.environment = recorded.environment;
-    trace.hostname = text_in(trace, "hostname");
-    trace.domain = text_in(trace, "domain");
+    trace.hostname = recorded.text("hostname");
+    trace.domain = recorded.text("domain");
   }
   return traces[index];
 }

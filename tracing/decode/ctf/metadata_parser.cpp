@@ -7,7 +7,6 @@
 #include "tracing/decode/ctf/basic_types.hpp"
 #include "tracing/decode/ctf/trace_class.hpp"
 #include "tracing/decode/ctf/tsdl_cursor.hpp"
-#include "tracing/decode/ctf/tsdl_tokens.hpp"
 #include "tracing/decode/ctf/type_parser.hpp"
 
 namespace tracing::ctf {
@@ -22,6 +21,44 @@ bool find_byte_order(const std::vector<Token>& tokens) {
   }
   return false;
 }
+
+// What an entry of a block says, by the kind of what it declares.
+void set(std::string& text, const TsdlEntry& entry) {
+  text = entry.value.text;
+}
+void set(std::uint64_t& number, const TsdlEntry& entry) {
+  number = number_of(entry);
+}
+void set(std::int64_t& number, const TsdlEntry& entry) {
+  number = entry.value.number;
+}
+// Headers, contexts and fields are structures.
+void set(FieldClassPtr& type, const TsdlEntry& entry) {
+  if (!entry.type || entry.type->kind != FieldKind::kStructure) {
+    fail_at_line(entry.line, fmt::format("'{}' is no structure", entry.name));
+  }
+  type = entry.type;
+}
+
+// The entries of a block. Those that nobody takes do not matter.
+class Block {
+ public:
+  explicit Block(std::vector<TsdlEntry> entries) : entries_(std::move(entries)) {}
+
+  // The member keeps its value if there is no such entry.
+  template <class Member>
+  const Block& take(std::string_view name, Member& member) const {
+    for (const TsdlEntry& entry : entries_) {
+      if (entry.name == name) {
+        set(member, entry);
+      }
+    }
+    return *this;
+  }
+
+ private:
+  std::vector<TsdlEntry> entries_;
+};
 
 class MetadataParser {
  public:
@@ -67,21 +104,13 @@ class MetadataParser {
     }
   }
 
-  // Headers, contexts and fields are structures.
-  static FieldClassPtr structure_of(const TsdlEntry& entry) {
-    if (!entry.type || entry.type->kind != FieldKind::kStructure) {
-      fail_at_line(entry.line, fmt::format("'{}' is no structure", entry.name));
-    }
-    return entry.type;
-  }
-
   void parse_trace() {
     for (const TsdlEntry& entry : types_.parse_block()) {
       if (entry.name == "uuid") {
         trace_.uuid = entry.value.text;
       }
       if (entry.name == "packet.header") {
-        trace_.packet_header = structure_of(entry);
+        set(trace_.packet_header, entry);
       }
       if ((entry.name == "major" && entry.value.number != 1) || (entry.name == "minor" && entry.value.number != 8)) {
         fail_at_line(entry.line, "not CTF 1.8");
@@ -99,23 +128,12 @@ class MetadataParser {
 
   void parse_clock() {
     Clock clock;
-    for (const TsdlEntry& entry : types_.parse_block()) {
-      if (entry.name == "name") {
-        clock.name = entry.value.text;
-      }
-      if (entry.name == "uuid") {
-        clock.uuid = entry.value.text;
-      }
-      if (entry.name == "freq") {
-        clock.frequency = number_of(entry);
-      }
-      if (entry.name == "offset_s") {
-        clock.offset_s = entry.value.number;
-      }
-      if (entry.name == "offset") {
-        clock.offset = entry.value.number;
-      }
-    }
+    Block(types_.parse_block())
+        .take("name", clock.name)
+        .take("uuid", clock.uuid)
+        .take("freq", clock.frequency)
+        .take("offset_s", clock.offset_s)
+        .take("offset", clock.offset);
     if (clock.frequency == 0) {
       cursor_.fail("a clock has the frequency 0");
     }
@@ -124,42 +142,22 @@ class MetadataParser {
 
   void parse_stream() {
     StreamDeclaration stream;
-    for (const TsdlEntry& entry : types_.parse_block()) {
-      if (entry.name == "id") {
-        stream.id = number_of(entry);
-      }
-      if (entry.name == "packet.context") {
-        stream.packet_context = structure_of(entry);
-      }
-      if (entry.name == "event.header") {
-        stream.event_header = structure_of(entry);
-      }
-      if (entry.name == "event.context") {
-        stream.event_context = structure_of(entry);
-      }
-    }
+    Block(types_.parse_block())
+        .take("id", stream.id)
+        .take("packet.context", stream.packet_context)
+        .take("event.header", stream.event_header)
+        .take("event.context", stream.event_context);
     trace_.streams[stream.id] = stream;
   }
 
   void parse_event() {
     EventDeclaration event;
-    for (const TsdlEntry& entry : types_.parse_block()) {
-      if (entry.name == "name") {
-        event.name = entry.value.text;
-      }
-      if (entry.name == "id") {
-        event.id = number_of(entry);
-      }
-      if (entry.name == "stream_id") {
-        event.stream_id = number_of(entry);
-      }
-      if (entry.name == "context") {
-        event.context = structure_of(entry);
-      }
-      if (entry.name == "fields") {
-        event.payload = structure_of(entry);
-      }
-    }
+    Block(types_.parse_block())
+        .take("name", event.name)
+        .take("id", event.id)
+        .take("stream_id", event.stream_id)
+        .take("context", event.context)
+        .take("fields", event.payload);
     trace_.events.push_back(std::move(event));
   }
 

@@ -24,13 +24,10 @@ std::optional<std::int64_t> TraceClass::environment_number(const std::string& na
   return number ? std::optional(*number) : std::nullopt;
 }
 
-std::string TraceClass::environment_text(const std::string& name) const {
+std::string_view environment_text(const Environment& environment, const std::string& name) {
   const auto found = environment.find(name);
-  if (found == environment.end()) {
-    return {};
-  }
-  const auto* const text = std::get_if<std::string>(&found->second);
-  return text ? *text : std::string();
+  const auto* const text = found == environment.end() ? nullptr : std::get_if<std::string>(&found->second);
+  return text == nullptr ? std::string_view() : *text;
 }
 
 }  // namespace tracing::ctf

@@ -49,20 +49,25 @@ struct StreamDeclaration {
 };
 
 using EnvironmentValue = std::variant<std::int64_t, std::string>;
+using Environment = std::map<std::string, EnvironmentValue>;
+
+// The value of an entry that is a text; empty when there is none.
+std::string_view environment_text(const Environment& environment, const std::string& name);
 
 struct TraceClass {
   std::string uuid;  // empty: none
   bool is_big_endian = false;
   FieldClassPtr packet_header;  // null: none
-  std::map<std::string, EnvironmentValue> environment;
+  Environment environment;
   std::map<std::string, Clock> clocks;                 // by name
   std::map<std::uint64_t, StreamDeclaration> streams;  // by id
   std::vector<EventDeclaration> events;
 
   // The value of an entry of the environment that is a number.
   std::optional<std::int64_t> environment_number(const std::string& name) const;
-  // The value of an entry of the environment that is a text; empty when there is none.
-  std::string environment_text(const std::string& name) const;
+  std::string environment_text(const std::string& name) const {
+    return std::string(ctf::environment_text(environment, name));
+  }
 };
 
 // Reads the text of a metadata file. Throws UnsupportedTrace, with the line, for text that it can't read.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A place in the text of metadata. It takes what declarations consist of: words, names, numbers and values.
+// The words of TSDL, the language of CTF 1.8's metadata, and a place in such a text. It takes what declarations consist
+// of: words, names, numbers and values.
 #pragma once
 
 #include <cstddef>
@@ -9,9 +10,22 @@
 #include <utility>
 #include <vector>
 
-#include "tracing/decode/ctf/tsdl_tokens.hpp"
-
 namespace tracing::ctf {
+
+struct Token {
+  enum class Kind : std::uint8_t { kName, kNumber, kString, kSymbol, kEnd };
+  Kind kind = Kind::kEnd;
+  std::string text;          // of a string: without quotes, escapes resolved
+  std::uint64_t number = 0;  // of a number
+  std::size_t line = 1;
+
+  bool is(std::string_view symbol_or_name) const {
+    return (kind == Kind::kSymbol || kind == Kind::kName) && text == symbol_or_name;
+  }
+};
+
+// The last token has the kind kEnd. Throws UnsupportedTrace.
+std::vector<Token> tsdl_tokens(std::string_view text);
 
 // The right side of `name = value;`.
 struct TsdlValue {

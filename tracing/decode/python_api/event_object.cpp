@@ -5,13 +5,18 @@
 
 #include <cstddef>
 
-#include "tracing/decode/python_api/field_object.hpp"
-
 namespace tracing::python {
 
 namespace py = pybind11;
 
 namespace {
+
+py::object owned(PyObject* object) {
+  if (object == nullptr) {
+    throw py::error_already_set();
+  }
+  return py::reinterpret_steal<py::object>(object);
+}
 
 // Nothing in it can refer back to it, so Python's collector of circles need not know it.
 struct EventObject {
@@ -140,6 +145,45 @@ PyObject* reference(const py::object& object) {
 
 }  // namespace
 
+py::object text_object(std::string_view text) {
+  return owned(PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace"));
+}
+
+py::object field_object(const FieldValue& value) {
+  if (value.is_enumeration()) {
+    if (const auto label = value.enumeration_label()) {
+      return text_object(*label);
+    }
+  }
+  if (const auto number = value.unsigned_integer()) {
+    return owned(PyLong_FromUnsignedLongLong(*number));
+  }
+  if (const auto number = value.integer()) {
+    return owned(PyLong_FromLongLong(*number));
+  }
+  if (const auto text = value.string()) {
+    return text_object(*text);
+  }
+  if (const auto real = value.real()) {
+    return owned(PyFloat_FromDouble(*real));
+  }
+  if (value.is_variant()) {
+    return field_object(value[0]);
+  }
+  if (value.is_structure()) {
+    py::dict fields;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      fields[text_object(value.member_name(i))] = field_object(value[i]);
+    }
+    return fields;
+  }
+  py::tuple elements(value.size());
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    elements[i] = field_object(value[i]);
+  }
+  return elements;
+}
+
 py::object make_event_type() {
   static const char* const kDoc = "An event of a trace. event['field'] is the value of a field or a context.";
   PyType_Slot slots[] = {{Py_tp_dealloc, slot(deallocate)},  {Py_tp_doc, const_cast<char*>(kDoc)},
@@ -159,22 +203,12 @@ py::object make_event_type() {
 EventMaker::EventMaker(py::object type, const TraceReader& reader) : type_(std::move(type)), reader_(reader) {}
 EventMaker::~EventMaker() = default;
 
-const EventMaker::KnownClass& EventMaker::known_class(const EventClass& event_class) {
-  if (event_class.id >= classes_.size()) {
-    classes_.resize(event_class.id + 1);
-  }
-  std::unique_ptr<KnownClass>& slot = classes_[event_class.id];
-  if (slot) {
-    return *slot;
-  }
-  slot = std::make_unique<KnownClass>();
-  slot->name = text_object(event_class.name);
-  const auto& environment = reader_.traces()[event_class.trace].environment;
-  const auto host = environment.find("hostname");
-  const auto* const name = host == environment.end() ? nullptr : std::get_if<std::string>(&host->second);
-  slot->host = text_object(name == nullptr ? "" : *name);
+EventMaker::KnownClass EventMaker::facts_of(const EventClass& event_class) const {
+  KnownClass known;
+  known.name = text_object(event_class.name);
+  known.host = text_object(reader_.traces()[event_class.trace].text("hostname"));
   for (std::size_t i = 0; i < event_class.fields.size(); ++i) {
-    slot->fields[text_object(event_class.fields[i])] = i;
+    known.fields[text_object(event_class.fields[i])] = i;
   }
   py::list names;
   for (std::size_t i = 0; i < event_class.contexts.size(); ++i) {
@@ -182,11 +216,11 @@ const EventMaker::KnownClass& EventMaker::known_class(const EventClass& event_cl
     if (context == "vpid" || context == "vtid" || context == "procname") {
       continue;
     }
-    slot->other_contexts.push_back(i);
+    known.other_contexts.push_back(i);
     names.append(text_object(context));
   }
-  slot->context_names = names;
-  return *slot;
+  known.context_names = names;
+  return known;
 }
 
 PyObject* EventMaker::number_object(const std::optional<std::int64_t>& number, LastNumber& last) {
@@ -213,7 +247,7 @@ PyObject* EventMaker::procname_object(const std::optional<std::string_view>& pro
 }
 
 py::object EventMaker::make(const Event& event) {
-  const KnownClass& known = known_class(*event.event_class);
+  const KnownClass& known = classes_.of(*event.event_class, [&] { return facts_of(*event.event_class); });
   auto* const type = reinterpret_cast<PyTypeObject*>(type_.ptr());
   py::object made = py::reinterpret_steal<py::object>(type->tp_alloc(type, 0));
   if (!made) {

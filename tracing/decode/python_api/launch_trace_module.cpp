@@ -10,10 +10,9 @@
 #include <variant>
 #include <vector>
 
-#include "tracing/decode/python_api/column.hpp"
 #include "tracing/decode/python_api/event_object.hpp"
-#include "tracing/decode/python_api/loss_object.hpp"
 #include "tracing/decode/python_api/reading.hpp"
+#include "tracing/decode/python_api/trace_columns.hpp"
 
 namespace tracing::python {
 namespace {

@@ -1,15 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/decode/python_api/reading.hpp"
 
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <cstdint>
 #include <exception>
 
-#include "tracing/decode/python_api/loss_object.hpp"
 #include "tracing/decode/python_api/trace_columns.hpp"
 #include "tracing/decode/reader/event_pattern.hpp"
 
 namespace tracing::python {
 
 namespace py = pybind11;
+
+namespace {
+
+struct LossObject {
+  std::int64_t time_ns = 0;
+  std::optional<std::int64_t> end_ns;
+  std::string kind;
+  std::optional<std::uint64_t> count;
+  std::string stream;
+};
+
+py::object make_loss(const Loss& loss) {
+  return py::cast(LossObject{loss.begin_ns.value_or(0), loss.end_ns,
+                             loss.kind == Loss::Kind::kEvents ? "events" : "packets", loss.count, loss.stream->name});
+}
+
+}  // namespace
+
+void add_loss_type(py::module_& module) {
+  py::class_<LossObject>(module, "Loss", "Events that the tracer could not keep, according to the trace itself.")
+      .def_readonly("time_ns", &LossObject::time_ns, "The earliest time at which the loss began")
+      .def_readonly("end_ns", &LossObject::end_ns, "The latest time at which it had ended, or None")
+      .def_readonly("kind", &LossObject::kind, "'events', or 'packets' with an unknown number of events each")
+      .def_readonly("count", &LossObject::count, "How many; None: some, but the number is unknown")
+      .def_readonly("stream", &LossObject::stream, "The file of the stream")
+      .def("__repr__", [](const LossObject& loss) {
+        return "<Loss of " + (loss.count ? std::to_string(*loss.count) : "some") + " " + loss.kind + " at " +
+               std::to_string(loss.time_ns) + " ns>";
+      });
+}
 
 Reading::Reading(const ReadingOptions& options, std::shared_ptr<Findings> findings, std::vector<std::string> patterns)
     : reader_(options.directories),
@@ -57,19 +90,10 @@ bool Reading::is_wanted(const EventClass& event_class) {
   if (patterns_.empty()) {
     return true;
   }
-  if (event_class.id >= is_wanted_.size()) {
-    is_wanted_.resize(event_class.id + 1, -1);
-  }
-  signed char& known = is_wanted_[event_class.id];
-  if (known < 0) {
-    known = 0;
-    for (const std::string& pattern : patterns_) {
-      if (matches_pattern(pattern, event_class.name)) {
-        known = 1;
-      }
-    }
-  }
-  return known == 1;
+  return is_wanted_.of(event_class, [&] {
+    return std::any_of(patterns_.begin(), patterns_.end(),
+                       [&](const std::string& pattern) { return matches_pattern(pattern, event_class.name); });
+  });
 }
 
 namespace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One reading of a trace, and the iterator of Python that goes through it.
+// One reading of a trace, the iterator of Python that goes through it, and launch_trace.Loss: events that the tracer
+// could not keep.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -11,9 +12,13 @@
 #include <vector>
 
 #include "tracing/decode/python_api/event_object.hpp"
+#include "tracing/decode/reader/event.hpp"
 #include "tracing/decode/reader/trace_reader.hpp"
 
 namespace tracing::python {
+
+// Adds the type launch_trace.Loss to the module.
+void add_loss_type(pybind11::module_& module);
 
 // What a reading found, beside the events.
 struct Findings {
@@ -47,7 +52,7 @@ class Reading {
   std::shared_ptr<Findings> findings_;
   EventMaker maker_;
   std::vector<std::string> patterns_;
-  std::vector<signed char> is_wanted_;  // by EventClass::id: 1 wanted, 0 not, -1 not known yet
+  ByEventClass<bool> is_wanted_;
   std::size_t items_ = 0;
 };
 

@@ -12,6 +12,9 @@
 
 namespace tracing::python {
 
+// Adds the type that memoryviews without NumPy are views of.
+void add_buffer_type(pybind11::module_& module);
+
 // A dict from names to columns. A name is that of a field, of a context, or one of time_ns, cpu_id, vpid, vtid,
 // procname and host; without names it has all of these and all fields. Throws KeyError for a name that the event does
 // not have.

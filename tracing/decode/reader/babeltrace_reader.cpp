@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "tracing/decode/reader/babeltrace.hpp"
-#include "tracing/decode/reader/babeltrace_graph.hpp"
 #include "tracing/decode/reader/message_translator.hpp"
 #include "tracing/decode/reader/trace_discovery.hpp"
 #include "tracing/decode/reader/trace_read_error.hpp"

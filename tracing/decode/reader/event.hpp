@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,7 +28,10 @@ struct TraceDescription {
       directories;   // the chunks of a rotated session and several snapshots are one trace
   std::string uuid;  // empty: it has none
   // As the tracer describes itself: "hostname", "domain" ("ust" or "kernel"), "tracer_name", …
-  std::map<std::string, ctf::EnvironmentValue> environment;
+  ctf::Environment environment;
+
+  // The value of an entry of the environment that is a text; empty when there is none.
+  std::string_view text(const std::string& name) const { return ctf::environment_text(environment, name); }
 };
 
 // One data stream of a trace: in LTTng, the buffers of one channel on one CPU.
@@ -53,6 +55,27 @@ struct EventClass {
 
   std::optional<std::size_t> index_of(std::string_view field) const;
   std::optional<std::size_t> index_of_context(std::string_view context) const;
+};
+
+// What somebody wants to know of each event class, found out when its first event comes.
+template <class Fact>
+class ByEventClass {
+ public:
+  // `find()` is asked once for each class. The fact is valid until the next call.
+  template <class Find>
+  const Fact& of(const EventClass& event_class, Find find) {
+    if (event_class.id >= facts_.size()) {
+      facts_.resize(event_class.id + 1);
+    }
+    std::optional<Fact>& fact = facts_[event_class.id];
+    if (!fact) {
+      fact.emplace(find());
+    }
+    return *fact;
+  }
+
+ private:
+  std::vector<std::optional<Fact>> facts_;  // by EventClass::id
 };
 
 // The value of one field. Asking for another type than was recorded gives nullopt.

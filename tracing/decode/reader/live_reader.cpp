@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "tracing/decode/reader/babeltrace_graph.hpp"
+#include "tracing/decode/reader/babeltrace.hpp"
 #include "tracing/decode/reader/message_translator.hpp"
 #include "tracing/decode/reader/trace_read_error.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "tracing/decode/ctf/metadata_text.hpp"
 #include "tracing/decode/ctf/trace_class.hpp"
-#include "tracing/decode/ctf/tsdl_tokens.hpp"
+#include "tracing/decode/ctf/tsdl_cursor.hpp"
 #include "tracing/decode/reader/trace_read_error.hpp"
 
 namespace tracing {

@@ -10,8 +10,7 @@
 
 #include <utility>
 
-#include "tracing/decode/reader/endpoint_qos.hpp"
-#include "tracing/decode/reader/lifecycle_state.hpp"
+#include "tracing/decode/reader/ext_events.hpp"
 #include "tracing/decode/reader/ros2_decoder.hpp"
 #include "tracing/decode/reader/trace_reader.hpp"
 #include "tracing/model/analysis/overview_counter.hpp"

@@ -9,7 +9,7 @@
 #include <map>
 #include <optional>
 
-#include "tracing/decode/reader/execution_event.hpp"
+#include "tracing/decode/reader/ext_events.hpp"
 #include "tracing/model/execution/duration_statistics.hpp"
 #include "tracing/model/objects/object_model.hpp"
 

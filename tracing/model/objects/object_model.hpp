@@ -17,8 +17,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "tracing/decode/reader/endpoint_qos.hpp"
-#include "tracing/decode/reader/object_end.hpp"
+#include "tracing/decode/reader/ext_events.hpp"
 #include "tracing/decode/reader/ros2_events.hpp"
 #include "tracing/model/objects/callback_table.hpp"
 #include "tracing/model/objects/handle_index.hpp"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "tracing/decode/reader/endpoint_qos.hpp"
+#include "tracing/decode/reader/ext_events.hpp"
 #include "tracing/decode/reader/ros2_events.hpp"
 #include "tracing/model/objects/process_table.hpp"
 

@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "tracing/decode/reader/object_end.hpp"
+#include "tracing/decode/reader/ext_events.hpp"
 #include "tracing/decode/reader/ros2_decoder.hpp"
 #include "tracing/model/objects/object_model.hpp"
 #include "tracing/model/objects/process_table.hpp"
