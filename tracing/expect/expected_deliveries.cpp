@@ -10,8 +10,7 @@
 #include "base/text/nearest_name.hpp"
 #include "launch_trace_testing/expectations.hpp"
 #include "tracing/expect/event_table.hpp"
-#include "tracing/expect/phrases.hpp"
-#include "tracing/expect/samples.hpp"
+#include "tracing/expect/verdict_text.hpp"
 
 namespace launch_trace_testing {
 

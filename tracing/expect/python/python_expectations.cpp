@@ -24,6 +24,12 @@ void assert_that(const Verdict& verdict) {
   throw py::error_already_set();
 }
 
+// The expectation as a method that raises.
+template <class... Arguments>
+auto asserted(Verdict (*expect)(const Trace&, Arguments...)) {
+  return [expect](const Trace& trace, Arguments... arguments) { assert_that(expect(trace, arguments...)); };
+}
+
 // A number, or one of the words at_least() and so on.
 Count count_of(const py::object& given) {
   if (py::isinstance<Count>(given)) {
@@ -43,6 +49,14 @@ Bounds bounds_of(const py::object& given) {
     return given.cast<Bounds>();
   }
   return given.attr("bounds")().cast<Bounds>();
+}
+
+// An expectation of the times of callbacks.
+auto asserted_of_callbacks(Verdict (*expect)(const Trace&, const CallbackChoice&, Bounds)) {
+  return [expect](const Trace& trace, const py::object& time, const std::string& node, const std::string& topic,
+                  const std::string& service, const std::string& symbol, bool timers_only) {
+    assert_that(expect(trace, {node, topic, service, symbol, timers_only}, bounds_of(time)));
+  };
 }
 
 std::chrono::nanoseconds nanoseconds(double seconds) {
@@ -135,12 +149,8 @@ void add_expectations(py::module_& module) {
           "expect_none",
           [](const Trace& trace, const EventQuery& query) { assert_that(expect_count(trace, query, exactly(0))); },
           py::arg("query"))
-      .def(
-          "expect_each",
-          [](const Trace& trace, const EventQuery& all, const EventQuery& required) {
-            assert_that(expect_each(trace, all, required));
-          },
-          py::arg("all"), py::arg("required"), "Each of the events meets the conditions of the other query.")
+      .def("expect_each", asserted(expect_each), py::arg("all"), py::arg("required"),
+           "Each of the events meets the conditions of the other query.")
       .def(
           "expect_field",
           [](const Trace& trace, const EventQuery& query, const std::string& field, const std::string& kind,
@@ -150,41 +160,15 @@ void add_expectations(py::module_& module) {
           py::arg("query"), py::arg("field"), py::arg("kind"), py::arg("length") = py::none(),
           "The field of each event is of the kind: 'handle', 'pointer', 'pointer or null', 'text', 'non-empty text',\n"
           "'integer', 'queue depth', 'real', 'array'.")
-      .def(
-          "expect_names",
-          [](const Trace& trace, const std::vector<std::string>& names, const std::string& among) {
-            assert_that(expect_event_names(trace, names, among));
-          },
-          py::arg("names"), py::arg("among") = "*", "The events have exactly these names.")
-      .def(
-          "expect_processes",
-          [](const Trace& trace, const std::vector<std::string>& names) {
-            assert_that(expect_processes(trace, names));
-          },
-          py::arg("names"))
-      .def(
-          "expect_order",
-          [](const Trace& trace, const std::vector<EventQuery>& queries) { assert_that(expect_order(trace, queries)); },
-          py::arg("queries"), "An event of each query, each behind the one before.")
-      .def(
-          "expect_sorted",
-          [](const Trace& trace, const std::vector<const Event*>& events) {
-            assert_that(expect_sorted(trace, events));
-          },
-          py::arg("events"))
-      .def(
-          "expect_happens_before",
-          [](const Trace& trace, const EventQuery& cause, const EventQuery& effect) {
-            assert_that(expect_happens_before(trace, cause, effect));
-          },
-          py::arg("cause"), py::arg("effect"))
-      .def(
-          "expect_matching_field",
-          [](const Trace& trace, const Event& event, const std::string& field, const EventQuery& other,
-             const std::string& other_field) {
-            assert_that(expect_matching_field(trace, event, field, other, other_field));
-          },
-          py::arg("event"), py::arg("field"), py::arg("other"), py::arg("other_field") = "")
+      .def("expect_names", asserted(expect_event_names), py::arg("names"), py::arg("among") = "*",
+           "The events have exactly these names.")
+      .def("expect_processes", asserted(expect_processes), py::arg("names"))
+      .def("expect_order", asserted(expect_order), py::arg("queries"),
+           "An event of each query, each behind the one before.")
+      .def("expect_sorted", asserted(expect_sorted), py::arg("events"))
+      .def("expect_happens_before", asserted(expect_happens_before), py::arg("cause"), py::arg("effect"))
+      .def("expect_matching_field", asserted(expect_matching_field), py::arg("event"), py::arg("field"),
+           py::arg("other"), py::arg("other_field") = "")
       .def(
           "expect_delivered",
           [](const Trace& trace, const std::string& topic, const py::object& count, const py::object& latency,
@@ -203,23 +187,12 @@ void add_expectations(py::module_& module) {
           },
           py::arg("topic"), py::arg("most_missing") = 0, py::arg("settling") = 0.1, py::kw_only(),
           py::arg("publisher") = "", py::arg("subscriber") = "")
-      .def(
-          "expect_callback_duration",
-          [](const Trace& trace, const py::object& duration, const std::string& node, const std::string& topic,
-             const std::string& service, const std::string& symbol, bool timers_only) {
-            assert_that(
-                expect_callback_duration(trace, {node, topic, service, symbol, timers_only}, bounds_of(duration)));
-          },
-          py::arg("duration"), py::kw_only(), py::arg("node") = "", py::arg("topic") = "", py::arg("service") = "",
-          py::arg("symbol") = "", py::arg("timers_only") = false)
-      .def(
-          "expect_callback_period",
-          [](const Trace& trace, const py::object& period, const std::string& node, const std::string& topic,
-             const std::string& service, const std::string& symbol, bool timers_only) {
-            assert_that(expect_callback_period(trace, {node, topic, service, symbol, timers_only}, bounds_of(period)));
-          },
-          py::arg("period"), py::kw_only(), py::arg("node") = "", py::arg("topic") = "", py::arg("service") = "",
-          py::arg("symbol") = "", py::arg("timers_only") = false)
+      .def("expect_callback_duration", asserted_of_callbacks(expect_callback_duration), py::arg("duration"),
+           py::kw_only(), py::arg("node") = "", py::arg("topic") = "", py::arg("service") = "", py::arg("symbol") = "",
+           py::arg("timers_only") = false)
+      .def("expect_callback_period", asserted_of_callbacks(expect_callback_period), py::arg("period"), py::kw_only(),
+           py::arg("node") = "", py::arg("topic") = "", py::arg("service") = "", py::arg("symbol") = "",
+           py::arg("timers_only") = false)
       .def(
           "expect_period",
           [](const Trace& trace, const EventQuery& query, const py::object& period) {
@@ -232,7 +205,7 @@ void add_expectations(py::module_& module) {
             assert_that(expect_duration(trace, begin, end, bounds_of(duration)));
           },
           py::arg("begin"), py::arg("end"), py::arg("duration"))
-      .def("expect_no_loss", [](const Trace& trace) { assert_that(expect_no_loss(trace)); });
+      .def("expect_no_loss", asserted(expect_no_loss));
 }
 
 }  // namespace launch_trace_testing

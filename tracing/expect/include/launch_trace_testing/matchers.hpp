@@ -115,39 +115,40 @@ inline TraceMatcher LostNothing() {
   return holds([](const Trace& trace) { return expect_no_loss(trace); });
 }
 
+// An event whose field has a value that `read` makes of it, and that matches.
+template <class Read, class Matcher>
+::testing::Matcher<const Event&> FieldThat(std::string name, Read read, Matcher matcher) {
+  using Read_ = typename decltype(read(std::declval<const Value&>()))::value_type;
+  return ::testing::ResultOf(
+      "field " + name,
+      [name, read](const Event& event) {
+        const Value* const value = event.find(name);
+        return value == nullptr ? std::nullopt : read(*value);
+      },
+      ::testing::Optional(::testing::SafeMatcherCast<const Read_&>(matcher)));
+}
 // An event whose field, a number, matches: Field("queue_depth", Gt(5)). A number that does not fit, and a text, do not
 // match.
 template <class Matcher>
 ::testing::Matcher<const Event&> Field(std::string name, Matcher matcher) {
-  return ::testing::ResultOf(
-      "field " + name,
-      [name](const Event& event) {
-        const Value* const value = event.find(name);
-        return value == nullptr ? std::nullopt : value->integer();
-      },
-      ::testing::Optional(::testing::SafeMatcherCast<const std::int64_t&>(matcher)));
+  return FieldThat(
+      std::move(name), [](const Value& value) { return value.integer(); }, matcher);
 }
 // The same for a pointer or another unsigned number, for a text, and for a name.
 template <class Matcher>
 ::testing::Matcher<const Event&> HandleField(std::string name, Matcher matcher) {
-  return ::testing::ResultOf(
-      "field " + name,
-      [name](const Event& event) {
-        const Value* const value = event.find(name);
-        return value == nullptr ? std::nullopt : value->unsigned_integer();
-      },
-      ::testing::Optional(::testing::SafeMatcherCast<const std::uint64_t&>(matcher)));
+  return FieldThat(
+      std::move(name), [](const Value& value) { return value.unsigned_integer(); }, matcher);
 }
 template <class Matcher>
 ::testing::Matcher<const Event&> TextField(std::string name, Matcher matcher) {
-  return ::testing::ResultOf(
-      "field " + name,
-      [name](const Event& event) -> std::optional<std::string> {
-        const Value* const value = event.find(name);
-        const auto text = value == nullptr ? std::nullopt : value->text();
+  return FieldThat(
+      std::move(name),
+      [](const Value& value) {
+        const auto text = value.text();
         return text ? std::optional<std::string>(*text) : std::nullopt;
       },
-      ::testing::Optional(::testing::SafeMatcherCast<const std::string&>(matcher)));
+      matcher);
 }
 template <class Matcher>
 ::testing::Matcher<const Event&> Named(Matcher matcher) {

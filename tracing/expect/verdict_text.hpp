@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times that must lie within bounds, and the verdict on them.
+// The words of a verdict: counts and bounds, and what it says of times that must lie within bounds.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,11 @@
 #include "launch_trace_testing/expectations.hpp"
 
 namespace launch_trace_testing {
+
+// "exactly 3", "at least 1", "at most 5", "2 to 4", "no"
+std::string count_text(Count count);
+// "10.000 ms to 30.000 ms", "at most 30.000 ms", "at least 10.000 ms", with "for 99 % of them" if not for all
+std::string bounds_text(Bounds bounds);
 
 struct Sample {
   std::int64_t ns = 0;
