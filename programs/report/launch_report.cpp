@@ -21,8 +21,8 @@
 #include "tracing/show/live/live_report.hpp"
 #include "tracing/show/report/comparison_command.hpp"
 #include "tracing/show/report/output_files.hpp"
+#include "tracing/show/report/recorded_facts.hpp"
 #include "tracing/show/report/recorded_processes.hpp"
-#include "tracing/show/report/recorded_sessions.hpp"
 #include "tracing/show/report/report.hpp"
 
 namespace {

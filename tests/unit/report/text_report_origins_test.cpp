@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/unit/report/example_reports.hpp"
-#include "tracing/show/report/recorded_sessions.hpp"
+#include "tracing/show/report/recorded_facts.hpp"
 #include "tracing/show/report/report.hpp"
 
 namespace tracing {

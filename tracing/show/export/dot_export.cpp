@@ -4,7 +4,6 @@
 #include <set>
 
 #include "tracing/model/timeline/node_graph.hpp"
-#include "tracing/show/export/dot_text.hpp"
 #include "tracing/show/export/export.hpp"
 #include "tracing/show/export/output_file.hpp"
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "tracing/model/timeline/traced_system.hpp"
 
@@ -27,5 +28,8 @@ void export_dot(const TracedSystem& system, const std::filesystem::path& file);
 
 // The same graph, drawn by Graphviz's program dot, which must be in PATH.
 void export_svg(const TracedSystem& system, const std::filesystem::path& file);
+
+// What export_dot() writes.
+std::string dot_text(const TracedSystem& system);
 
 }  // namespace tracing

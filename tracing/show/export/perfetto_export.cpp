@@ -72,10 +72,8 @@ class PerfettoWriter {
     file_.write("}");
   }
 
-  std::string time(std::int64_t ns) const {
-    const std::int64_t after = ns - origin_ns_;
-    return fmt::format("{}.{:03}", after / 1000, after % 1000);
-  }
+  static std::string microseconds(std::int64_t ns) { return fmt::format("{}.{:03}", ns / 1000, ns % 1000); }
+  std::string time(std::int64_t ns) const { return microseconds(ns - origin_ns_); }
 
   std::string place(Index thread) const {
     const timeline::Thread& on = timeline_.threads[thread];
@@ -172,9 +170,8 @@ class PerfettoWriter {
         more += R"(,"intra_process":true)";
       }
       const std::int64_t duration = instance.end_ns - instance.start_ns;
-      event(fmt::format(R"("ph":"X","cat":"callback",{},"ts":{},"dur":{}.{:03},{}{}}})", place(instance.thread),
-                        time(instance.start_ns), duration / 1000, duration % 1000, descriptions[instance.callback],
-                        more));
+      event(fmt::format(R"("ph":"X","cat":"callback",{},"ts":{},"dur":{},{}{}}})", place(instance.thread),
+                        time(instance.start_ns), microseconds(duration), descriptions[instance.callback], more));
     }
   }
 
@@ -206,9 +203,9 @@ class PerfettoWriter {
   // A flow needs a slice to begin in.
   void write_publication(const Message& message) {
     const std::int64_t duration = std::max<std::int64_t>(message.published_ns - message.called_ns, 1);
-    event(fmt::format(R"("ph":"X","cat":"publish","name":{},{},"ts":{},"dur":{}.{:03})",
+    event(fmt::format(R"("ph":"X","cat":"publish","name":{},{},"ts":{},"dur":{})",
                       json_text("publish " + timeline_.topics[message.topic]), place(message.publishing_thread),
-                      time(message.called_ns), duration / 1000, duration % 1000));
+                      time(message.called_ns), microseconds(duration)));
   }
 
   void write_lifecycle() {
@@ -242,9 +239,9 @@ class PerfettoWriter {
         more += fmt::format(",\"ran_instead\":{}", json_text(fmt::format("{} [{}]", other.name, other.tid)));
       }
       const std::int64_t duration = state.end_ns - state.begin_ns;
-      event(fmt::format(R"("ph":"X","cat":"state","name":"{}",{},"ts":{},"dur":{}.{:03},"args":{{{}}})",
+      event(fmt::format(R"("ph":"X","cat":"state","name":"{}",{},"ts":{},"dur":{},"args":{{{}}})",
                         timeline::state_name(state.state), state_place(state.thread), time(state.begin_ns),
-                        duration / 1000, duration % 1000, more));
+                        microseconds(duration), more));
     }
   }
 

@@ -10,7 +10,6 @@
 #include <string>
 
 #include "base/processes/spawn.hpp"
-#include "tracing/show/export/dot_text.hpp"
 #include "tracing/show/export/export.hpp"
 #include "tracing/show/export/output_file.hpp"
 

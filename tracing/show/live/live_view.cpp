@@ -9,7 +9,7 @@
 #include "tracing/model/findings/printable.hpp"
 #include "tracing/model/findings/quantity_text.hpp"
 #include "tracing/model/objects/object_names.hpp"
-#include "tracing/show/report/screen_table.hpp"
+#include "tracing/show/report/text_table.hpp"
 
 namespace tracing {
 
@@ -23,29 +23,36 @@ std::string hertz_text(double hertz) {
   return fmt::format("{:.4g} Hz", hertz);
 }
 
-Cell count_cell(std::uint64_t count) {
-  return {count == 0 ? "-" : std::to_string(count), count == 0 ? Style::kPlain : Style::kBad};
-}
+// What one subscription or callback did in the interval.
+struct Line {
+  std::uint64_t count;
+  DurationSummary took;
+  std::uint64_t bad;  // messages that were dropped, periods that were missed
+};
 
-Row row_of(const std::string& label, const std::string& remark, std::uint64_t count, const DurationSummary& took,
-           double seconds) {
-  Row row{.label = printable(label)};
-  row.remark = printable(remark);
-  row.count = static_cast<double>(count);
-  row.rate = row.count / seconds;
-  row.cells = {{hertz_text(row.rate)}};
-  if (took.count == 0) {
-    row.cells.insert(row.cells.end(), 3, {"-"});
-    return row;
+class ActivityTable {
+ public:
+  ActivityTable(const char* title, const char* key, const char* bad, double seconds)
+      : seconds_(seconds), table_(title, key) {
+    table_.column("rate",
+                  [seconds](const Line& line) { return Cell{hertz_text(static_cast<double>(line.count) / seconds)}; });
+    table_.times(&Line::took, Style::kBold);
+    table_.count(bad, &Line::bad, Style::kBad);
   }
-  row.cells.insert(row.cells.end(),
-                   {{duration(took.p50_ns)}, {duration(took.p99_ns), Style::kBold}, {duration(took.max_ns)}});
-  row.total = took.mean_ns * static_cast<double>(took.count);
-  row.p50 = static_cast<double>(took.p50_ns);
-  row.p99 = static_cast<double>(took.p99_ns);
-  row.max = static_cast<double>(took.max_ns);
-  return row;
-}
+
+  void add(const std::string& label, const std::string& remark, const Line& line) {
+    Row row{.label = printable(label), .remark = printable(remark)};
+    sort_by(row, line.took);
+    row.count = static_cast<double>(line.count);
+    row.rate = row.count / seconds_;
+    table_.add(std::move(row), line);
+  }
+  std::string text(const ReportOptions& options) const { return table_.text(options); }
+
+ private:
+  double seconds_;
+  ResultTable<Line> table_;
+};
 
 std::string node_of(const ObjectModel& objects, ObjectId node) {
   return node == kNoObject ? std::string("?") : objects.nodes()[node].name;
@@ -153,18 +160,24 @@ std::string LiveView::node_table(double seconds, const ReportOptions& options,
       node->second.missed += missed[id];
     }
   }
-  ScreenTable table("Nodes", {"callbacks", "load", "longest", "missed"}, "total");
+  ResultTable<NodeActivity> table("Nodes", "total");
+  table.column("callbacks", [seconds](const NodeActivity& node) {
+    return Cell{hertz_text(static_cast<double>(node.count) / seconds)};
+  });
+  table.column("load", [seconds](const NodeActivity& node) {
+    return Cell{fmt::format("{:.2f} %", static_cast<double>(node.busy_ns) / seconds / 1e7)};
+  });
+  table.column("longest", [](const NodeActivity& node) {
+    return Cell{node.longest_ns == 0 ? "-" : duration(node.longest_ns), Style::kBold};
+  });
+  table.count("missed", &NodeActivity::missed, Style::kBad);
   for (const auto& [name, node] : nodes) {
     Row row{.label = name.empty() ? "?" : name};
     row.count = static_cast<double>(node.count);
     row.rate = row.count / seconds;
     row.max = static_cast<double>(node.longest_ns);
     row.total = static_cast<double>(node.busy_ns);
-    row.cells = {{hertz_text(row.rate)},
-                 {fmt::format("{:.2f} %", row.total / seconds / 1e7)},
-                 {node.longest_ns == 0 ? "-" : duration(node.longest_ns), Style::kBold},
-                 count_cell(node.missed)};
-    table.add(std::move(row));
+    table.add(std::move(row), node);
   }
   return table.text(options);
 }
@@ -177,7 +190,7 @@ std::string LiveView::screen(double seconds, const ReportOptions& options) const
   const std::vector<std::uint64_t> missed = analysis_.missed_periods();
   const std::vector<std::uint64_t> dropped = analysis_.dropped_messages();
   text += node_table(seconds, options, missed);
-  ScreenTable messages("Messages, publish to callback", {"rate", "p50", "p99", "max", "dropped"}, "p99");
+  ActivityTable messages("Messages, publish to callback", "p99", "dropped", seconds);
   for (ObjectId id = 0; id < subscriptions_.size(); ++id) {
     const Activity& activity = subscriptions_[id];
     if (!activity.is_shown()) {
@@ -186,12 +199,10 @@ std::string LiveView::screen(double seconds, const ReportOptions& options) const
     const EndpointObject& subscription = objects.subscriptions()[id];
     const std::string topic =
         subscription.topic == kNoObject ? std::string("?") : objects.topics()[subscription.topic].name;
-    Row row =
-        row_of(topic, "to " + node_of(objects, subscription.node), activity.count, activity.took.summary(), seconds);
-    row.cells.push_back(count_cell(id < dropped.size() ? dropped[id] : 0));
-    messages.add(std::move(row));
+    messages.add(topic, "to " + node_of(objects, subscription.node),
+                 {activity.count, activity.took.summary(), id < dropped.size() ? dropped[id] : 0});
   }
-  ScreenTable callbacks("Callbacks", {"rate", "p50", "p99", "max", "missed"}, "total");
+  ActivityTable callbacks("Callbacks", "total", "missed", seconds);
   for (ObjectId id = 0; id < callbacks_.size(); ++id) {
     const Activity& activity = callbacks_[id];
     if (!activity.is_shown()) {
@@ -199,10 +210,8 @@ std::string LiveView::screen(double seconds, const ReportOptions& options) const
     }
     const CallbackObject& callback = objects.callbacks()[id];
     const std::string node = node_name(objects, callback);
-    Row row = row_of((node.empty() ? "?" : node) + " " + callback_source(objects, callback), "", activity.count,
-                     activity.took.summary(), seconds);
-    row.cells.push_back(count_cell(id < missed.size() ? missed[id] : 0));
-    callbacks.add(std::move(row));
+    callbacks.add((node.empty() ? "?" : node) + " " + callback_source(objects, callback), "",
+                  {activity.count, activity.took.summary(), id < missed.size() ? missed[id] : 0});
   }
   return text + messages.text(options) + callbacks.text(options);
 }

@@ -25,5 +25,5 @@ while(begin LESS length)
   math(EXPR begin "${begin} + 16000")
 endwhile()
 file(WRITE ${OUTPUT}
-  "// Generated from the files of tracing/show/page.\n#pragma GCC diagnostic ignored \"-Woverlength-strings\"\n#include \"tracing/show/page/page_parts.hpp\"\n\n"
+  "// Generated from the files of tracing/show/page.\n#pragma GCC diagnostic ignored \"-Woverlength-strings\"\n#include \"tracing/show/page/page.hpp\"\n\n"
   "const std::string_view tracing::kPageTemplate =\n${literals};\n")

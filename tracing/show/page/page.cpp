@@ -3,8 +3,6 @@
 
 #include <stdexcept>
 
-#include "tracing/show/page/page_parts.hpp"
-
 namespace tracing {
 
 namespace {

@@ -1,13 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// A trace as one HTML page that needs nothing else: no server, no network.
+// A trace as one HTML page that needs nothing else, no server and no network, and what the page consists of.
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "tracing/model/timeline/traced_system.hpp"
 
 namespace tracing {
 
 std::string html_page(const TracedSystem& system);
+
+// The page without data. A comment /*facts*/ and a comment /*columns*/ stand where they belong.
+extern const std::string_view kPageTemplate;
+
+// What the page says once: objects, counts, losses, results. JSON that may stand in an HTML element `script`. Times
+// count from the timeline's begin.
+std::string page_facts(const TracedSystem& system);
+
+// Instances, messages and states of threads as columns of numbers, compressed, as text. script/data.js reads them in
+// the same order.
+std::string page_columns(const timeline::Timeline& timeline);
 
 }  // namespace tracing

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <functional>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "tracing/show/page/column_buffer.hpp"
-#include "tracing/show/page/page_parts.hpp"
+#include "tracing/show/page/page.hpp"
 
 namespace tracing {
 
@@ -51,69 +53,69 @@ class RepeatedReferences {
   std::unordered_map<Index, Index> last_;
 };
 
-void add_instances(ColumnBuffer& buffer, const Timeline& timeline) {
-  std::int64_t last = timeline.begin_ns;
-  for (const Instance& instance : timeline.instances) {
-    buffer.add(static_cast<std::uint64_t>(instance.start_ns - last));
-    last = instance.start_ns;
-  }
-  for (const Instance& instance : timeline.instances) {
-    buffer.add(static_cast<std::uint64_t>(instance.end_ns - instance.start_ns));
-  }
-  for (const Instance& instance : timeline.instances) {
-    buffer.add(instance.callback);
-  }
-  RepeatedReferences threads(buffer);
-  for (const Instance& instance : timeline.instances) {
-    threads.add(instance.callback, instance.thread);
-  }
-  for (const Instance& instance : timeline.instances) {
-    buffer.add((instance.finished ? 1U : 0U) | (instance.intra_process ? 2U : 0U));
+// A column with a number of each item.
+template <class Items, class Number>
+void add_column(ColumnBuffer& buffer, const Items& items, Number number) {
+  for (const auto& item : items) {
+    buffer.add(static_cast<std::uint64_t>(std::invoke(number, item)));
   }
 }
 
+template <class Items, class Reference>
+void add_close_column(ColumnBuffer& buffer, const Items& items, Reference reference) {
+  CloseReferences column(buffer);
+  for (const auto& item : items) {
+    column.add(std::invoke(reference, item));
+  }
+}
+
+template <class Items, class Key, class Reference>
+void add_repeated_column(ColumnBuffer& buffer, const Items& items, Key key, Reference reference) {
+  RepeatedReferences column(buffer);
+  for (const auto& item : items) {
+    column.add(std::invoke(key, item), std::invoke(reference, item));
+  }
+}
+
+// Gives the step from the item before.
+template <class Item>
+auto step_of(std::int64_t Item::*time, std::int64_t begin_ns) {
+  return [time, last = begin_ns](const Item& item) mutable { return item.*time - std::exchange(last, item.*time); };
+}
+
+void add_instances(ColumnBuffer& buffer, const Timeline& timeline) {
+  const auto& instances = timeline.instances;
+  add_column(buffer, instances, step_of(&Instance::start_ns, timeline.begin_ns));
+  add_column(buffer, instances, [](const Instance& instance) { return instance.end_ns - instance.start_ns; });
+  add_column(buffer, instances, &Instance::callback);
+  add_repeated_column(buffer, instances, &Instance::callback, &Instance::thread);
+  add_column(buffer, instances, [](const Instance& instance) {
+    return (instance.finished ? 1U : 0U) | (instance.intra_process ? 2U : 0U);
+  });
+}
+
 void add_messages(ColumnBuffer& buffer, const Timeline& timeline) {
-  const auto callback_of = [&timeline](Index instance) {
-    return instance == kNone ? kNone : timeline.instances[instance].callback;
+  const auto callback_of = [&timeline](Index Message::*instance) {
+    return [&timeline, instance](const Message& message) {
+      return message.*instance == kNone ? kNone : timeline.instances[message.*instance].callback;
+    };
   };
-  std::int64_t last = timeline.begin_ns;
-  for (const Message& message : timeline.messages) {
-    buffer.add(static_cast<std::uint64_t>(message.published_ns - last));
-    last = message.published_ns;
-  }
-  for (const Message& message : timeline.messages) {
-    buffer.add(static_cast<std::uint64_t>(message.published_ns - message.called_ns));
-  }
+  const auto& messages = timeline.messages;
+  add_column(buffer, messages, step_of(&Message::published_ns, timeline.begin_ns));
+  add_column(buffer, messages, [](const Message& message) { return message.published_ns - message.called_ns; });
   // Clocks of two hosts may differ, so a message may be taken before it is published.
-  for (const Message& message : timeline.messages) {
+  for (const Message& message : messages) {
     buffer.add(message.taken_ns == 0 ? 0 : 1);
     if (message.taken_ns != 0) {
       buffer.add_signed(message.taken_ns - message.published_ns);
     }
   }
-  CloseReferences from(buffer);
-  for (const Message& message : timeline.messages) {
-    from.add(message.publishing_instance);
-  }
-  CloseReferences to(buffer);
-  for (const Message& message : timeline.messages) {
-    to.add(message.receiving_instance);
-  }
-  RepeatedReferences publishers(buffer);
-  for (const Message& message : timeline.messages) {
-    publishers.add(callback_of(message.publishing_instance), message.publisher);
-  }
-  RepeatedReferences subscriptions(buffer);
-  for (const Message& message : timeline.messages) {
-    subscriptions.add(callback_of(message.receiving_instance), message.subscription);
-  }
-  RepeatedReferences threads(buffer);
-  for (const Message& message : timeline.messages) {
-    threads.add(message.publisher, message.publishing_thread);
-  }
-  for (const Message& message : timeline.messages) {
-    buffer.add(message.repeated ? 1 : 0);
-  }
+  add_close_column(buffer, messages, &Message::publishing_instance);
+  add_close_column(buffer, messages, &Message::receiving_instance);
+  add_repeated_column(buffer, messages, callback_of(&Message::publishing_instance), &Message::publisher);
+  add_repeated_column(buffer, messages, callback_of(&Message::receiving_instance), &Message::subscription);
+  add_repeated_column(buffer, messages, &Message::publisher, &Message::publishing_thread);
+  add_column(buffer, messages, &Message::repeated);
 }
 
 // Thread by thread, each in the order of time.
@@ -125,32 +127,23 @@ void add_states(ColumnBuffer& buffer, const Timeline& timeline) {
   }
   std::stable_sort(states.begin(), states.end(),
                    [](const ThreadState* left, const ThreadState* right) { return left->thread < right->thread; });
-  CloseReferences threads(buffer);
-  for (const ThreadState* state : states) {
-    threads.add(state->thread);
-  }
+  add_close_column(buffer, states, &ThreadState::thread);
   // Most states begin where the one before ended.
   std::int64_t last = timeline.begin_ns;
   for (const ThreadState* state : states) {
     buffer.add_signed(state->begin_ns - last);
     last = state->end_ns;
   }
-  for (const ThreadState* state : states) {
-    buffer.add(static_cast<std::uint64_t>(state->end_ns - state->begin_ns));
-  }
-  for (const ThreadState* state : states) {
-    buffer.add(static_cast<std::uint64_t>(state->state));
-  }
+  add_column(buffer, states, [](const ThreadState* state) { return state->end_ns - state->begin_ns; });
+  add_column(buffer, states, &ThreadState::state);
   RepeatedReferences others(buffer);
   for (const ThreadState* state : states) {
     if (state->state == ThreadState::State::kRunnable) {
       others.add(state->thread, state->other);
     }
   }
-  RepeatedReferences cpus(buffer);
-  for (const ThreadState* state : states) {
-    cpus.add(state->thread, static_cast<Index>(state->cpu));
-  }
+  add_repeated_column(buffer, states, &ThreadState::thread,
+                      [](const ThreadState* state) { return static_cast<Index>(state->cpu); });
 }
 
 }  // namespace

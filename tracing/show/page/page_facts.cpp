@@ -1,17 +1,153 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <string>
 
+#include "tracing/model/analysis/results.hpp"
 #include "tracing/model/findings/finding.hpp"
-#include "tracing/show/page/page_parts.hpp"
-#include "tracing/show/page/result_facts.hpp"
+#include "tracing/model/timeline/traced_system.hpp"
+#include "tracing/show/page/page.hpp"
 
 namespace tracing {
 
 namespace {
 
-using Json = PageJson;
+using Json = nlohmann::ordered_json;
 using timeline::Timeline;
+
+// Results of the whole trace that the page shows as they are, made from the rows of their fields. Keys are the names
+// of fields without _ns. Points in time count from `begin_ns`.
+class ResultFacts {
+ public:
+  explicit ResultFacts(std::int64_t begin_ns) : begin_ns_(begin_ns) {}
+
+  template <class Value>
+  Json of(const Value& value) const {
+    return value;
+  }
+  template <class Value>
+  Json of(const std::optional<Value>& value) const {
+    return value ? of(*value) : Json(nullptr);
+  }
+  // Null if nothing was measured.
+  Json of(const DurationSummary& summary) const {
+    return summary.count == 0 ? Json(nullptr) : with_fields(Json::object(), summary, kDurationFields);
+  }
+  template <HasFields Result>
+  Json of(const std::vector<Result>& results) const {
+    Json list = Json::array();
+    for (const Result& result : results) {
+      list.push_back(with(Json::object(), result));
+    }
+    return list;
+  }
+  // The object with the fields of the result. A key that it has keeps its place.
+  template <HasFields Result>
+  Json with(Json object, const Result& result) const {
+    return with_fields(std::move(object), result, Result::kFields);
+  }
+
+ private:
+  template <class Result, std::size_t kCount>
+  Json with_fields(Json object, const Result& result, const Field<Result> (&fields)[kCount]) const {
+    for (const Field<Result>& field : fields) {
+      if (field.has(trait::kProcess | trait::kNotOnPage) || field.member.is_list() || !field.is_in(result)) {
+        continue;
+      }
+      const std::string name = field.name;
+      Json& value = object[name.ends_with("_ns") ? name.substr(0, name.size() - 3) : name];
+      field.member.visit([&](auto member) { value = of(std::invoke(member, result)); });
+      if (field.has(trait::kTime) && !value.is_null()) {
+        value = value.template get<std::int64_t>() - begin_ns_;
+      }
+    }
+    return object;
+  }
+
+  std::int64_t begin_ns_;
+};
+
+// The process at a place in the overview; null if there is none.
+Json process_at(const timeline::Timeline& timeline, const std::optional<ProcessIndex>& place) {
+  for (std::size_t id = 0; place && id < timeline.processes.size(); ++id) {
+    if (timeline.processes[id].place == place) {
+      return id;
+    }
+  }
+  return nullptr;
+}
+
+Json starts(const TracedSystem& system) {
+  const ResultFacts facts(system.timeline.begin_ns);
+  Json list = Json::array();
+  for (const StartResult& start : system.results.starts) {
+    // The keys that the page has in another order than the report.
+    Json fact{{"process", process_at(system.timeline, start.place)}, {"name", start.process}};
+    for (const char* key : {"file", "line", "spawn", "exec", "init_after"}) {
+      fact[key] = nullptr;
+    }
+    list.push_back(facts.with(std::move(fact), start));
+  }
+  return list;
+}
+
+Json startup(const TracedSystem& system) {
+  if (!system.results.startup) {
+    return nullptr;
+  }
+  const StartupResult& startup = *system.results.startup;
+  return {{"duration", startup.ready_ns - startup.begin_ns},
+          {"path", ResultFacts(startup.begin_ns).of(startup.critical_path)}};
+}
+
+// Of lifecycle nodes whose processes asked for memory in the trace.
+Json state_memory(const TracedSystem& system) {
+  Json list = Json::array();
+  for (const LifecycleResult& state : system.results.ros2.lifecycle) {
+    if (state.process_allocations == 0) {
+      continue;
+    }
+    list.push_back({{"node", state.node},
+                    {"state", state.state},
+                    {"begin", state.begin_ns - system.timeline.begin_ns},
+                    {"duration", state.end_ns - state.begin_ns},
+                    {"allocations", state.allocations.value_or(0)},
+                    {"bytes", state.allocated_bytes},
+                    {"process_allocations", state.process_allocations},
+                    {"process_bytes", state.process_allocated_bytes}});
+  }
+  return list;
+}
+
+// [callback, runs, calls of malloc and the like, bytes] for each callback of which this is known.
+Json callback_memory(const TracedSystem& system) {
+  Json list = Json::array();
+  for (const CallbackResult& callback : system.results.ros2.callbacks) {
+    if (!callback.allocations) {
+      continue;
+    }
+    list.push_back(
+        {callback.id, callback.durations.count + callback.unfinished, *callback.allocations, callback.allocated_bytes});
+  }
+  return list;
+}
+
+Json cost(const RecordedVerdict& verdict) {
+  if (!verdict.ns_per_event) {
+    return nullptr;
+  }
+  Json processes = Json::array();
+  for (const RecordedVerdict::ProcessCost& process : verdict.processes) {
+    Json fact;
+    for (const char* key : {"name", "vpid", "events", "seconds"}) {
+      fact[key] = nullptr;
+    }
+    fact["share"] = process.processor_share;
+    processes.push_back(ResultFacts(0).with(std::move(fact), process));
+  }
+  return {{"ns_per_event", *verdict.ns_per_event}, {"processes", std::move(processes)}};
+}
 
 Json json_reference(timeline::Index index) {
   return index == timeline::kNone ? Json(nullptr) : Json(index);
@@ -131,6 +267,20 @@ Json chains(const TracedSystem& system) {
     list.push_back(facts.with(begin, chain));
   }
   return list;
+}
+
+// starts, startup, calls, actions, state_memory, callback_memory, cost, absences, overwritten.
+Json result_facts(const TracedSystem& system) {
+  const ResultFacts facts(system.timeline.begin_ns);
+  return {{"starts", starts(system)},
+          {"startup", startup(system)},
+          {"calls", facts.of(system.results.ros2.calls)},
+          {"actions", facts.of(system.results.ros2.actions)},
+          {"state_memory", state_memory(system)},
+          {"callback_memory", callback_memory(system)},
+          {"cost", cost(system.verdict)},
+          {"absences", system.verdict.absences},
+          {"overwritten", system.verdict.overwritten}};
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "tracing/model/findings/quantity_text.hpp"
-#include "tracing/show/report/screen_table.hpp"
+#include "tracing/show/report/text_table.hpp"
 
 namespace tracing {
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/show/report/details.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include "tracing/model/findings/printable.hpp"
 #include "tracing/model/findings/quantity_text.hpp"
 #include "tracing/model/findings/result_labels.hpp"
+#include "tracing/show/report/report_sections.hpp"
 #include "tracing/show/report/text_table.hpp"
 
 namespace tracing {
@@ -17,109 +16,150 @@ namespace tracing {
 namespace {
 
 std::string cost_section(const Report& report) {
-  if (report.verdict.processes.empty()) {
-    return "";
-  }
-  const TextTable table(36, {12, 12, 16, 18});
-  std::string text = "\n" + table.row("Cost of tracing", {"events", "time", "of a processor", "for each callback"});
-  for (const RecordedVerdict::ProcessCost& process : report.verdict.processes) {
-    text += table.row(fmt::format("  {} [{}]", process.name, process.vpid),
-                      {fmt::format("{}", process.events), format_duration(process.seconds * 1e9),
-                       fmt::format("{:.2g} %", 100 * process.processor_share),
-                       process.ns_per_callback ? format_duration(*process.ns_per_callback) : "-"});
-  }
-  return text + "  (estimated when the trace was recorded: events times the cost of one)\n";
+  using Cost = RecordedVerdict::ProcessCost;
+  const Section<Cost> section{
+      .title = "Cost of tracing",
+      .label_width = 36,
+      .columns = {{"events", 12, number_of(&Cost::events)},
+                  {"time", 12, [](const Cost& cost) { return format_duration(cost.seconds * 1e9); }},
+                  {"of a processor", 16,
+                   [](const Cost& cost) { return fmt::format("{:.2g} %", 100 * cost.processor_share); }},
+                  {"for each callback", 18,
+                   [](const Cost& cost) {
+                     return cost.ns_per_callback ? format_duration(*cost.ns_per_callback) : "-";
+                   }}},
+      .label = [](const Cost& cost) { return fmt::format("  {} [{}]", cost.name, cost.vpid); },
+      .end = "  (estimated when the trace was recorded: events times the cost of one)\n"};
+  return section.text(report.verdict.processes);
 }
 
 std::string node_section(const TraceResults& results) {
-  if (results.ros2.nodes.empty()) {
-    return "";
-  }
   std::map<ProcessIndex, std::size_t> nodes_of_process;
   for (const NodeResult& node : results.ros2.nodes) {
     ++nodes_of_process[node.process];
   }
   const Hosts hosts(results.overview);
-  const TextTable table(56, {12, 14});
-  std::string text = "\n" + table.row("Nodes", {"callbacks", "in callbacks"});
-  for (const NodeResult& node : results.ros2.nodes) {
-    std::string label = "  " + hosts.before(node.process) + node.name;
+  const auto label = [&](const NodeResult& node) {
+    std::string text = "  " + hosts.before(node.process) + node.name;
     if (node.process < results.overview.processes.size()) {
-      label += ", " + process_label(results.overview.processes[node.process]);
+      text += ", " + process_label(results.overview.processes[node.process]);
     }
-    if (const std::size_t others = nodes_of_process[node.process] - 1; others > 0) {
-      label += fmt::format(" with {}", format_count(others, "other node"));
-    }
-    text +=
-        table.row(label, {fmt::format("{}", node.callbacks), format_duration(static_cast<double>(node.callback_ns))});
+    const std::size_t others = nodes_of_process[node.process] - 1;
+    return others > 0 ? text + fmt::format(" with {}", format_count(others, "other node")) : text;
+  };
+  const Section<NodeResult> section{.title = "Nodes",
+                                    .label_width = 56,
+                                    .columns = {{"callbacks", 12, number_of(&NodeResult::callbacks)},
+                                                {"in callbacks", 14, time_of(&NodeResult::callback_ns)}},
+                                    .label = label};
+  return section.text(results.ros2.nodes);
+}
+
+// The node that a result belongs to, as a line above it.
+template <class Result>
+auto node_of(const TraceOverview& overview) {
+  return [&overview](const Result& result) { return node_label(result.node, result.process, overview); };
+}
+
+std::string more_of_callback(const CallbackResult& callback) {
+  std::string text;
+  if (!callback.symbol.empty()) {
+    text += fmt::format("    {}\n", callback.symbol);
+  }
+  if (callback.intra_process > 0) {
+    text += fmt::format("    {} of them intra-process\n", callback.intra_process);
+  }
+  if (callback.running.count > 0) {
+    text += duration_row("    running", callback.running) +
+            duration_row("    waiting for a processor", callback.runnable) +
+            duration_row("    blocked", callback.blocked);
+  }
+  if (callback.allocated_bytes > 0) {
+    text += fmt::format("    asked {} times for memory, {} bytes\n", *callback.allocations, callback.allocated_bytes);
+  }
+  if (callback.overruns > 0) {
+    text += fmt::format("    {} took longer than the period\n", format_count(callback.overruns, "run"));
+  }
+  if (callback.unfinished > 0) {
+    text += fmt::format("    {} more without an end\n", callback.unfinished);
   }
   return text;
 }
 
 std::string callback_section(const TraceResults& results) {
-  if (results.ros2.callbacks.empty()) {
-    return "";
-  }
-  const TextTable table = duration_table();
-  std::string text = "\n" + table.row("Callbacks", duration_titles());
-  std::string last_node;
-  for (const CallbackResult& callback : results.ros2.callbacks) {
-    const std::string node = node_label(callback.node, callback.process, results.overview);
-    if (node != last_node) {
-      text += fmt::format("{}\n", node);
-    }
-    last_node = node;
-    text += table.row("  " + source_label(callback), duration_cells(callback.durations));
-    if (!callback.symbol.empty()) {
-      text += fmt::format("    {}\n", callback.symbol);
-    }
-    if (callback.intra_process > 0) {
-      text += fmt::format("    {} of them intra-process\n", callback.intra_process);
-    }
-    if (callback.running.count > 0) {
-      text += table.row("    running", duration_cells(callback.running));
-      text += table.row("    waiting for a processor", duration_cells(callback.runnable));
-      text += table.row("    blocked", duration_cells(callback.blocked));
-    }
-    if (callback.allocated_bytes > 0) {
-      text += fmt::format("    asked {} times for memory, {} bytes\n", *callback.allocations, callback.allocated_bytes);
-    }
-    if (callback.overruns > 0) {
-      text += fmt::format("    {} took longer than the period\n", format_count(callback.overruns, "run"));
-    }
-    if (callback.unfinished > 0) {
-      text += fmt::format("    {} more without an end\n", callback.unfinished);
-    }
-  }
-  return text;
+  const Section<CallbackResult> section{
+      .title = "Callbacks",
+      .label_width = kDurationLabel,
+      .columns = duration_columns(&CallbackResult::durations),
+      .label = [](const CallbackResult& callback) { return "  " + source_label(callback); },
+      .group = node_of<CallbackResult>(results.overview),
+      .more = more_of_callback};
+  return section.text(results.ros2.callbacks);
 }
 
 std::string lifecycle_section(const TraceResults& results) {
-  if (results.ros2.lifecycle.empty()) {
-    return "";
-  }
-  const TextTable table(36, {16, 16, 16});
-  std::string text = "\n" + table.row("Lifecycle", {"from", "to", "duration"});
-  std::string last_node;
   const auto since_begin = [&](std::int64_t time_ns) {
     return fmt::format("{:+.3f} s", static_cast<double>(time_ns - results.overview.begin_ns.value_or(0)) / 1e9);
   };
-  for (const LifecycleResult& state : results.ros2.lifecycle) {
-    const std::string node = node_label(state.node, state.process, results.overview);
-    if (node != last_node) {
-      text += fmt::format("{}\n", node);
-    }
-    last_node = node;
-    text += table.row("  " + state.state,
-                      {since_begin(state.begin_ns), state.ended ? since_begin(state.end_ns) : "end of trace",
-                       format_duration(static_cast<double>(state.end_ns - state.begin_ns))});
-    if (state.process_allocations > 0) {
-      text += fmt::format("    asked {} times for memory in callbacks, {} bytes; its process {} times, {} bytes\n",
-                          *state.allocations, state.allocated_bytes, state.process_allocations,
-                          state.process_allocated_bytes);
-    }
-  }
-  return text;
+  const auto memory = [](const LifecycleResult& state) {
+    return state.process_allocations == 0
+               ? ""
+               : fmt::format("    asked {} times for memory in callbacks, {} bytes; its process {} times, {} bytes\n",
+                             *state.allocations, state.allocated_bytes, state.process_allocations,
+                             state.process_allocated_bytes);
+  };
+  const Section<LifecycleResult> section{
+      .title = "Lifecycle",
+      .label_width = 36,
+      .columns = {{"from", 16, [&](const LifecycleResult& state) { return since_begin(state.begin_ns); }},
+                  {"to", 16,
+                   [&](const LifecycleResult& state) {
+                     return state.ended ? since_begin(state.end_ns) : "end of trace";
+                   }},
+                  {"duration", 16,
+                   [](const LifecycleResult& state) { return time_text(state.end_ns - state.begin_ns); }}},
+      .label = [](const LifecycleResult& state) { return "  " + state.state; },
+      .group = node_of<LifecycleResult>(results.overview),
+      .more = memory};
+  return section.text(results.ros2.lifecycle);
+}
+
+std::string start_section(const std::vector<StartResult>& starts) {
+  const auto spawn = [](const StartResult& start) {
+    return time_text(start.spawn_ns ? std::optional(start.exec_ns - *start.spawn_ns) : std::nullopt);
+  };
+  const Section<StartResult> section{
+      .title = "Start of processes",
+      .label_width = 36,
+      .columns = {{"spawn", 10, spawn},
+                  {"rcl_init", 10, time_of(&StartResult::init_after_ns)},
+                  {"first node", 12, time_of(&StartResult::node_after_ns)},
+                  {"ready", 10, time_of(&StartResult::ready_after_ns)},
+                  {"callback", 12, time_of(&StartResult::callback_after_ns)},
+                  {"message", 12, time_of(&StartResult::publication_after_ns)}},
+      .label = [](const StartResult& start) { return fmt::format("  {} [{}]", start.process, start.vpid); },
+      .end =
+          "  (spawn: until exec; all others after exec: ready, an executor looks for work; the first callback; the "
+          "first\n"
+          "  message that it publishes)\n"};
+  return section.text(starts);
+}
+
+std::string path_section(const StartupResult& startup) {
+  const Section<StartStep> section{
+      .title = "Critical path of the start, " + time_text(startup.ready_ns - startup.begin_ns),
+      .label_width = 72,
+      .columns = {{"from", 14, [&](const StartStep& step) { return time_text(step.begin_ns - startup.begin_ns); }},
+                  {"took", 14, [](const StartStep& step) { return time_text(step.end_ns - step.begin_ns); }}},
+      .label = [](const StartStep& step) {
+        return fmt::format("  {}: {}", step.process.empty() ? "launcher" : step.process, step.what);
+      }};
+  return section.text(startup.critical_path);
+}
+
+std::string start_details(const TraceResults& results) {
+  return start_section(results.starts) +
+         (!results.starts.empty() && results.startup ? path_section(*results.startup) : "");
 }
 
 std::string unmatched_section(const Ros2Results& ros2) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "tracing/model/findings/result_labels.hpp"
-#include "tracing/show/report/details.hpp"
+#include "tracing/show/report/report_sections.hpp"
 #include "tracing/show/report/text_table.hpp"
 
 namespace tracing {
@@ -19,23 +19,6 @@ std::string stream_label(const std::string& stream, const std::filesystem::path&
 
 std::string loss_section(const Report& report) {
   const TraceOverview& overview = report.results.overview;
-  if (overview.losses.empty()) {
-    return "";
-  }
-  const TextTable table(56, {10, 10, 12, 12});
-  std::string text = "\n" + table.row("Losses by stream", {"events", "packets", "from", "to"});
-  const auto since_begin = [&](const std::optional<std::int64_t>& time) -> std::string {
-    if (!time || !overview.begin_ns) {
-      return "?";
-    }
-    return fmt::format("{:+.3f} s", static_cast<double>(*time - *overview.begin_ns) / 1e9);
-  };
-  for (const LossResult& loss : overview.losses) {
-    const bool nothing_counted = loss.events == 0 && loss.packets == 0;
-    text += table.row("  " + stream_label(loss.stream, report.directory),
-                      {nothing_counted ? "some" : fmt::format("{}{}", loss.events, loss.uncounted ? "+" : ""),
-                       fmt::format("{}", loss.packets), since_begin(loss.begin_ns), since_begin(loss.end_ns)});
-  }
   const Hosts hosts(overview);
   std::string doubtful;
   for (ProcessIndex process = 0; process < overview.processes.size(); ++process) {
@@ -44,7 +27,27 @@ std::string loss_section(const Report& report) {
     }
     doubtful += (doubtful.empty() ? "" : ", ") + hosts.before(process) + process_label(overview.processes[process]);
   }
-  return text + fmt::format("  What follows may be incomplete for: {}\n", doubtful.empty() ? "all" : doubtful);
+  const auto events = [](const LossResult& loss) {
+    const bool nothing_counted = loss.events == 0 && loss.packets == 0;
+    return nothing_counted ? "some" : fmt::format("{}{}", loss.events, loss.uncounted ? "+" : "");
+  };
+  const auto since_begin = [&](std::optional<std::int64_t> LossResult::*time) {
+    return [&overview, time](const LossResult& loss) -> std::string {
+      const std::optional<std::int64_t>& at = loss.*time;
+      return at && overview.begin_ns ? fmt::format("{:+.3f} s", static_cast<double>(*at - *overview.begin_ns) / 1e9)
+                                     : "?";
+    };
+  };
+  const Section<LossResult> section{
+      .title = "Losses by stream",
+      .label_width = 56,
+      .columns = {{"events", 10, events},
+                  {"packets", 10, number_of(&LossResult::packets)},
+                  {"from", 12, since_begin(&LossResult::begin_ns)},
+                  {"to", 12, since_begin(&LossResult::end_ns)}},
+      .label = [&](const LossResult& loss) { return "  " + stream_label(loss.stream, report.directory); },
+      .end = fmt::format("  What follows may be incomplete for: {}\n", doubtful.empty() ? "all" : doubtful)};
+  return section.text(overview.losses);
 }
 
 // A column of the table of events: a process, or all processes that only the kernel's events show.

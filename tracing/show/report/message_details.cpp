@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <string_view>
+#include <utility>
+
 #include "tracing/model/findings/quantity_text.hpp"
-#include "tracing/show/report/details.hpp"
+#include "tracing/show/report/report_sections.hpp"
 #include "tracing/show/report/text_table.hpp"
 
 namespace tracing {
@@ -10,36 +13,33 @@ namespace tracing {
 namespace {
 
 std::string topic_section(const Ros2Results& ros2) {
-  constexpr std::size_t kDuration = 8;
-  const TextTable table(23, {10, 9, 9, kDuration, kDuration, kDuration, kDuration, kDuration, kDuration});
-  std::string text;
-  std::size_t silent = 0;
+  std::vector<TopicResult> spoken;
   for (const TopicResult& topic : ros2.topics) {
-    if (topic.published == 0 && topic.received == 0) {
-      ++silent;
-      continue;
-    }
-    const DurationSummary& latency = topic.latency;
-    std::vector<std::string> cells{fmt::format("{}", topic.published), fmt::format("{}", topic.received),
-                                   fmt::format("{}", topic.published_only)};
-    if (latency.count > 0) {
-      cells.push_back(format_duration(latency.mean_ns));
-      for (const std::int64_t value :
-           {latency.min_ns, latency.p50_ns, latency.p90_ns, latency.p99_ns, latency.max_ns}) {
-        cells.push_back(format_duration(static_cast<double>(value)));
-      }
-    }
-    text += table.row("  " + topic.name, cells);
-    if (topic.received_only > 0) {
-      text += fmt::format("    {} of those received were published outside the trace\n", topic.received_only);
+    if (topic.published > 0 || topic.received > 0) {
+      spoken.push_back(topic);
     }
   }
-  if (!text.empty()) {
-    const std::string header =
-        table.row("Topics", {"published", "received", "untaken", "mean", "min", "p50", "p90", "p99", "max"});
-    text = "\n" + header + text +
-           "  (times: from rmw_publish to callback_start; untaken: by any subscription in the trace)\n";
+  Section<TopicResult> section{
+      .title = "Topics",
+      .label_width = 23,
+      .columns = {{"published", 10, number_of(&TopicResult::published)},
+                  {"received", 9, number_of(&TopicResult::received)},
+                  {"untaken", 9, number_of(&TopicResult::published_only)}},
+      .label = [](const TopicResult& topic) { return "  " + topic.name; },
+      .more =
+          [](const TopicResult& topic) {
+            return topic.received_only == 0 ? ""
+                                            : fmt::format("    {} of those received were published outside the trace\n",
+                                                          topic.received_only);
+          },
+      .end = "  (times: from rmw_publish to callback_start; untaken: by any subscription in the trace)\n"};
+  for (const auto& column : duration_columns(&TopicResult::latency)) {
+    if (column.title != std::string_view("count") && column.title != std::string_view("stddev")) {
+      section.columns.push_back(column);
+    }
   }
+  const std::string text = section.text(spoken);
+  const std::size_t silent = ros2.topics.size() - spoken.size();
   if (silent == 0) {
     return text;
   }
@@ -47,51 +47,68 @@ std::string topic_section(const Ros2Results& ros2) {
          fmt::format("{}  ({} without messages)\n", text.empty() ? "\nTopics\n" : "", format_count(silent, "topic"));
 }
 
+// A part of the way of messages, or of a call, and its place in the result.
+template <class Result>
+struct Part {
+  const char* name;
+  DurationSummary Result::*took;
+};
+
+constexpr Part<SubscriptionResult> kParts[] = {
+    {"  in all", &SubscriptionResult::latency},
+    {"    rclcpp", &SubscriptionResult::rclcpp},
+    {"    rcl", &SubscriptionResult::rcl},
+    {"    on the way", &SubscriptionResult::transport},
+    {"    waiting for the executor", &SubscriptionResult::executor},
+    {"    from the take to the callback", &SubscriptionResult::take},
+};
+
+constexpr Part<CallResult> kCallParts[] = {
+    {"  round trip", &CallResult::round_trip},
+    {"    way to the service", &CallResult::request},
+    {"    in the service", &CallResult::in_service},
+    {"    way back", &CallResult::response},
+};
+
 std::string delivery_section(const TraceResults& results) {
   if (results.ros2.subscriptions.empty()) {
     return "";
   }
-  const TextTable table(36, {8, 8, 8, 8, 8, 8, 8, 8});
-  std::string text;
+  std::string text = "\n" + duration_header("Ways of messages");
   for (const SubscriptionResult& subscription : results.ros2.subscriptions) {
     text += fmt::format("{} to {}\n", subscription.topic,
                         node_label(subscription.node, subscription.process, results.overview));
-    const auto part = [&](const char* name, const DurationSummary& took) {
-      if (took.count > 0) {
-        text += table.row(name, duration_cells(took));
+    for (const auto& [name, took] : kParts) {
+      if ((subscription.*took).count > 0) {
+        text += duration_row(name, subscription.*took);
       }
+    }
+    const std::pair<std::uint64_t, const char*> lost[] = {
+        {subscription.overwritten, "pushed out of the full queue of the subscription"},
+        {subscription.overwritten_in_buffer, "pushed out of the full buffer within the process"},
+        {subscription.lost_by_publisher, "pushed out of the full queue of the publisher"},
+        {subscription.lost_in_transport, "lost in the network or in shared memory: not reliable"},
+        {subscription.lost_unplaced(), "lost on the way, or filtered"},
+        {subscription.not_executed, "taken, but given to no callback"},
+        {subscription.before_first, "published before the first one that came"},
+        {subscription.after_last, "published after the last one that came"},
     };
-    part("  in all", subscription.latency);
-    part("    rclcpp", subscription.rclcpp);
-    part("    rcl", subscription.rcl);
-    part("    on the way", subscription.transport);
-    part("    waiting for the executor", subscription.executor);
-    part("    from the take to the callback", subscription.take);
-    const auto lost = [&](const char* where, std::uint64_t count) {
+    for (const auto& [count, where] : lost) {
       if (count > 0) {
         text += fmt::format("    {} {}\n", count, where);
       }
-    };
-    lost("pushed out of the full queue of the subscription", subscription.overwritten);
-    lost("pushed out of the full buffer within the process", subscription.overwritten_in_buffer);
-    lost("pushed out of the full queue of the publisher", subscription.lost_by_publisher);
-    lost("lost in the network or in shared memory: not reliable", subscription.lost_in_transport);
-    lost("lost on the way, or filtered", subscription.lost_unplaced());
-    lost("taken, but given to no callback", subscription.not_executed);
-    lost("published before the first one that came", subscription.before_first);
-    lost("published after the last one that came", subscription.after_last);
+    }
   }
-  return "\n" + table.row("Ways of messages", duration_titles()) + text +
-         "  (from the first publish function to callback_start)\n";
+  return text + "  (from the first publish function to callback_start)\n";
 }
 
 std::string chain_section(const TraceResults& results) {
   const Ros2Results& ros2 = results.ros2;
-  const Hosts hosts(results.overview);
   if (ros2.chains.empty()) {
     return "";
   }
-  std::string text = "\n" + duration_table().row("Chains", duration_titles());
+  const Hosts hosts(results.overview);
+  std::string text = "\n" + duration_header("Chains");
   for (const ChainResult& chain : ros2.chains) {
     text += chain_details(chain, hosts);
   }
@@ -103,23 +120,20 @@ std::string chain_section(const TraceResults& results) {
 }
 
 std::string call_section(const TraceResults& results) {
-  const Ros2Results& ros2 = results.ros2;
-  const Hosts hosts(results.overview);
-  if (ros2.calls.empty()) {
+  if (results.ros2.calls.empty()) {
     return "";
   }
-  const TextTable table = duration_table();
-  std::string text = "\n" + table.row("Services", duration_titles());
-  for (const CallResult& call : ros2.calls) {
-    const auto name = [&hosts](const std::string& node, const std::optional<ProcessIndex>& process) {
-      return process ? hosts.before(process) + node : std::string("unknown");
-    };
+  const Hosts hosts(results.overview);
+  const auto name = [&hosts](const std::string& node, const std::optional<ProcessIndex>& process) {
+    return process ? hosts.before(process) + node : std::string("unknown");
+  };
+  std::string text = "\n" + duration_header("Services");
+  for (const CallResult& call : results.ros2.calls) {
     text += fmt::format("{}, {} asks {}\n", call.service, name(call.client, call.client_process),
                         name(call.server, call.server_process));
-    text += table.row("  round trip", duration_cells(call.round_trip));
-    text += table.row("    way to the service", duration_cells(call.request));
-    text += table.row("    in the service", duration_cells(call.in_service));
-    text += table.row("    way back", duration_cells(call.response));
+    for (const auto& [part, took] : kCallParts) {
+      text += duration_row(part, call.*took);
+    }
     if (call.responses < call.requests) {
       text += fmt::format("    {} without a response\n", format_count(call.requests - call.responses, "request"));
     }
@@ -140,34 +154,28 @@ std::string execution_label(const ExecutionResult& execution) {
 }
 
 std::string execution_section(const TraceResults& results) {
-  if (results.ros2.executions.empty()) {
-    return "";
-  }
-  const TextTable table = duration_table();
-  std::string text = "\n" + table.row("Served by executors", duration_titles());
-  std::string last_node;
-  for (const ExecutionResult& execution : results.ros2.executions) {
-    const std::string node = node_label(execution.node, execution.process, results.overview);
-    if (node != last_node) {
-      text += fmt::format("{}\n", node);
-    }
-    last_node = node;
-    std::vector<std::string> cells = duration_cells(execution.durations);
-    cells.front() = fmt::format("{}", execution.count);
-    text += table.row("  " + execution_label(execution), cells);
-  }
-  return text + "  (until the response is sent, or the client's callback has ended)\n";
+  Section<ExecutionResult> section{
+      .title = "Served by executors",
+      .label_width = kDurationLabel,
+      .columns = duration_columns(&ExecutionResult::durations),
+      .label = [](const ExecutionResult& execution) { return "  " + execution_label(execution); },
+      .group =
+          [&](const ExecutionResult& execution) {
+            return node_label(execution.node, execution.process, results.overview);
+          },
+      .end = "  (until the response is sent, or the client's callback has ended)\n"};
+  section.columns.front().cell = number_of(&ExecutionResult::count);
+  return section.text(results.ros2.executions);
 }
 
 }  // namespace
 
 std::string chain_details(const ChainResult& chain, const Hosts& hosts) {
-  const TextTable table = duration_table();
   std::string text;
   for (const ChainResult::Step& step : chain.steps) {
     if (!step.topic.empty()) {
-      text += table.row("    until it publishes", duration_cells(step.until_publish));
-      text += table.row(fmt::format("    {} on its way", step.topic), duration_cells(step.transfer));
+      text += duration_row("    until it publishes", step.until_publish);
+      text += duration_row(fmt::format("    {} on its way", step.topic), step.transfer);
     }
     text += fmt::format("  {}{}, {}\n", hosts.before(step.process), step.node.empty() ? "node unknown" : step.node,
                         step.callback);
@@ -175,9 +183,9 @@ std::string chain_details(const ChainResult& chain, const Hosts& hosts) {
   if (chain.is_loop) {
     text += "    (a loop: the chain is not followed further)\n";
   }
-  text += table.row("  response", duration_cells(chain.response));
-  text += table.row("  reaction", duration_cells(chain.reaction));
-  return text + table.row("  age", duration_cells(chain.age));
+  text += duration_row("  response", chain.response);
+  text += duration_row("  reaction", chain.reaction);
+  return text + duration_row("  age", chain.age);
 }
 
 std::string message_details(const TraceResults& results) {

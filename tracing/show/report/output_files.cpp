@@ -15,7 +15,7 @@
 #include "tracing/show/export/export.hpp"
 #include "tracing/show/export/output_file.hpp"
 #include "tracing/show/page/page.hpp"
-#include "tracing/show/report/recorded_verdict.hpp"
+#include "tracing/show/report/recorded_facts.hpp"
 
 namespace tracing {
 

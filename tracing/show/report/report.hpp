@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tracing/model/analysis/results.hpp"
-#include "tracing/show/report/recorded_verdict.hpp"
+#include "tracing/show/report/recorded_facts.hpp"
 
 namespace tracing {
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/show/report/report_tables.hpp"
-
 #include <fmt/format.h>
 #include <fnmatch.h>
 
@@ -14,7 +12,8 @@
 #include "tracing/model/findings/quantity_text.hpp"
 #include "tracing/model/findings/result_labels.hpp"
 #include "tracing/model/objects/callback_symbol.hpp"
-#include "tracing/show/report/screen_table.hpp"
+#include "tracing/show/report/report_sections.hpp"
+#include "tracing/show/report/text_table.hpp"
 
 namespace tracing {
 
@@ -24,80 +23,9 @@ bool matches(const std::string& pattern, const std::string& name) {
   return pattern.empty() || fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
 }
 
-Cell time_cell(const DurationSummary& took, std::int64_t DurationSummary::*value, Style style = Style::kPlain) {
-  return took.count == 0 ? Cell{"-"} : Cell{format_duration(static_cast<double>(took.*value)), style};
-}
-
-Cell count_cell(std::uint64_t count, Style style = Style::kPlain) {
-  return count == 0 ? Cell{"-"} : Cell{fmt::format("{}", count), style};
-}
-
-Cell rate_cell(double rate_hz) {
-  if (rate_hz == 0) {
-    return {"-"};
-  }
-  // Some messages in a burst have a rate of their own.
-  return rate_hz < 9999.5 ? Cell{fmt::format("{:.4g} Hz", rate_hz)} : Cell{fmt::format("{:.4g} kHz", rate_hz / 1000)};
-}
-
-Cell percent_cell(double part) {
-  const Style style = part > 0.9 ? Style::kBad : part > 0.6 ? Style::kWarning : Style::kPlain;
-  return {fmt::format("{:.2f} %", part * 100), style};
-}
-
-// A row for each result, and what a result has in each column.
-template <class Result>
-class ResultTable {
- public:
-  using CellOf = std::function<Cell(const Result&)>;
-  using Durations = DurationSummary Result::*;
-
-  // As of ScreenTable.
-  ResultTable(const char* title, const char* key) : table_(title, {}, key) {}
-
-  void column(const char* title, CellOf cell) {
-    table_.add_column(title);
-    cells_.push_back(std::move(cell));
-  }
-  void count(const char* title, std::uint64_t Result::*count, Style style = Style::kPlain) {
-    column(title, [=](const Result& result) { return count_cell(result.*count, style); });
-  }
-  void time(const char* title, Durations took, std::int64_t DurationSummary::*value, Style style = Style::kPlain) {
-    column(title, [=](const Result& result) { return time_cell(result.*took, value, style); });
-  }
-  void times(Durations took, Style p99_style = Style::kPlain) {
-    time("p50", took, &DurationSummary::p50_ns);
-    time("p99", took, &DurationSummary::p99_ns, p99_style);
-    time("max", took, &DurationSummary::max_ns);
-  }
-
-  void add(Row row, const Result& result) {
-    for (const CellOf& cell : cells_) {
-      row.cells.push_back(cell(result));
-    }
-    table_.add(std::move(row));
-  }
-  std::string text(const ReportOptions& options) const { return table_.text(options); }
-
- private:
-  std::vector<CellOf> cells_;
-  ScreenTable table_;
-};
-
 // "*" behind a result that lost events may have changed.
 std::string marked(std::string label, bool doubtful) {
   return doubtful ? label + " *" : label;
-}
-
-void sort_by(Row& row, const DurationSummary& took) {
-  if (took.count == 0) {
-    return;
-  }
-  row.count = static_cast<double>(took.count);
-  row.total = took.mean_ns * row.count;
-  row.p50 = static_cast<double>(took.p50_ns);
-  row.p99 = static_cast<double>(took.p99_ns);
-  row.max = static_cast<double>(took.max_ns);
 }
 
 // "/scan, /points": several chains may have one name.
@@ -206,7 +134,19 @@ std::string topic_table(const Ros2Results& ros2, const ReportOptions& options) {
       known = subscription.latency;
     }
   }
-  ScreenTable table("Topics", {"rate", "sent", "received", "dropped", "p50", "p99", "max"}, "p99");
+  struct Traffic {
+    double rate_hz;
+    std::uint64_t sent;
+    std::uint64_t received;
+    std::uint64_t dropped;
+    DurationSummary latency;
+  };
+  ResultTable<Traffic> table("Topics", "p99");
+  table.column("rate", [](const Traffic& traffic) { return rate_cell(traffic.rate_hz); });
+  table.count("sent", &Traffic::sent);
+  table.count("received", &Traffic::received);
+  table.count("dropped", &Traffic::dropped, Style::kBad);
+  table.times(&Traffic::latency);
   for (const TopicResult& topic : ros2.topics) {
     const std::uint64_t sent = std::max(topic.published, topic.intra_process_published);
     const std::uint64_t received = topic.received + topic.intra_process_received;
@@ -224,14 +164,7 @@ std::string topic_table(const Ros2Results& ros2, const ReportOptions& options) {
     sort_by(row, latency);
     row.rate = topic.rate_hz;
     row.count = static_cast<double>(sent);
-    row.cells = {rate_cell(topic.rate_hz),
-                 count_cell(sent),
-                 count_cell(received),
-                 count_cell(dropped[topic.name], Style::kBad),
-                 time_cell(latency, &DurationSummary::p50_ns),
-                 time_cell(latency, &DurationSummary::p99_ns),
-                 time_cell(latency, &DurationSummary::max_ns)};
-    table.add(std::move(row));
+    table.add(std::move(row), {topic.rate_hz, sent, received, dropped[topic.name], latency});
   }
   return table.text(options);
 }
@@ -320,17 +253,20 @@ std::string lifecycle_table(const TraceResults& results, const ReportOptions& op
   const Hosts hosts(results.overview);
   const bool with_memory = std::any_of(ros2.lifecycle.begin(), ros2.lifecycle.end(),
                                        [](const LifecycleResult& result) { return result.process_allocations > 0; });
-  std::vector<std::string> columns{"state at the end", "time in active", "changes"};
-  if (with_memory) {
-    columns.emplace_back("mallocs in active");
-  }
-  ScreenTable table("Lifecycle nodes", columns, "name");
   struct Node {
     std::string state;
     std::int64_t active_ns = 0;
     std::uint64_t changes = 0;
     std::uint64_t allocations = 0;
   };
+  ResultTable<Node> table("Lifecycle nodes", "name");
+  table.column("state at the end", [](const Node& node) { return Cell{node.state}; });
+  table.column("time in active",
+               [](const Node& node) { return Cell{format_duration(static_cast<double>(node.active_ns))}; });
+  table.count("changes", &Node::changes);
+  if (with_memory) {
+    table.count("mallocs in active", &Node::allocations, Style::kWarning);
+  }
   std::map<std::pair<std::string, ProcessIndex>, Node> nodes;
   for (const LifecycleResult& result : ros2.lifecycle) {
     if (!matches(options.node, result.node)) {
@@ -347,13 +283,7 @@ std::string lifecycle_table(const TraceResults& results, const ReportOptions& op
     }
   }
   for (const auto& [name, node] : nodes) {
-    Row row{.label = hosts.before(name.second) + name.first};
-    row.cells = {Cell{node.state}, Cell{format_duration(static_cast<double>(node.active_ns))},
-                 count_cell(node.changes)};
-    if (with_memory) {
-      row.cells.push_back(count_cell(node.allocations, Style::kWarning));
-    }
-    table.add(std::move(row));
+    table.add({.label = hosts.before(name.second) + name.first}, node);
   }
   return table.text(options);
 }

@@ -8,10 +8,8 @@
 #include "tracing/model/findings/hosts.hpp"
 #include "tracing/model/findings/printable.hpp"
 #include "tracing/model/findings/quantity_text.hpp"
-#include "tracing/show/report/details.hpp"
 #include "tracing/show/report/report.hpp"
-#include "tracing/show/report/report_tables.hpp"
-#include "tracing/show/report/screen_table.hpp"
+#include "tracing/show/report/report_sections.hpp"
 #include "tracing/show/report/text_table.hpp"
 
 namespace tracing {
@@ -121,8 +119,7 @@ std::string chosen_chains(const TraceResults& results, const ReportOptions& opti
     if (!is_chosen(chain, options)) {
       continue;
     }
-    text +=
-        "\n" + duration_table().row("Step by step", duration_titles()) + chain_details(chain, Hosts(results.overview));
+    text += "\n" + duration_header("Step by step") + chain_details(chain, Hosts(results.overview));
   }
   if (!text.empty()) {
     return text;

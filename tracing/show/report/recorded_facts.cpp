@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/show/report/recorded_verdict.hpp"
+#include "tracing/show/report/recorded_facts.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <system_error>
 #include <utility>
+#include <variant>
 
+#include "tracing/decode/reader/recording.hpp"
 #include "tracing/model/findings/quantity_text.hpp"
 
 namespace tracing {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -93,6 +97,30 @@ void add_overwritten(const nlohmann::json& verdict, RecordedVerdict& result) {
 }
 
 }  // namespace
+
+std::vector<std::string> several_sessions(const std::deque<TraceDescription>& traces) {
+  std::map<std::string, std::map<std::string, std::string>> names;  // by host and session
+  for (const TraceDescription& trace : traces) {
+    const std::string name = std::string(trace.text("trace_name"));
+    const Recording recording =
+        recording_of({.hostname = std::string(trace.text("hostname")),
+                      .trace_name = name,
+                      .trace_creation_datetime = std::string(trace.text("trace_creation_datetime"))});
+    if (!recording.session.empty()) {
+      names[recording.host].emplace(recording.session, name);
+    }
+  }
+  std::vector<std::string> result;
+  for (const auto& [host, sessions] : names) {
+    if (sessions.size() < 2) {
+      continue;
+    }
+    for (const auto& [session, name] : sessions) {
+      result.push_back(name);
+    }
+  }
+  return result;
+}
 
 RecordedVerdict read_verdicts(const std::vector<fs::path>& directories) {
   RecordedVerdict result;
