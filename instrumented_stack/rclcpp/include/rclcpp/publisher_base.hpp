@@ -114,8 +114,6 @@ class PublisherBase : public std::enable_shared_from_this<PublisherBase> {
   void check_published(rcl_ret_t ret, const char* what) const;
   void bind_event_callbacks(const PublisherEventCallbacks& callbacks, bool use_default_callbacks,
                             const std::string& logger_name);
-  template <typename EventCallbackT>
-  void add_event_handler(const EventCallbackT& callback, rcl_publisher_event_type_t event_type);
 
   std::shared_ptr<rcl_publisher_t> publisher_handle_;
   rmw_gid_t gid_;

@@ -83,36 +83,42 @@ class QoS {
   rmw_qos_profile_t& get_rmw_qos_profile() { return profile_; }
   const rmw_qos_profile_t& get_rmw_qos_profile() const { return profile_; }
 
-  QoS& history(HistoryPolicy history);
-  QoS& history(rmw_qos_history_policy_t history);
-  QoS& keep_last(size_t depth);
-  QoS& keep_all();
+  QoS& history(HistoryPolicy history) { return this->history(static_cast<rmw_qos_history_policy_t>(history)); }
+  QoS& history(rmw_qos_history_policy_t history) { return set(profile_.history, history); }
+  QoS& keep_last(size_t depth) { return history(HistoryPolicy::KeepLast).set(profile_.depth, depth); }
+  QoS& keep_all() { return history(HistoryPolicy::KeepAll).set(profile_.depth, size_t{0}); }
 
-  QoS& reliability(ReliabilityPolicy reliability);
-  QoS& reliability(rmw_qos_reliability_policy_t reliability);
+  QoS& reliability(ReliabilityPolicy reliability) {
+    return this->reliability(static_cast<rmw_qos_reliability_policy_t>(reliability));
+  }
+  QoS& reliability(rmw_qos_reliability_policy_t reliability) { return set(profile_.reliability, reliability); }
   QoS& reliable() { return reliability(ReliabilityPolicy::Reliable); }
   QoS& best_effort() { return reliability(ReliabilityPolicy::BestEffort); }
   QoS& reliability_best_available() { return reliability(ReliabilityPolicy::BestAvailable); }
 
-  QoS& durability(DurabilityPolicy durability);
-  QoS& durability(rmw_qos_durability_policy_t durability);
+  QoS& durability(DurabilityPolicy durability) {
+    return this->durability(static_cast<rmw_qos_durability_policy_t>(durability));
+  }
+  QoS& durability(rmw_qos_durability_policy_t durability) { return set(profile_.durability, durability); }
   QoS& durability_volatile() { return durability(DurabilityPolicy::Volatile); }
   QoS& transient_local() { return durability(DurabilityPolicy::TransientLocal); }
   QoS& durability_best_available() { return durability(DurabilityPolicy::BestAvailable); }
 
   // The longest time between two messages.
   QoS& deadline(const Duration& deadline) { return this->deadline(deadline.to_rmw_time()); }
-  QoS& deadline(rmw_time_t deadline);
+  QoS& deadline(rmw_time_t deadline) { return set(profile_.deadline, deadline); }
   // Messages older than this are not delivered.
   QoS& lifespan(const Duration& lifespan) { return this->lifespan(lifespan.to_rmw_time()); }
-  QoS& lifespan(rmw_time_t lifespan);
+  QoS& lifespan(rmw_time_t lifespan) { return set(profile_.lifespan, lifespan); }
 
-  QoS& liveliness(LivelinessPolicy liveliness);
-  QoS& liveliness(rmw_qos_liveliness_policy_t liveliness);
+  QoS& liveliness(LivelinessPolicy liveliness) {
+    return this->liveliness(static_cast<rmw_qos_liveliness_policy_t>(liveliness));
+  }
+  QoS& liveliness(rmw_qos_liveliness_policy_t liveliness) { return set(profile_.liveliness, liveliness); }
   QoS& liveliness_lease_duration(const Duration& duration) { return liveliness_lease_duration(duration.to_rmw_time()); }
-  QoS& liveliness_lease_duration(rmw_time_t duration);
+  QoS& liveliness_lease_duration(rmw_time_t duration) { return set(profile_.liveliness_lease_duration, duration); }
 
-  QoS& avoid_ros_namespace_conventions(bool avoid);
+  QoS& avoid_ros_namespace_conventions(bool avoid) { return set(profile_.avoid_ros_namespace_conventions, avoid); }
 
   HistoryPolicy history() const { return static_cast<HistoryPolicy>(profile_.history); }
   size_t depth() const { return profile_.depth; }
@@ -125,6 +131,12 @@ class QoS {
   bool avoid_ros_namespace_conventions() const { return profile_.avoid_ros_namespace_conventions; }
 
  private:
+  template <typename T>
+  QoS& set(T& policy, T value) {
+    policy = value;
+    return *this;
+  }
+
   rmw_qos_profile_t profile_;
 };
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts a message to its bytes and back.
+// Converts a message to its bytes and back, also if its type is known only at run time.
 #pragma once
 
 #include <rosidl_runtime_c/message_type_support_struct.h>
 
+#include <memory>
 #include <rosidl_typesupport_cpp/message_type_support.hpp>
 
 #include "rclcpp/serialized_message.hpp"
@@ -29,5 +30,12 @@ class Serialization : public SerializationBase {
  public:
   Serialization() : SerializationBase(rosidl_typesupport_cpp::get_message_type_support_handle<MessageT>()) {}
 };
+
+namespace detail {
+
+// A message with the defaults of its type. Throws exceptions::RCLError if the type support cannot make one.
+std::shared_ptr<void> make_message(const rosidl_message_type_support_t& type_support);
+
+}  // namespace detail
 
 }  // namespace rclcpp

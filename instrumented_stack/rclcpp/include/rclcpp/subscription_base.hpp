@@ -171,8 +171,6 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
   bool check_taken(rcl_ret_t ret) const;
   void bind_event_callbacks(const SubscriptionEventCallbacks& callbacks, bool use_default_callbacks,
                             const std::string& logger_name);
-  template <typename EventCallbackT>
-  void add_event_handler(const EventCallbackT& callback, rcl_subscription_event_type_t event_type);
   // A message, or serialized message, for the callback; it is returned after the callback.
   std::shared_ptr<void> borrow_message();
   void keep_message(std::shared_ptr<void> message);

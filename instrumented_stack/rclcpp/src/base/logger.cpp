@@ -4,6 +4,7 @@
 #include <rcl/logging_directory.hpp>
 #include <stdexcept>
 
+#include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/logging.hpp"
 
@@ -42,6 +43,13 @@ Logger get_node_logger(const rcl_node_t* node) {
     return logger;
   }
   return get_logger(name);
+}
+
+void detail::log_error(rcl_ret_t ret, const char* what) {
+  if (ret != RCL_RET_OK) {
+    RCLCPP_ERROR(get_logger("rclcpp"), "%s: %s", what, rcl_get_error_string().str);
+    rcl_reset_error();
+  }
 }
 
 std::filesystem::path get_log_directory() {

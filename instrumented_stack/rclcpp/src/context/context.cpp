@@ -76,10 +76,7 @@ void Context::init(int argc, const char* const* argv, const InitOptions& init_op
           RCLCPP_ERROR(get_logger("rclcpp"), "failed to shut an rcl context down: %s", rcl_get_error_string().str);
           rcl_reset_error();
         }
-        if (rcl_context_fini(context) != RCL_RET_OK) {
-          RCLCPP_ERROR(get_logger("rclcpp"), "failed to finalize an rcl context: %s", rcl_get_error_string().str);
-          rcl_reset_error();
-        }
+        detail::log_error(rcl_context_fini(context), "failed to finalize an rcl context");
         delete context;
       });
   require_ok(rcl_init(argc, argv, init_options.get_rcl_init_options(), rcl_context.get()), "failed to initialize rcl");

@@ -9,7 +9,6 @@
 
 #include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/exceptions.hpp"
-#include "rclcpp/logging.hpp"
 
 namespace rclcpp {
 
@@ -32,10 +31,7 @@ AskedWaitables::AskedWaitables(const std::shared_ptr<rcl_context_t>& context)
 }
 
 AskedWaitables::~AskedWaitables() {
-  if (rcl_wait_set_fini(&wait_set_) != RCL_RET_OK) {
-    RCLCPP_ERROR(get_logger("rclcpp"), "failed to destroy wait set: %s", rcl_get_error_string().str);
-    rcl_reset_error();
-  }
+  detail::log_error(rcl_wait_set_fini(&wait_set_), "failed to destroy wait set");
 }
 
 [[gnu::hot]] void AskedWaitables::ask(const WaitedEntities& waited, rmw_fastrtps::Waiter& waiter, std::size_t first) {

@@ -7,7 +7,6 @@
 
 #include <stdexcept>
 
-#include "rclcpp/detail/message_memory.hpp"
 #include "rclcpp/detail/require_ok.hpp"
 
 namespace rclcpp {

@@ -10,7 +10,6 @@
 
 #include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/exceptions.hpp"
-#include "rclcpp/logging.hpp"
 
 namespace rclcpp::node_interfaces {
 
@@ -62,10 +61,7 @@ NodeBase::NodeBase(const std::string& node_name, const std::string& node_namespa
   }
   detail::require_ok(ret, "failed to initialize rcl node");
   node_handle_.reset(rcl_node.release(), [rcl_context](rcl_node_t* node) {
-    if (rcl_node_fini(node) != RCL_RET_OK) {
-      RCLCPP_ERROR(get_logger("rclcpp"), "failed to finalize a node: %s", rcl_get_error_string().str);
-      rcl_reset_error();
-    }
+    detail::log_error(rcl_node_fini(node), "failed to finalize a node");
     delete node;
   });
   default_callback_group_ = create_callback_group(CallbackGroupType::MutuallyExclusive);

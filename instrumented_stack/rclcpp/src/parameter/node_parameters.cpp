@@ -7,9 +7,7 @@
 #include <utility>
 #include <variant>
 
-#include "parameter/change_scope.hpp"
-#include "parameter/parameter_callbacks.hpp"
-#include "parameter/parameter_constraints.hpp"
+#include "parameter/parameter_changes.hpp"
 #include "rclcpp/detail/qos_parameters.hpp"
 #include "rclcpp/exceptions.hpp"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "parameter/parameter_constraints.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
+
+#include "parameter/parameter_changes.hpp"
 
 namespace rclcpp {
 

@@ -2,9 +2,7 @@
 // Setting parameters of a node. node_parameters.cpp declares them.
 #include <set>
 
-#include "parameter/change_scope.hpp"
-#include "parameter/parameter_callbacks.hpp"
-#include "parameter/parameter_constraints.hpp"
+#include "parameter/parameter_changes.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/node_interfaces/node_parameters.hpp"
 

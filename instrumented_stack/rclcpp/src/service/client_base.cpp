@@ -7,9 +7,9 @@
 
 #include <algorithm>
 
+#include "base/rcl_entity.hpp"
 #include "rclcpp/clock.hpp"
 #include "rclcpp/detail/require_ok.hpp"
-#include "rclcpp/detail/topic_name.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/logging.hpp"
 
@@ -21,13 +21,6 @@ namespace {
 
 using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
-
-QoS client_qos(const rmw_qos_profile_t* profile) {
-  if (!profile) {
-    exceptions::throw_from_rcl_error(RCL_RET_CLIENT_INVALID, "failed to get qos settings");
-  }
-  return QoS(QoSInitialization::from_rmw(*profile), *profile);
-}
 
 }  // namespace
 
@@ -48,13 +41,8 @@ ClientBase::ClientBase(node_interfaces::NodeBaseInterface* node_base, const rosi
   if (ret != RCL_RET_OK) {
     exceptions::throw_from_rcl_error(ret, "could not create client of service '" + service_name + "'");
   }
-  client_handle_.reset(client.release(), [node_handle = node_handle_](rcl_client_t* handle) {
-    if (rcl_client_fini(handle, node_handle.get()) != RCL_RET_OK) {
-      RCLCPP_ERROR(get_logger("rclcpp"), "failed to finalize a client: %s", rcl_get_error_string().str);
-      rcl_reset_error();
-    }
-    delete handle;
-  });
+  client_handle_ =
+      detail::shared_entity(std::move(client), node_handle_, rcl_client_fini, "failed to finalize a client");
 }
 
 ClientBase::~ClientBase() {
@@ -69,11 +57,11 @@ const char* ClientBase::get_service_name() const {
 }
 
 QoS ClientBase::get_request_publisher_actual_qos() const {
-  return client_qos(rcl_client_request_publisher_get_actual_qos(client_handle_.get()));
+  return detail::qos_of(rcl_client_request_publisher_get_actual_qos(client_handle_.get()), RCL_RET_CLIENT_INVALID);
 }
 
 QoS ClientBase::get_response_subscription_actual_qos() const {
-  return client_qos(rcl_client_response_subscription_get_actual_qos(client_handle_.get()));
+  return detail::qos_of(rcl_client_response_subscription_get_actual_qos(client_handle_.get()), RCL_RET_CLIENT_INVALID);
 }
 
 bool ClientBase::service_is_ready() const {

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "rclcpp/create_generic_client.hpp"
-#include "rclcpp/detail/message_memory.hpp"
 #include "rclcpp/logging.hpp"
+#include "rclcpp/serialization.hpp"
 
 namespace rclcpp {
 

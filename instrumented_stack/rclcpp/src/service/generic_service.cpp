@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/generic_service.hpp"
 
-#include "rclcpp/detail/message_memory.hpp"
+#include "rclcpp/serialization.hpp"
 
 namespace rclcpp {
 

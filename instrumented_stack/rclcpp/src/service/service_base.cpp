@@ -3,26 +3,15 @@
 
 #include <tracetools/tracetools.h>
 
+#include "base/rcl_entity.hpp"
 #include "rclcpp/clock.hpp"
 #include "rclcpp/detail/require_ok.hpp"
-#include "rclcpp/detail/topic_name.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/logging.hpp"
 
 namespace rclcpp {
 
 using detail::require_ok;
-
-namespace {
-
-QoS service_qos(const rmw_qos_profile_t* profile) {
-  if (!profile) {
-    exceptions::throw_from_rcl_error(RCL_RET_SERVICE_INVALID, "failed to get qos settings");
-  }
-  return QoS(QoSInitialization::from_rmw(*profile), *profile);
-}
-
-}  // namespace
 
 ServiceBase::ServiceBase(node_interfaces::NodeBaseInterface* node_base,
                          const rosidl_service_type_support_t& type_support, const std::string& service_name,
@@ -40,13 +29,8 @@ ServiceBase::ServiceBase(node_interfaces::NodeBaseInterface* node_base,
   if (ret != RCL_RET_OK) {
     exceptions::throw_from_rcl_error(ret, "could not create service '" + service_name + "'");
   }
-  service_handle_.reset(service.release(), [node_handle = node_handle_](rcl_service_t* handle) {
-    if (rcl_service_fini(handle, node_handle.get()) != RCL_RET_OK) {
-      RCLCPP_ERROR(get_logger("rclcpp"), "failed to finalize a service: %s", rcl_get_error_string().str);
-      rcl_reset_error();
-    }
-    delete handle;
-  });
+  service_handle_ =
+      detail::shared_entity(std::move(service), node_handle_, rcl_service_fini, "failed to finalize a service");
 }
 
 ServiceBase::~ServiceBase() {
@@ -64,11 +48,12 @@ const char* ServiceBase::get_service_name() const {
 }
 
 QoS ServiceBase::get_request_subscription_actual_qos() const {
-  return service_qos(rcl_service_request_subscription_get_actual_qos(service_handle_.get()));
+  return detail::qos_of(rcl_service_request_subscription_get_actual_qos(service_handle_.get()),
+                        RCL_RET_SERVICE_INVALID);
 }
 
 QoS ServiceBase::get_response_publisher_actual_qos() const {
-  return service_qos(rcl_service_response_publisher_get_actual_qos(service_handle_.get()));
+  return detail::qos_of(rcl_service_response_publisher_get_actual_qos(service_handle_.get()), RCL_RET_SERVICE_INVALID);
 }
 
 bool ServiceBase::take_type_erased_request(void* request_out, rmw_request_id_t& request_id_out) {

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "rclcpp/detail/require_ok.hpp"
-#include "rclcpp/logging.hpp"
 
 namespace rclcpp {
 
@@ -27,12 +26,7 @@ struct Clock::Impl {
     rcl_allocator_t allocator = rcl_get_default_allocator();
     require_ok(rcl_clock_init(clock_type, &rcl_clock, &allocator), "failed to initialize rcl clock");
   }
-  ~Impl() {
-    if (rcl_clock_fini(&rcl_clock) != RCL_RET_OK) {
-      RCLCPP_ERROR(get_logger("rclcpp"), "failed to finalize a clock: %s", rcl_get_error_string().str);
-      rcl_reset_error();
-    }
-  }
+  ~Impl() { detail::log_error(rcl_clock_fini(&rcl_clock), "failed to finalize a clock"); }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
@@ -154,10 +148,8 @@ JumpHandler::SharedPtr Clock::create_jump_callback(JumpHandler::pre_callback_t p
   return JumpHandler::SharedPtr(handler.release(), [call, weak_impl = std::weak_ptr<Impl>(impl_)](JumpHandler* ended) {
     if (const std::shared_ptr<Impl> impl = weak_impl.lock()) {
       const std::lock_guard lock(impl->mutex);
-      if (rcl_clock_remove_jump_callback(&impl->rcl_clock, call, ended) != RCL_RET_OK) {
-        RCLCPP_ERROR(get_logger("rclcpp"), "failed to remove a jump callback: %s", rcl_get_error_string().str);
-        rcl_reset_error();
-      }
+      detail::log_error(rcl_clock_remove_jump_callback(&impl->rcl_clock, call, ended),
+                        "failed to remove a jump callback");
     }
     delete ended;
   });

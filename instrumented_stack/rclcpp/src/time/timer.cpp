@@ -5,7 +5,6 @@
 
 #include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/exceptions.hpp"
-#include "rclcpp/logging.hpp"
 
 namespace rclcpp {
 
@@ -26,10 +25,7 @@ TimerBase::TimerBase(Clock::SharedPtr clock, std::chrono::nanoseconds period, Co
   timer_handle_.reset(timer.release(), [clock = clock_, rcl_context](rcl_timer_t* handle) {
     {
       const std::lock_guard lock(clock->get_clock_mutex());
-      if (rcl_timer_fini(handle) != RCL_RET_OK) {
-        RCLCPP_ERROR(get_logger("rclcpp"), "failed to finalize a timer: %s", rcl_get_error_string().str);
-        rcl_reset_error();
-      }
+      detail::log_error(rcl_timer_fini(handle), "failed to finalize a timer");
     }
     delete handle;
   });

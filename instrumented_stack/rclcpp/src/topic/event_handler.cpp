@@ -25,10 +25,7 @@ EventHandlerBase::EventHandlerBase(std::shared_ptr<const void> parent,
   }
   require_ok(ret, "Failed to initialize event");
   event_handle_.reset(event.release(), [parent = std::move(parent)](rcl_event_t* handle) {
-    if (rcl_event_fini(handle) != RCL_RET_OK) {
-      RCLCPP_ERROR(get_logger("rclcpp"), "failed to finalize an event: %s", rcl_get_error_string().str);
-      rcl_reset_error();
-    }
+    detail::log_error(rcl_event_fini(handle), "failed to finalize an event");
     delete handle;
   });
 }

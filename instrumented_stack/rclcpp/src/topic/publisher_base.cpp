@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/rcl_entity.hpp"
 #include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/detail/resolve_use_intra_process.hpp"
-#include "rclcpp/detail/topic_name.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/experimental/intra_process_manager.hpp"
 #include "rclcpp/logging.hpp"
@@ -34,13 +34,8 @@ PublisherBase::PublisherBase(node_interfaces::NodeBaseInterface* node_base, cons
   if (ret != RCL_RET_OK) {
     exceptions::throw_from_rcl_error(ret, "could not create publisher on '" + topic + "'");
   }
-  publisher_handle_.reset(publisher.release(), [node_handle](rcl_publisher_t* handle) {
-    if (rcl_publisher_fini(handle, node_handle.get()) != RCL_RET_OK) {
-      RCLCPP_ERROR(get_logger("rclcpp"), "failed to finalize a publisher: %s", rcl_get_error_string().str);
-      rcl_reset_error();
-    }
-    delete handle;
-  });
+  publisher_handle_ =
+      detail::shared_entity(std::move(publisher), node_handle, rcl_publisher_fini, "failed to finalize a publisher");
 
   ret = rmw_get_gid_for_publisher(rcl_publisher_get_rmw_handle(publisher_handle_.get()), &gid_);
   if (ret != RMW_RET_OK) {
@@ -73,11 +68,7 @@ size_t PublisherBase::get_queue_size() const {
 }
 
 QoS PublisherBase::get_actual_qos() const {
-  const rmw_qos_profile_t* profile = rcl_publisher_get_actual_qos(publisher_handle_.get());
-  if (!profile) {
-    exceptions::throw_from_rcl_error(RCL_RET_PUBLISHER_INVALID, "failed to get qos settings");
-  }
-  return QoS(QoSInitialization::from_rmw(*profile), *profile);
+  return detail::qos_of(rcl_publisher_get_actual_qos(publisher_handle_.get()), RCL_RET_PUBLISHER_INVALID);
 }
 
 bool PublisherBase::is_durability_transient_local() const {

@@ -7,9 +7,9 @@
 #include <chrono>
 #include <utility>
 
+#include "base/rcl_entity.hpp"
 #include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/detail/resolve_use_intra_process.hpp"
-#include "rclcpp/detail/topic_name.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/experimental/intra_process_manager.hpp"
 #include "rclcpp/logging.hpp"
@@ -63,13 +63,8 @@ SubscriptionBase::SubscriptionBase(node_interfaces::NodeBaseInterface* node_base
   if (ret != RCL_RET_OK) {
     exceptions::throw_from_rcl_error(ret, "could not create subscription on '" + topic + "'");
   }
-  subscription_handle_.reset(subscription.release(), [node_handle](rcl_subscription_t* handle) {
-    if (rcl_subscription_fini(handle, node_handle.get()) != RCL_RET_OK) {
-      RCLCPP_ERROR(get_logger("rclcpp"), "failed to finalize a subscription: %s", rcl_get_error_string().str);
-      rcl_reset_error();
-    }
-    delete handle;
-  });
+  subscription_handle_ = detail::shared_entity(std::move(subscription), node_handle, rcl_subscription_fini,
+                                               "failed to finalize a subscription");
   can_loan_messages_ = rcl_subscription_can_loan_messages(subscription_handle_.get());
   bind_event_callbacks(options.event_callbacks, options.use_default_callbacks,
                        rcl_node_get_logger_name(node_handle.get()));
@@ -96,11 +91,7 @@ const char* SubscriptionBase::get_topic_name() const {
 }
 
 QoS SubscriptionBase::get_actual_qos() const {
-  const rmw_qos_profile_t* profile = rcl_subscription_get_actual_qos(subscription_handle_.get());
-  if (!profile) {
-    exceptions::throw_from_rcl_error(RCL_RET_SUBSCRIPTION_INVALID, "failed to get qos settings");
-  }
-  return QoS(QoSInitialization::from_rmw(*profile), *profile);
+  return detail::qos_of(rcl_subscription_get_actual_qos(subscription_handle_.get()), RCL_RET_SUBSCRIPTION_INVALID);
 }
 
 size_t SubscriptionBase::get_publisher_count() const {
@@ -189,10 +180,8 @@ void SubscriptionBase::execute_loaned() {
     return;
   }
   const std::shared_ptr<void> message(loan, [handle = subscription_handle_](void* borrowed) {
-    if (rcl_return_loaned_message_from_subscription(handle.get(), borrowed) != RCL_RET_OK) {
-      RCLCPP_ERROR(get_logger("rclcpp"), "failed to return a loaned message: %s", rcl_get_error_string().str);
-      rcl_reset_error();
-    }
+    detail::log_error(rcl_return_loaned_message_from_subscription(handle.get(), borrowed),
+                      "failed to return a loaned message");
   });
   if (!is_delivered_twice(message_info)) {
     dispatch(message, message_info);

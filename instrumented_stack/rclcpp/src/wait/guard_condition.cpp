@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "rclcpp/detail/require_ok.hpp"
-#include "rclcpp/logging.hpp"
 
 namespace rclcpp {
 
@@ -22,10 +21,7 @@ GuardCondition::GuardCondition(const Context::SharedPtr& context, rcl_guard_cond
 }
 
 GuardCondition::~GuardCondition() {
-  if (rcl_guard_condition_fini(&rcl_guard_condition_) != RCL_RET_OK) {
-    RCLCPP_ERROR(get_logger("rclcpp"), "failed to finalize guard condition: %s", rcl_get_error_string().str);
-    rcl_reset_error();
-  }
+  detail::log_error(rcl_guard_condition_fini(&rcl_guard_condition_), "failed to finalize guard condition");
 }
 
 void GuardCondition::trigger() {

@@ -9,7 +9,6 @@
 #include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/event_handler.hpp"
 #include "rclcpp/exceptions.hpp"
-#include "rclcpp/logging.hpp"
 
 namespace rclcpp::detail {
 
@@ -99,10 +98,7 @@ WaitSetEntities::~WaitSetEntities() {
       waitable->exchange_in_use_by_wait_set_state(false);
     }
   }
-  if (rcl_wait_set_fini(&wait_set_) != RCL_RET_OK) {
-    RCLCPP_ERROR(get_logger("rclcpp"), "failed to destroy wait set: %s", rcl_get_error_string().str);
-    rcl_reset_error();
-  }
+  detail::log_error(rcl_wait_set_fini(&wait_set_), "failed to destroy wait set");
 }
 
 template <typename EntityT>

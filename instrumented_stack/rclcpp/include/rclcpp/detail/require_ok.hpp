@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What becomes of an error of rcl: an exception, or nothing.
+// What becomes of an error of rcl: an exception, a line in the log, or nothing.
 #pragma once
 
 #include <rcl/error_handling.h>
@@ -15,6 +15,9 @@ inline void require_ok(rcl_ret_t ret, const char* what) {
     exceptions::throw_from_rcl_error(ret, what);
   }
 }
+
+// For destructors and callbacks, which must not throw: logs a failure, with `what` before the message of rcl.
+void log_error(rcl_ret_t ret, const char* what);
 
 // For calls whose failure leaves nothing to do. No message of rcl is left for the next error.
 inline void ignore_error(rcl_ret_t ret) {

@@ -1,27 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The type support of a type that is made at run time.
-//
-// As in rclcpp so far, the class is only a name: no program can make such an object.
+// DynamicMessageTypeSupport, of which rclcpp has only the name.
 #pragma once
 
-#include <memory>
-
-#include "rclcpp/dynamic_typesupport/dynamic_message.hpp"
-#include "rclcpp/dynamic_typesupport/dynamic_message_type.hpp"
 #include "rclcpp/dynamic_typesupport/dynamic_serialization_support.hpp"
-#include "rclcpp/macros.hpp"
-
-namespace rclcpp::dynamic_typesupport {
-
-class DynamicMessageTypeSupport : public std::enable_shared_from_this<DynamicMessageTypeSupport> {
- public:
-  RCLCPP_SMART_PTR_ALIASES_ONLY(DynamicMessageTypeSupport)
-
-  virtual ~DynamicMessageTypeSupport() = default;
-  RCLCPP_DISABLE_COPY(DynamicMessageTypeSupport)
-
- private:
-  DynamicMessageTypeSupport() = default;
-};
-
-}  // namespace rclcpp::dynamic_typesupport

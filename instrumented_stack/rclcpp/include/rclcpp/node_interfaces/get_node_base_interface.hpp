@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// node_interfaces::get_node_base_interface(node), for any class that has that interface, or a pointer to one.
+// node_interfaces::get_node_base_interface(node), for any class that has that interface, or a pointer to one; or for
+// the interface.
 #pragma once
 
 #include <memory>
@@ -11,16 +12,11 @@ namespace rclcpp::node_interfaces {
 
 template <typename NodeT>
 std::shared_ptr<NodeBaseInterface> get_node_base_interface(NodeT&& node) {
-  return dereferenced(node).get_node_base_interface();
-}
-inline std::shared_ptr<NodeBaseInterface> get_node_base_interface(const std::shared_ptr<NodeBaseInterface>& interface) {
-  return interface;
-}
-inline std::shared_ptr<NodeBaseInterface> get_node_base_interface(std::shared_ptr<NodeBaseInterface>& interface) {
-  return interface;
-}
-inline std::shared_ptr<NodeBaseInterface> get_node_base_interface(std::shared_ptr<NodeBaseInterface>&& interface) {
-  return interface;
+  if constexpr (IsSharedInterface<NodeT, NodeBaseInterface>::value) {
+    return node;
+  } else {
+    return dereferenced(node).get_node_base_interface();
+  }
 }
 
 }  // namespace rclcpp::node_interfaces

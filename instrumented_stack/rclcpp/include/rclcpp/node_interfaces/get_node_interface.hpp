@@ -3,6 +3,7 @@
 // one.
 #pragma once
 
+#include <memory>
 #include <type_traits>
 #include <utility>
 
@@ -12,6 +13,10 @@ template <typename NodeT, typename EnableT = void>
 struct IsPointerLike : std::false_type {};
 template <typename NodeT>
 struct IsPointerLike<NodeT, std::void_t<decltype(*std::declval<NodeT&>())>> : std::true_type {};
+
+// Whether a function that looks for this interface is passed the interface itself.
+template <typename NodeT, typename InterfaceT>
+using IsSharedInterface = std::is_same<std::remove_cv_t<std::remove_reference_t<NodeT>>, std::shared_ptr<InterfaceT>>;
 
 template <typename NodeT>
 auto& dereferenced(NodeT& node) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// node_interfaces::get_node_parameters_interface(node), for any class that has that interface, or a pointer to one.
+// node_interfaces::get_node_parameters_interface(node), for any class that has that interface, or a pointer to one; or
+// for the interface.
 #pragma once
 
 #include <memory>
@@ -13,19 +14,11 @@ namespace rclcpp::node_interfaces {
 
 template <typename NodeT>
 std::shared_ptr<NodeParametersInterface> get_node_parameters_interface(NodeT&& node) {
-  return dereferenced(node).get_node_parameters_interface();
-}
-inline std::shared_ptr<NodeParametersInterface> get_node_parameters_interface(
-    const std::shared_ptr<NodeParametersInterface>& interface) {
-  return interface;
-}
-inline std::shared_ptr<NodeParametersInterface> get_node_parameters_interface(
-    std::shared_ptr<NodeParametersInterface>& interface) {
-  return interface;
-}
-inline std::shared_ptr<NodeParametersInterface> get_node_parameters_interface(
-    std::shared_ptr<NodeParametersInterface>&& interface) {
-  return interface;
+  if constexpr (IsSharedInterface<NodeT, NodeParametersInterface>::value) {
+    return node;
+  } else {
+    return dereferenced(node).get_node_parameters_interface();
+  }
 }
 
 template <typename NodeT, typename EnableT = void>

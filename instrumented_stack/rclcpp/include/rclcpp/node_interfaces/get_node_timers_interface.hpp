@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// node_interfaces::get_node_timers_interface(node), for any class that has that interface, or a pointer to one.
+// node_interfaces::get_node_timers_interface(node), for any class that has that interface, or a pointer to one; or for
+// the interface.
 #pragma once
 
 #include <memory>
@@ -13,18 +14,11 @@ namespace rclcpp::node_interfaces {
 
 template <typename NodeT>
 std::shared_ptr<NodeTimersInterface> get_node_timers_interface(NodeT&& node) {
-  return dereferenced(node).get_node_timers_interface();
-}
-inline std::shared_ptr<NodeTimersInterface> get_node_timers_interface(
-    const std::shared_ptr<NodeTimersInterface>& interface) {
-  return interface;
-}
-inline std::shared_ptr<NodeTimersInterface> get_node_timers_interface(std::shared_ptr<NodeTimersInterface>& interface) {
-  return interface;
-}
-inline std::shared_ptr<NodeTimersInterface> get_node_timers_interface(
-    std::shared_ptr<NodeTimersInterface>&& interface) {
-  return interface;
+  if constexpr (IsSharedInterface<NodeT, NodeTimersInterface>::value) {
+    return node;
+  } else {
+    return dereferenced(node).get_node_timers_interface();
+  }
 }
 
 template <typename NodeT, typename EnableT = void>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// node_interfaces::get_node_waitables_interface(node), for any class that has that interface, or a pointer to one.
+// node_interfaces::get_node_waitables_interface(node), for any class that has that interface, or a pointer to one; or
+// for the interface.
 #pragma once
 
 #include <memory>
@@ -11,19 +12,11 @@ namespace rclcpp::node_interfaces {
 
 template <typename NodeT>
 std::shared_ptr<NodeWaitablesInterface> get_node_waitables_interface(NodeT&& node) {
-  return dereferenced(node).get_node_waitables_interface();
-}
-inline std::shared_ptr<NodeWaitablesInterface> get_node_waitables_interface(
-    const std::shared_ptr<NodeWaitablesInterface>& interface) {
-  return interface;
-}
-inline std::shared_ptr<NodeWaitablesInterface> get_node_waitables_interface(
-    std::shared_ptr<NodeWaitablesInterface>& interface) {
-  return interface;
-}
-inline std::shared_ptr<NodeWaitablesInterface> get_node_waitables_interface(
-    std::shared_ptr<NodeWaitablesInterface>&& interface) {
-  return interface;
+  if constexpr (IsSharedInterface<NodeT, NodeWaitablesInterface>::value) {
+    return node;
+  } else {
+    return dereferenced(node).get_node_waitables_interface();
+  }
 }
 
 }  // namespace rclcpp::node_interfaces
