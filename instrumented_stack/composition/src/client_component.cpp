@@ -1,15 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "composition/client_component.hpp"
-
+// Asks service add_two_ints for a sum every two seconds.
 #include <chrono>
 #include <cinttypes>
 #include <memory>
 
+#include "example_interfaces/srv/add_two_ints.hpp"
+#include "rclcpp/rclcpp.hpp"
 #include "rclcpp_components/register_node_macro.hpp"
 
 namespace composition {
 
 using AddTwoInts = example_interfaces::srv::AddTwoInts;
+
+class Client : public rclcpp::Node {
+ public:
+  explicit Client(const rclcpp::NodeOptions& options);
+
+ private:
+  void ask();
+
+  rclcpp::Client<example_interfaces::srv::AddTwoInts>::SharedPtr client_;
+  rclcpp::TimerBase::SharedPtr timer_;
+};
 
 Client::Client(const rclcpp::NodeOptions& options) : Node("client", options) {
   client_ = create_client<AddTwoInts>("add_two_ints");

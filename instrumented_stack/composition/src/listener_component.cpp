@@ -1,9 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "composition/listener_component.hpp"
-
+// Prints the messages of topic chatter.
+#include "rclcpp/rclcpp.hpp"
 #include "rclcpp_components/register_node_macro.hpp"
+#include "std_msgs/msg/string.hpp"
 
 namespace composition {
+
+class Listener : public rclcpp::Node {
+ public:
+  explicit Listener(const rclcpp::NodeOptions& options);
+
+ private:
+  rclcpp::Subscription<std_msgs::msg::String>::SharedPtr subscription_;
+};
 
 Listener::Listener(const rclcpp::NodeOptions& options) : Node("listener", options) {
   subscription_ =

@@ -1,11 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "composition/node_like_listener_component.hpp"
-
+// A listener that has a node but is none: a component needs only get_node_base_interface().
 #include <memory>
 
+#include "rclcpp/rclcpp.hpp"
 #include "rclcpp_components/register_node_macro.hpp"
+#include "std_msgs/msg/string.hpp"
 
 namespace composition {
+
+class NodeLikeListener {
+ public:
+  explicit NodeLikeListener(const rclcpp::NodeOptions& options);
+
+  rclcpp::node_interfaces::NodeBaseInterface::SharedPtr get_node_base_interface() const;
+
+ private:
+  rclcpp::Node::SharedPtr node_;
+  rclcpp::Subscription<std_msgs::msg::String>::SharedPtr subscription_;
+};
 
 NodeLikeListener::NodeLikeListener(const rclcpp::NodeOptions& options)
     : node_(std::make_shared<rclcpp::Node>("node_like_listener", options)) {

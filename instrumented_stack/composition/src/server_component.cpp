@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "composition/server_component.hpp"
-
+// Adds two numbers for clients of service add_two_ints.
 #include <cinttypes>
 #include <memory>
 
+#include "example_interfaces/srv/add_two_ints.hpp"
+#include "rclcpp/rclcpp.hpp"
 #include "rclcpp_components/register_node_macro.hpp"
 
 namespace composition {
+
+class Server : public rclcpp::Node {
+ public:
+  explicit Server(const rclcpp::NodeOptions& options);
+
+ private:
+  rclcpp::Service<example_interfaces::srv::AddTwoInts>::SharedPtr service_;
+};
 
 Server::Server(const rclcpp::NodeOptions& options) : Node("server", options) {
   using AddTwoInts = example_interfaces::srv::AddTwoInts;

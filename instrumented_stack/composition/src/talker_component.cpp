@@ -1,14 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "composition/talker_component.hpp"
-
+// Says hello on topic chatter once a second.
 #include <chrono>
 #include <memory>
 #include <string>
 #include <utility>
 
+#include "rclcpp/rclcpp.hpp"
 #include "rclcpp_components/register_node_macro.hpp"
+#include "std_msgs/msg/string.hpp"
 
 namespace composition {
+
+class Talker : public rclcpp::Node {
+ public:
+  explicit Talker(const rclcpp::NodeOptions& options);
+
+ private:
+  void say_hello();
+
+  size_t count_ = 0;
+  rclcpp::Publisher<std_msgs::msg::String>::SharedPtr publisher_;
+  rclcpp::TimerBase::SharedPtr timer_;
+};
 
 Talker::Talker(const rclcpp::NodeOptions& options) : Node("talker", options) {
   publisher_ = create_publisher<std_msgs::msg::String>("chatter", 10);

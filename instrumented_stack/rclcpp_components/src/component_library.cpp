@@ -8,6 +8,9 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "rclcpp_components/node_main.hpp"
+#include "rclcpp_components/single_threaded_node_main.hpp"
+
 namespace rclcpp_components {
 
 namespace {
@@ -90,6 +93,10 @@ ComponentRegistration::~ComponentRegistration() {
   const std::lock_guard lock(registry().mutex);
   auto& registrations = registry().registrations;
   registrations.erase(std::remove(registrations.begin(), registrations.end(), this), registrations.end());
+}
+
+int single_threaded_node_main(const char* class_name, int argc, char** argv) {
+  return node_main<rclcpp::executors::SingleThreadedExecutor>(class_name, argc, argv);
 }
 
 }  // namespace rclcpp_components
