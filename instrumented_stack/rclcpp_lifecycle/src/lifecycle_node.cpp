@@ -11,29 +11,6 @@
 
 namespace rclcpp_lifecycle {
 
-namespace node_interfaces {
-
-LifecycleNodeInterface::CallbackReturn LifecycleNodeInterface::on_configure(const State&) {
-  return CallbackReturn::SUCCESS;
-}
-LifecycleNodeInterface::CallbackReturn LifecycleNodeInterface::on_cleanup(const State&) {
-  return CallbackReturn::SUCCESS;
-}
-LifecycleNodeInterface::CallbackReturn LifecycleNodeInterface::on_shutdown(const State&) {
-  return CallbackReturn::SUCCESS;
-}
-LifecycleNodeInterface::CallbackReturn LifecycleNodeInterface::on_activate(const State&) {
-  return CallbackReturn::SUCCESS;
-}
-LifecycleNodeInterface::CallbackReturn LifecycleNodeInterface::on_deactivate(const State&) {
-  return CallbackReturn::SUCCESS;
-}
-LifecycleNodeInterface::CallbackReturn LifecycleNodeInterface::on_error(const State&) {
-  return CallbackReturn::FAILURE;
-}
-
-}  // namespace node_interfaces
-
 using StateId = lifecycle_msgs::msg::State;
 
 LifecycleNode::LifecycleNode(const std::string& node_name, const rclcpp::NodeOptions& options,
@@ -79,12 +56,6 @@ std::vector<Transition> LifecycleNode::get_transition_graph() const {
   return states_->transitions();
 }
 
-const State& LifecycleNode::trigger_transition(const Transition& transition) {
-  return trigger_transition(transition.id());
-}
-const State& LifecycleNode::trigger_transition(const Transition& transition, CallbackReturn& cb_return_code) {
-  return trigger_transition(transition.id(), cb_return_code);
-}
 const State& LifecycleNode::trigger_transition(uint8_t transition_id) {
   CallbackReturn ignored;
   return trigger_transition(transition_id, ignored);
@@ -189,14 +160,6 @@ std::vector<std::shared_ptr<ManagedEntityInterface>> LifecycleNode::managed_enti
     }
   }
   return living;
-}
-
-void SimpleManagedEntity::on_activate() {
-  activated_ = true;
-}
-
-void SimpleManagedEntity::on_deactivate() {
-  activated_ = false;
 }
 
 }  // namespace rclcpp_lifecycle

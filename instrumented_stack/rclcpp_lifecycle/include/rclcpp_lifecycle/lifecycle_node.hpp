@@ -68,8 +68,10 @@ class LifecycleNode : public rclcpp::detail::AnyNode,
 
   // Run the callback in this thread and return the node's state afterwards. The state does not change if it has no such
   // transition. `cb_return_code` is the result of the callback, ERROR if there was no transition.
-  const State& trigger_transition(const Transition& transition);
-  const State& trigger_transition(const Transition& transition, CallbackReturn& cb_return_code);
+  const State& trigger_transition(const Transition& transition) { return trigger_transition(transition.id()); }
+  const State& trigger_transition(const Transition& transition, CallbackReturn& cb_return_code) {
+    return trigger_transition(transition.id(), cb_return_code);
+  }
   const State& trigger_transition(uint8_t transition_id);
   const State& trigger_transition(uint8_t transition_id, CallbackReturn& cb_return_code);
   const State& configure();

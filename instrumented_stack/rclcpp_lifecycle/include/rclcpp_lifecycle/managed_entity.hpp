@@ -17,8 +17,8 @@ class ManagedEntityInterface {
 // A managed entity that only knows whether it is active. It starts inactive.
 class SimpleManagedEntity : public ManagedEntityInterface {
  public:
-  void on_activate() override;
-  void on_deactivate() override;
+  void on_activate() override { activated_ = true; }
+  void on_deactivate() override { activated_ = false; }
   bool is_activated() const { return activated_; }
 
  private:

@@ -22,12 +22,12 @@ class LifecycleNodeInterface {
   // Called in the transition state, by the thread that triggered the transition. `previous_state` is the state before
   // it. An exception counts as ERROR. on_shutdown() leads to `finalized` even with FAILURE; on_error() leads to
   // `unconfigured` with SUCCESS, else to `finalized`. By default all succeed except on_error(), which fails.
-  virtual CallbackReturn on_configure(const State& previous_state);
-  virtual CallbackReturn on_cleanup(const State& previous_state);
-  virtual CallbackReturn on_shutdown(const State& previous_state);
-  virtual CallbackReturn on_activate(const State& previous_state);
-  virtual CallbackReturn on_deactivate(const State& previous_state);
-  virtual CallbackReturn on_error(const State& previous_state);
+  virtual CallbackReturn on_configure(const State& /*previous_state*/) { return CallbackReturn::SUCCESS; }
+  virtual CallbackReturn on_cleanup(const State& /*previous_state*/) { return CallbackReturn::SUCCESS; }
+  virtual CallbackReturn on_shutdown(const State& /*previous_state*/) { return CallbackReturn::SUCCESS; }
+  virtual CallbackReturn on_activate(const State& /*previous_state*/) { return CallbackReturn::SUCCESS; }
+  virtual CallbackReturn on_deactivate(const State& /*previous_state*/) { return CallbackReturn::SUCCESS; }
+  virtual CallbackReturn on_error(const State& /*previous_state*/) { return CallbackReturn::FAILURE; }
 };
 
 }  // namespace rclcpp_lifecycle::node_interfaces
