@@ -18,9 +18,9 @@ SOURCE = Path(os.environ['SOURCE_DIRECTORY'])
 
 # Files without a licence line, by folder and by suffix. The text of an interface file is part of its type's description.
 # JSON has no comments. A package.xml names its licence in an element.
-EXEMPT_FOLDERS = ('docs/', '.github/', 'launch_examples/', 'tests/golden/', 'third_party/', '.vscode/')
+EXEMPT_FOLDERS = ('docs/', 'debian/source/', '.github/', 'launch_examples/', 'tests/golden/', 'third_party/', '.vscode/')
 EXEMPT_SUFFIXES = ('.md', '.json', '.xml', '.msg', '.srv', '.action', '.tsv', '.xz')
-EXEMPT_NAMES = ('LICENSE', '.gitignore')
+EXEMPT_NAMES = ('LICENSE', '.gitignore', 'changelog', 'copyright')
 
 VERSIONS_OF_ROS_2 = {
     'ament_cmake': '2.5.0',
