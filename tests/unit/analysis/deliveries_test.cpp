@@ -63,6 +63,58 @@ TEST_F(Deliveries, CountTheTimeOfABusyExecutorForIt) {
   EXPECT_EQ(subscription.latency.max_ns, 3'035);
 }
 
+// Both messages come late, and together. Between their callbacks the thread asks for more work, without a wait.
+TEST_F(Deliveries, CountEachWaitOfTheExecutorForMessagesThatArriveTogether) {
+  feed.in(72, 72).at(1'000)(ros2::RclcppExecutorWaitForWork{-1});
+  publish(2'000, 777);
+  publish(3'000, 778);
+  feed.in(72, 72).at(503'000)(ros2::RclcppExecutorGetNextReady{});
+  receive(503'010, 777);
+  feed.at(503'030)(ros2::RclcppExecutorWaitForWork{-1}).at(503'035)(ros2::RclcppExecutorGetNextReady{});
+  receive(503'040, 778);
+  const SubscriptionResult subscription = result();
+  EXPECT_EQ(subscription.executor.min_ns, 10);
+  EXPECT_EQ(subscription.executor.max_ns, 35);
+  EXPECT_EQ(subscription.transport.min_ns, 500'005);
+  EXPECT_EQ(subscription.transport.max_ns, 501'000);
+}
+
+// Thread 73 waits; thread 72 wants to look for work meanwhile.
+TEST_F(Deliveries, CountTheWaitOfAnotherThreadOfTheExecutor) {
+  feed.in(72, 72).at(900)(ros2::RclcppExecutorGetNextReady{});
+  feed.in(72, 73).at(1'000)(ros2::RclcppExecutorGetNextReady{})(ros2::RclcppExecutorWaitForWork{-1});
+  publish(2'000, 777);
+  feed.in(72, 73).at(9'000)(ros2::RclcppExecutorGetNextReady{});
+  feed.in(72, 72).at(9'010)(ros2::RclcppExecutorGetNextReady{});
+  receive(9'020, 777);
+  EXPECT_EQ(result().transport.max_ns, 7'000);
+}
+
+TEST_F(Deliveries, DontTakeTheWaitOfAnotherExecutorForAWaitForThem) {
+  feed.in(72, 72).at(900)(ros2::RclcppExecutorWaitForWork{-1});
+  feed.in(72, 73).at(1'000)(ros2::RclcppExecutorWaitForWork{-1});
+  feed.in(72, 72).at(1'100)(ros2::RclcppExecutorGetNextReady{});
+  publish(2'000, 777);
+  feed.in(72, 72).at(8'000)(ros2::RclcppExecutorGetNextReady{});
+  receive(8'020, 777);
+  EXPECT_EQ(result().executor.max_ns, 6'020);
+}
+
+// Its callbacks take turns: thread 72 runs one from 1,020 to 7,000, while thread 73 waits for other work.
+TEST_F(Deliveries, CountTheTimeOfTheCallbackBeforeAsAWaitForTheExecutor) {
+  publish(500, 776);
+  feed.in(72, 73).at(990)(ros2::RclcppExecutorGetNextReady{});
+  feed.in(72, 72).at(1'000)(ros2::RclcppExecutorGetNextReady{})(ros2::RmwTake{2, 9, 776, true});
+  feed.in(72, 72).at(1'020)(ros2::CallbackStart{0xcb, false});
+  feed.in(72, 73).at(1'030)(ros2::RclcppExecutorWaitForWork{-1});
+  publish(2'000, 777);
+  feed.in(72, 72).at(7'000)(ros2::CallbackEnd{0xcb});
+  feed.in(72, 73).at(7'100)(ros2::RclcppExecutorGetNextReady{});
+  feed.in(72, 72).at(7'110)(ros2::RclcppExecutorGetNextReady{});
+  receive(7'120, 777);
+  EXPECT_EQ(result().executor.max_ns, 5'020);
+}
+
 TEST_F(Deliveries, DontDivideTheTimeWithoutAnExecutorThatTells) {
   publish(2'000, 777);
   receive(2'100, 777);
@@ -96,6 +148,27 @@ TEST_F(Deliveries, TellWhereMessagesGotLost) {
   EXPECT_EQ(subscription.lost, 1u);
   EXPECT_EQ(subscription.after_last, 1u);
   EXPECT_EQ(subscription.dropped(), 4u);
+}
+
+// The client of an action, for example, takes its feedback in a waitable, which has no callback of its own.
+TEST_F(Deliveries, ReachASubscriptionThatAWaitableServes) {
+  feed.in(72, 72)(ros2::RmwSubscriptionInit{3, {}})(ros2::RclSubscriptionInit{13, 1, 3, "/topic", 2});
+  publish(1'000, 777);
+  feed.in(72, 72).at(1'100)(ros2::RmwTake{3, 9, 777, true})(ros2::RclcppExecutorWaitForWork{-1});
+  const SubscriptionResult subscription = result();
+  EXPECT_EQ(subscription.delivered, 1u);
+  EXPECT_EQ(subscription.dropped(), 0u);
+}
+
+TEST_F(Deliveries, ReachAProgramThatTakesThemItself) {
+  publish(1'000, 777);
+  publish(1'010, 778);
+  feed.in(72, 72).at(1'100)(ros2::RclcppExecutorExecute{99})(ros2::RmwTake{2, 9, 777, true});
+  feed(ros2::RclcppExecutorWaitForWork{-1})(ros2::RclcppExecutorExecute{12})(ros2::RmwTake{2, 9, 778, true});
+  feed(ros2::RclcppExecutorWaitForWork{-1});
+  const SubscriptionResult subscription = result();
+  EXPECT_EQ(subscription.delivered, 1u);
+  EXPECT_EQ(subscription.not_executed, 1u) << "the executor took it for a callback, which did not run";
 }
 
 // Message 2 gets lost although the queue of the subscription has room.

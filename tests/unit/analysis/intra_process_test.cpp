@@ -51,6 +51,44 @@ TEST(IntraProcess, MessagesThatAreOverwrittenCount) {
   EXPECT_EQ(results.unmatched[0].event, "rclcpp_ring_buffer_enqueue");
 }
 
+// `ros2_ext` records the end of the subscription, and another one gets its address.
+TEST(IntraProcess, MessagesThatAreOverwrittenCountForASubscriptionThatIsGoneAtTheEnd) {
+  Feed feed = intra_process_feed();
+  for (const bool overwritten : {false, false, true, true}) {
+    feed(ros2::RclcppIntraPublish{11, 9})(ros2::RclcppRingBufferEnqueue{50, 0, 1, overwritten});
+  }
+  feed(ros2::RclcppRingBufferDequeue{50, 1, 1})(ros2::CallbackStart{0xcb, true})(ros2::CallbackEnd{0xcb});
+  feed.end(ros2::ObjectEnd::Kind::kRclcppSubscription, 22).end(ros2::ObjectEnd::Kind::kRclSubscription, 12);
+  feed(ros2::RmwSubscriptionInit{3, {}})(ros2::RclSubscriptionInit{13, 1, 3, "/other", 2});
+  feed(ros2::RclcppSubscriptionInit{13, 22});
+  const Ros2Results results = feed.results();
+  ASSERT_EQ(results.subscriptions.size(), 1u);
+  EXPECT_EQ(results.subscriptions[0].topic, "/topic");
+  EXPECT_EQ(results.subscriptions[0].overwritten_in_buffer, 2u);
+}
+
+TEST(IntraProcess, ASubscriptionWhoseMessagesWereAllOverwrittenIsThere) {
+  Feed feed = intra_process_feed();
+  feed(ros2::RclcppIntraPublish{11, 9})(ros2::RclcppRingBufferEnqueue{50, 0, 1, true});
+  const Ros2Results results = feed.results();
+  ASSERT_EQ(results.subscriptions.size(), 1u);
+  EXPECT_EQ(results.subscriptions[0].received, 0u);
+  EXPECT_EQ(results.subscriptions[0].dropped(), 1u);
+}
+
+// rclcpp has one object for each way. It drops what comes through the middleware from its own process.
+TEST(IntraProcess, TheSecondCopyOfAMessageIsNotDropped) {
+  Feed feed = intra_process_feed();
+  feed(ros2::RclcppSubscriptionInit{12, 21})(ros2::RclcppIntraPublish{11, 9});
+  feed(ros2::RclcppRingBufferEnqueue{50, 0, 1, false})(ros2::RmwPublish{1, 9, 70});
+  feed(ros2::RclcppExecutorExecute{12})(ros2::RmwTake{2, 8, 70, true})(ros2::RclcppExecutorWaitForWork{-1});
+  feed(ros2::RclcppRingBufferDequeue{50, 0, 0})(ros2::CallbackStart{0xcb, true})(ros2::CallbackEnd{0xcb});
+  const Ros2Results results = feed.results();
+  ASSERT_EQ(results.subscriptions.size(), 1u);
+  EXPECT_EQ(results.subscriptions[0].received, 1u);
+  EXPECT_EQ(results.subscriptions[0].dropped(), 0u);
+}
+
 TEST(IntraProcess, AMessageThatGoesBothWaysCountsOnceForTheRate) {
   Feed feed = intra_process_feed();
   for (int i = 0; i < 3; ++i) {

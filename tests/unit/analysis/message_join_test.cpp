@@ -28,7 +28,8 @@ struct MessageJoinTest : ::testing::Test, ExecutionSink {
   std::vector<Publication> publications;
   std::vector<MessageFlow> messages;
   std::vector<MessageLink> links;
-  MessageJoin join{model, *this};
+  ExecutorWaits waits;
+  MessageJoin join{model, waits, *this};
   ThreadState publishing;
   ThreadState taking;
   ObjectId callback = kNoObject;
@@ -51,15 +52,14 @@ TEST_F(MessageJoinTest, JoinsThePublishFunctionsOfAThread) {
 
 TEST_F(MessageJoinTest, GivesATakenMessageToTheNextCallbackOfTheThread) {
   join.on({120, 0, 71}, publishing, ros2::RmwPublish{1, 9, 777});
-  taking.free_ns = 50;
-  taking.woken_ns = 140;
+  waits.wait({50, 0, 72}, taking.waits);
+  waits.look({140, 0, 72}, taking.waits);
   join.on({150, 0, 72}, taking, ros2::RmwTake{2, 8, 777, true});
   join.on_callback({170, 0, 72}, taking, callback, false);
   ASSERT_EQ(messages.size(), 1u);
   EXPECT_EQ(messages[0].publication.number, 1u);
   EXPECT_EQ(messages[0].taken_ns, 150);
-  EXPECT_EQ(messages[0].executor_free_ns, 50);
-  EXPECT_EQ(messages[0].executor_woken_ns, 140);
+  EXPECT_EQ(messages[0].executor_waited_ns, 20);
   EXPECT_EQ(messages[0].callback, callback);
   EXPECT_EQ(messages[0].callback_begin_ns, 170);
   EXPECT_EQ(join.through_middleware().records()[0].latency.summary().max_ns, 50);

@@ -15,7 +15,7 @@ class MessageResults : public testing::SummaryObjects {
   }
   MessageMatcher messages;
   DeliveryStatistics deliveries{model};
-  IntraProcessMatcher buffers;
+  IntraProcessMatcher buffers{model};
 };
 
 TEST_F(MessageResults, OfATopicHaveTheRateOfItsPublishers) {
@@ -63,7 +63,7 @@ TEST_F(MessageResults, CountWhatIsOverwrittenInTheBufferOfASubscription) {
   buffers.on(origin, ros2::RclcppBufferToIpb{5, 6});
   buffers.on(origin, ros2::RclcppIpbToSubscription{6, 22});
   buffers.enqueue(origin, ros2::RclcppRingBufferEnqueue{5, 0, 1, true}, std::nullopt);
-  EXPECT_EQ(overwritten_in_buffers(model, buffers), (std::map<ObjectId, std::uint64_t>{{0, 1}}));
+  EXPECT_EQ(buffers.overwritten(), (std::map<ObjectId, std::uint64_t>{{0, 1}}));
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ std::vector<std::uint64_t> Ros2Analysis::dropped_messages() const {
   for (const DeliveryRecord& record : deliveries_.subscriptions()) {
     dropped.push_back(record.not_executed + record.overwritten + record.lost);
   }
-  for (const auto& [subscription, count] : overwritten_in_buffers(model_, join_.messages().within_processes())) {
+  for (const auto& [subscription, count] : join_.messages().within_processes().overwritten()) {
     if (subscription < dropped.size()) {
       dropped[subscription] += count;
     }

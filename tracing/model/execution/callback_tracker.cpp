@@ -39,12 +39,12 @@ void CallbackTracker::start(const ThreadId& thread, std::vector<ActiveCallback>&
                            .finished = false});
 }
 
-void CallbackTracker::end(const ThreadId& thread, std::vector<ActiveCallback>& active, ros2::Handle address,
-                          std::int64_t time_ns) {
+std::optional<ObjectId> CallbackTracker::end(const ThreadId& thread, std::vector<ActiveCallback>& active,
+                                             ros2::Handle address, std::int64_t time_ns) {
   const auto found = find_active(active, address);
   if (found == active.end()) {
     ++ends_without_begin_;
-    return;
+    return std::nullopt;
   }
   const ActiveCallback instance = *found;
   CallbackRecord& ended = record(instance.callback);
@@ -54,6 +54,7 @@ void CallbackTracker::end(const ThreadId& thread, std::vector<ActiveCallback>& a
   }
   active.erase(found);
   tell(thread, instance, time_ns, !active.empty(), true);
+  return instance.callback;
 }
 
 void CallbackTracker::abandon(const ThreadId& thread, const std::vector<ActiveCallback>& active, std::int64_t time_ns) {

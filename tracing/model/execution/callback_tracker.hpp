@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "tracing/model/execution/duration_statistics.hpp"
@@ -36,7 +37,9 @@ class CallbackTracker {
   // `active`: the callbacks that run in the thread, innermost last. The caller keeps them between events.
   void start(const ThreadId& thread, std::vector<ActiveCallback>& active, const ActiveCallback& callback);
   // An end without a start is only counted; it occurs at the begin of a trace.
-  void end(const ThreadId& thread, std::vector<ActiveCallback>& active, ros2::Handle address, std::int64_t time_ns);
+  // Returns the callback that ended.
+  std::optional<ObjectId> end(const ThreadId& thread, std::vector<ActiveCallback>& active, ros2::Handle address,
+                              std::int64_t time_ns);
   // The callbacks still run when the trace ends.
   void abandon(const ThreadId& thread, const std::vector<ActiveCallback>& active, std::int64_t time_ns);
 

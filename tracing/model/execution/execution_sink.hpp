@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -66,13 +67,14 @@ struct MessageFlow {
   ObjectId subscription = kNoObject;
   ThreadId taking_thread;
   std::int64_t taken_ns = 0;  // rmw_take, or rclcpp_ring_buffer_dequeue
-  // When the executor's thread last became free before it took the message: the message could not be taken earlier. 0
-  // when the trace does not tell.
-  std::int64_t executor_free_ns = 0;
-  // When the executor's last wait before the take ended; 0 when the trace does not tell.
-  std::int64_t executor_woken_ns = 0;
+  // How much of the time from published_ns to taken_ns a thread of the executor waited for work, so that it could have
+  // taken the message. Nullopt when the trace does not tell.
+  std::optional<std::int64_t> executor_waited_ns;
   ObjectId callback = kNoObject;       // kNoObject: the thread gave the message to no callback
   std::int64_t callback_begin_ns = 0;  // it runs in the taking thread; 0 without a callback
+  // Without a callback: the message has arrived nevertheless. A waitable has taken it, such as a client of an action,
+  // or the program, which has asked for it.
+  bool needs_no_callback = false;
 };
 
 // A request to a service and its response. Told when the response is taken.
@@ -126,9 +128,11 @@ struct ThreadInterval {
   ThreadId thread;  // of a traced process
   std::int64_t begin_ns = 0;
   std::int64_t end_ns = 0;
-  std::int64_t cpu = 0;         // where it ran, or was to run
-  std::string_view other_name;  // runnable: the thread that had the processor last; empty: none
+  std::int64_t cpu = 0;  // where it ran, or was to run
+  // Runnable: the thread that had the processor for which this one waited for the longest time. Empty: none.
+  std::string_view other_name;
   std::int64_t other_tid = 0;
+  std::int64_t other_ns = 0;  // how long
 };
 
 // Memory that a thread asked the C library for.

@@ -110,15 +110,29 @@ void DeliveryStatistics::count_lost(DeliveryRecord& record, const MessageFlow& m
   (publisher->reliable && subscription->reliable ? record.lost_by_publisher : record.lost_in_transport) += count;
 }
 
+// A publisher with intra-process communication also publishes through the middleware if other processes listen. The
+// subscriptions of its own process take that copy, too, and rclcpp drops it.
+bool DeliveryStatistics::is_second_copy(const MessageFlow& message) const {
+  const Publication& publication = message.publication;
+  return message.callback == kNoObject && !message.needs_no_callback && publication.number != 0 &&
+         !publication.intra_process && publication.thread.process == message.taking_thread.process &&
+         model_.rclcpp_objects(message.subscription) > 1 && publishers_[publication.publisher].intra_process > 0;
+}
+
 void DeliveryStatistics::on_message(const MessageFlow& message) {
   const Publication& publication = message.publication;
   const bool is_known = publication.number != 0;
   DeliveryRecord& record = at(subscriptions_, message.subscription);
+  if (is_second_copy(message)) {
+    find_gaps(message);
+    return;
+  }
   ++record.received;
   if (publication.intra_process) {
     ++record.intra_process;
   }
-  ++(message.callback == kNoObject ? record.not_executed : record.delivered);
+  const bool is_delivered = message.callback != kNoObject || message.needs_no_callback;
+  ++(is_delivered ? record.delivered : record.not_executed);
   if (!is_known) {
     return;
   }

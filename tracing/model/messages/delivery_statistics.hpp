@@ -21,7 +21,7 @@ namespace tracing {
 struct DeliveryRecord {
   std::uint64_t received = 0;
   std::uint64_t intra_process = 0;  // part of received: without the middleware
-  std::uint64_t delivered = 0;      // to a callback
+  std::uint64_t delivered = 0;      // to a callback, a waitable, or the program that took it
   std::uint64_t not_executed = 0;   // taken, but given to no callback
 
   // Messages of publishers from which the subscription also got others.
@@ -74,6 +74,7 @@ class DeliveryStatistics : public ExecutionSink {
     std::deque<Sent> newest;  // the last ones; the very last one has place `count`
   };
 
+  bool is_second_copy(const MessageFlow& message) const;
   void find_gaps(const MessageFlow& message);
   void count_lost(DeliveryRecord& record, const MessageFlow& message, std::uint64_t count) const;
 

@@ -30,20 +30,37 @@ void IntraProcessMatcher::enqueue(const Origin& origin, const ros2::RclcppRingBu
   // The buffer of a publisher for late subscriptions always is full; nothing gets lost there.
   if (event.overwritten && buffer.subscription_object != 0) {
     ++record_.overwritten;
-    ++overwritten_[{origin.process, buffer.subscription_object}];
+    // Asked now: at the end of the trace, the object may be gone, or another one at its address.
+    const ObjectId subscription = model_.subscription_of_object(origin.process, buffer.subscription_object);
+    if (subscription != kNoObject) {
+      ++overwritten_[subscription];
+    } else {
+      ++overwritten_of_unknown_[{origin.process, buffer.subscription_object}];
+    }
   }
   buffer.slots[event.index] = publication.value_or(Publication());
 }
 
 BufferedMessage IntraProcessMatcher::dequeue(const Origin& origin, const ros2::RclcppRingBufferDequeue& event) {
   Buffer& buffer = buffers_[{origin.process, event.buffer}];
-  BufferedMessage message{buffer.subscription_object, {}};
+  BufferedMessage message{model_.subscription_of_object(origin.process, buffer.subscription_object), {}};
   if (auto slot = buffer.slots.extract(event.index)) {
     message.publication = slot.mapped();
   } else {
     ++record_.unknown;
   }
   return message;
+}
+
+std::map<ObjectId, std::uint64_t> IntraProcessMatcher::overwritten() const {
+  std::map<ObjectId, std::uint64_t> overwritten = overwritten_;
+  for (const auto& [object, count] : overwritten_of_unknown_) {
+    const ObjectId subscription = model_.subscription_of_object(object.first, object.second);
+    if (subscription != kNoObject) {
+      overwritten[subscription] += count;
+    }
+  }
+  return overwritten;
 }
 
 void IntraProcessMatcher::clear(const Origin& origin, const ros2::RclcppRingBufferClear& event) {

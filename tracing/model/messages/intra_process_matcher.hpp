@@ -14,8 +14,8 @@ namespace tracing {
 
 // A message that was taken out of a ring buffer.
 struct BufferedMessage {
-  ros2::Handle subscription_object = 0;  // 0: the init events of the buffer are not in the trace
-  Publication publication;               // has no number when the publication is not in the trace
+  ObjectId subscription = kNoObject;  // kNoObject: the init events of the buffer are not in the trace
+  Publication publication;            // has no number when the publication is not in the trace
 };
 
 struct BufferRecord {
@@ -26,6 +26,9 @@ struct BufferRecord {
 
 class IntraProcessMatcher {
  public:
+  // The model must outlive this object.
+  explicit IntraProcessMatcher(const ObjectModel& model) : model_(model) {}
+
   void on(const Origin& origin, const ros2::RclcppConstructRingBuffer& event);
   void on(const Origin& origin, const ros2::RclcppBufferToIpb& event);
   void on(const Origin& origin, const ros2::RclcppIpbToSubscription& event);
@@ -36,8 +39,8 @@ class IntraProcessMatcher {
   void clear(const Origin& origin, const ros2::RclcppRingBufferClear& event);
 
   const BufferRecord& record() const { return record_; }
-  // Of each subscription's object, by process and handle.
-  const std::map<std::pair<ProcessId, ros2::Handle>, std::uint64_t>& overwritten() const { return overwritten_; }
+  // Messages that newer ones have pushed out, by subscription.
+  std::map<ObjectId, std::uint64_t> overwritten() const;
 
  private:
   using Key = std::pair<ProcessId, ros2::Handle>;
@@ -46,10 +49,13 @@ class IntraProcessMatcher {
     std::map<std::uint64_t, Publication> slots;  // by index
   };
 
+  const ObjectModel& model_;
   std::map<Key, Buffer> buffers_;
   std::map<Key, ros2::Handle> buffer_of_ipb_;
   BufferRecord record_;
-  std::map<Key, std::uint64_t> overwritten_;
+  std::map<ObjectId, std::uint64_t> overwritten_;
+  // By the subscription's object, as long as no event has told whose it is.
+  std::map<Key, std::uint64_t> overwritten_of_unknown_;
 };
 
 }  // namespace tracing

@@ -114,13 +114,16 @@ void ObjectModel::on(const Origin& origin, const ros2::RclcppSubscriptionInit& e
   const ObjectId id = find(subscription_object_index_, origin.process, event.subscription);
   if (id == kNoObject) {
     add_subscription_object(origin.process, event.subscription, {subscription, false});
+    count_rclcpp_object(subscription);
     return;
   }
   SubscriptionObject& object = subscription_objects_[id];
   const bool callback_repeated = std::exchange(object.callback_repeated, false);
   if (object.subscription == kNoObject) {
     object.subscription = subscription;
+    count_rclcpp_object(subscription);
   } else if (object.subscription != subscription) {  // a new object at the address of an older one
+    count_rclcpp_object(subscription);
     const ObjectId added =
         add_subscription_object(origin.process, event.subscription, {subscription, callback_repeated});
     if (callback_repeated) {
@@ -345,6 +348,16 @@ ObjectId ObjectModel::node_of(const CallbackObject& callback) const {
       return kNoObject;
   }
   return kNoObject;
+}
+
+void ObjectModel::count_rclcpp_object(ObjectId subscription) {
+  if (subscription == kNoObject) {
+    return;
+  }
+  if (subscription >= rclcpp_objects_.size()) {
+    rclcpp_objects_.resize(subscription + 1);
+  }
+  ++rclcpp_objects_[subscription];
 }
 
 ObjectId ObjectModel::add_subscription_object(ProcessId process, ros2::Handle handle, SubscriptionObject object) {

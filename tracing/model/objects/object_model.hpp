@@ -70,6 +70,11 @@ class ObjectModel {
   ObjectId subscription(ProcessId process, ros2::Handle rcl_handle) const;
   // Of rclcpp's object around a subscription.
   ObjectId subscription_of_object(ProcessId process, ros2::Handle object) const;
+  // How many objects rclcpp has around a subscription: none if a waitable takes its messages, such as a client of an
+  // action; two with intra-process communication.
+  std::uint32_t rclcpp_objects(ObjectId subscription) const {
+    return subscription < rclcpp_objects_.size() ? rclcpp_objects_[subscription] : 0;
+  }
   RmwLookup rmw_publisher(ProcessId process, ros2::Handle handle) const;
   RmwLookup rmw_subscription(ProcessId process, ros2::Handle handle) const;
   ObjectId timer(ProcessId process, ros2::Handle handle) const;
@@ -114,12 +119,14 @@ class ObjectModel {
   bool is_endpoint(const Index& index, const std::vector<EndpointObject>& endpoints, ProcessId process,
                    ros2::Handle handle, const RmwLookup& rmw, const EndpointObject& endpoint) const;
   ObjectId topic(std::string_view name);
+  void count_rclcpp_object(ObjectId subscription);
   ObjectId add_subscription_object(ProcessId process, ros2::Handle handle, SubscriptionObject object);
 
   std::vector<NodeObject> nodes_;
   std::vector<TopicObject> topics_;
   std::vector<EndpointObject> publishers_;
   std::vector<EndpointObject> subscriptions_;
+  std::vector<std::uint32_t> rclcpp_objects_;  // by subscription, as far as there are some
   std::vector<SubscriptionObject> subscription_objects_;
   std::vector<TimerObject> timers_;
   std::vector<ServiceObject> services_;

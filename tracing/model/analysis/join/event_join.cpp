@@ -32,10 +32,15 @@ void EventJoin::on(const Origin& origin, const ros2::CallbackStart& event) {
   callbacks_.start({origin.process, origin.vtid}, running.active_callbacks,
                    {event.callback, id, origin.time_ns, event.is_intra_process});
   messages_.on_callback(origin, running, id, event.is_intra_process);
+  waits_.begin_callback(origin, running.waits, id);
 }
 
 void EventJoin::on(const Origin& origin, const ros2::CallbackEnd& event) {
-  callbacks_.end({origin.process, origin.vtid}, thread(origin).active_callbacks, event.callback, origin.time_ns);
+  const std::optional<ObjectId> ended =
+      callbacks_.end({origin.process, origin.vtid}, thread(origin).active_callbacks, event.callback, origin.time_ns);
+  if (ended) {
+    waits_.end_callback(origin, *ended);
+  }
 }
 
 void EventJoin::on(const Origin& origin, const ros2::RmwSendResponse& event) {
@@ -47,13 +52,11 @@ void EventJoin::on(const Origin& origin, const ros2::RclcppExecutorGetNextReady&
   ThreadState& spinning = thread(origin);
   spinning.execution.reset();
   const ThreadId thread{origin.process, origin.vtid};
-  if (spinning.woken_ns != 0) {
+  const bool is_first = spinning.waits.looked_ns == 0;
+  if (const std::optional<std::int64_t> begin_ns = waits_.look(origin, spinning.waits)) {
+    sink_.on_executor_wait({thread, *begin_ns, origin.time_ns});
+  } else if (!is_first) {
     sink_.on_executor_look({thread, origin.time_ns});
-    return;
-  }
-  spinning.woken_ns = origin.time_ns;
-  if (spinning.free_ns != 0) {
-    sink_.on_executor_wait({thread, spinning.free_ns, origin.time_ns});
   }
 }
 
@@ -61,12 +64,14 @@ void EventJoin::on(const Origin& origin, const ros2::RclcppExecutorWaitForWork&)
   ThreadState& spinning = thread(origin);
   spinning.execution.reset();
   messages_.give_to_none(origin, spinning);
-  spinning.free_ns = origin.time_ns;
-  spinning.woken_ns = 0;
+  spinning.executed = 0;
+  waits_.wait(origin, spinning.waits);
 }
 
-void EventJoin::on(const Origin& origin, const ros2::RclcppExecutorExecute&) {
-  thread(origin).execution.reset();
+void EventJoin::on(const Origin& origin, const ros2::RclcppExecutorExecute& event) {
+  ThreadState& executing = thread(origin);
+  executing.execution.reset();
+  messages_.on(origin, executing, event);
 }
 
 void EventJoin::on_execution(const Origin& origin, const ros2::ExecutionEvent& event) {

@@ -14,6 +14,7 @@
 #include "tracing/model/analysis/join/thread_state.hpp"
 #include "tracing/model/execution/callback_tracker.hpp"
 #include "tracing/model/execution/execution_tracker.hpp"
+#include "tracing/model/execution/executor_waits.hpp"
 #include "tracing/model/execution/lifecycle_tracker.hpp"
 #include "tracing/model/execution/thread_map.hpp"
 #include "tracing/model/messages/service_matcher.hpp"
@@ -28,7 +29,7 @@ class EventJoin {
       : model_(model),
         sink_(sink),
         callbacks_(sink),
-        messages_(model, sink),
+        messages_(model, waits_, sink),
         calls_(model, sink),
         executions_(model),
         lifecycle_(model, allocations, sink) {}
@@ -62,6 +63,7 @@ class EventJoin {
   ObjectModel& model_;
   ExecutionSink& sink_;
   CallbackTracker callbacks_;
+  ExecutorWaits waits_;
   MessageJoin messages_;
   ServiceMatcher calls_;
   ExecutionTracker executions_;

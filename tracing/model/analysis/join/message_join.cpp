@@ -125,29 +125,41 @@ void MessageJoin::give_to_none(const Origin& origin, ThreadState& thread) {
   }
 }
 
+// A waitable handles the messages of its subscription itself, such as those of an action client: rclcpp has no object
+// around it. A program may also take messages of any subscription where it likes; an executor says whom it executes.
+bool MessageJoin::needs_no_callback(const Origin& origin, const ThreadState& thread) const {
+  const ObjectId subscription = thread.taken->subscription;
+  return model_.rclcpp_objects(subscription) == 0 ||
+         (tells_executions_ &&
+          (thread.executed == 0 || model_.subscription(origin.process, thread.executed) != subscription));
+}
+
 void MessageJoin::tell_taken(const Origin& origin, ThreadState& thread, ObjectId callback) {
-  sink_.on_message({.publication = thread.taken->publication,
-                    .subscription = thread.taken->subscription,
-                    .taking_thread = {origin.process, origin.vtid},
-                    .taken_ns = thread.taken->taken_ns,
-                    .executor_free_ns = thread.free_ns,
-                    .executor_woken_ns = thread.woken_ns,
-                    .callback = callback,
-                    .callback_begin_ns = callback == kNoObject ? 0 : origin.time_ns});
+  sink_.on_message(
+      {.publication = thread.taken->publication,
+       .subscription = thread.taken->subscription,
+       .taking_thread = {origin.process, origin.vtid},
+       .taken_ns = thread.taken->taken_ns,
+       .executor_waited_ns = waits_.free_ns(origin.process, thread.waits, callback,
+                                            thread.taken->publication.published_ns, thread.taken->taken_ns),
+       .callback = callback,
+       .callback_begin_ns = callback == kNoObject ? 0 : origin.time_ns,
+       .needs_no_callback = callback == kNoObject && needs_no_callback(origin, thread)});
   thread.taken.reset();
 }
 
 void MessageJoin::tell_buffered(const Origin& origin, ThreadState& thread, ObjectId callback) {
-  const ObjectId subscription = model_.subscription_of_object(origin.process, thread.buffered->subscription_object);
+  const ObjectId subscription = thread.buffered->subscription;
   if (subscription != kNoObject) {
-    MessageFlow flow{.publication = thread.buffered->publication,
-                     .subscription = subscription,
-                     .taking_thread = {origin.process, origin.vtid},
-                     .taken_ns = thread.buffered_ns,
-                     .executor_free_ns = thread.free_ns,
-                     .executor_woken_ns = thread.woken_ns,
-                     .callback = callback,
-                     .callback_begin_ns = callback == kNoObject ? 0 : origin.time_ns};
+    MessageFlow flow{
+        .publication = thread.buffered->publication,
+        .subscription = subscription,
+        .taking_thread = {origin.process, origin.vtid},
+        .taken_ns = thread.buffered_ns,
+        .executor_waited_ns = waits_.free_ns(origin.process, thread.waits, callback,
+                                             thread.buffered->publication.published_ns, thread.buffered_ns),
+        .callback = callback,
+        .callback_begin_ns = callback == kNoObject ? 0 : origin.time_ns};
     flow.publication.topic = model_.subscriptions()[subscription].topic;
     flow.publication.intra_process = true;
     sink_.on_message(flow);

@@ -11,6 +11,7 @@
 #include "tracing/decode/reader/ros2_events.hpp"
 #include "tracing/model/analysis/join/thread_state.hpp"
 #include "tracing/model/execution/execution_sink.hpp"
+#include "tracing/model/execution/executor_waits.hpp"
 #include "tracing/model/messages/intra_process_matcher.hpp"
 #include "tracing/model/messages/message_matcher.hpp"
 #include "tracing/model/objects/object_model.hpp"
@@ -26,8 +27,9 @@ struct MessageCounts {
 
 class MessageJoin {
  public:
-  // Both must outlive this object.
-  MessageJoin(const ObjectModel& model, ExecutionSink& sink) : model_(model), sink_(sink) {}
+  // All must outlive this object.
+  MessageJoin(const ObjectModel& model, const ExecutorWaits& waits, ExecutionSink& sink)
+      : model_(model), waits_(waits), sink_(sink) {}
 
   // `thread`: that of the event. The caller keeps it between events.
   void on(const Origin& origin, ThreadState& thread, const ros2::RclcppPublish& event);
@@ -37,6 +39,10 @@ class MessageJoin {
   void on(const Origin& origin, ThreadState& thread, const ros2::RclcppIntraPublish& event);
   void on(const Origin& origin, ThreadState& thread, const ros2::RclcppRingBufferEnqueue& event);
   void on(const Origin& origin, ThreadState& thread, const ros2::RclcppRingBufferDequeue& event);
+  void on(const Origin&, ThreadState& thread, const ros2::RclcppExecutorExecute& event) {
+    thread.executed = event.handle;
+    tells_executions_ = true;
+  }
   void on(const Origin& origin, const ros2::RclcppRingBufferClear& event) { buffers_.clear(origin, event); }
   void on(const Origin& origin, const ros2::RclcppConstructRingBuffer& event) { buffers_.on(origin, event); }
   void on(const Origin& origin, const ros2::RclcppBufferToIpb& event) { buffers_.on(origin, event); }
@@ -58,14 +64,17 @@ class MessageJoin {
  private:
   // The thread gives its message to `callback`, or to none.
   void tell_taken(const Origin& origin, ThreadState& thread, ObjectId callback);
+  bool needs_no_callback(const Origin& origin, const ThreadState& thread) const;
   void tell_buffered(const Origin& origin, ThreadState& thread, ObjectId callback);
   void link(const Origin& origin, const std::vector<ros2::Handle>& subscriptions,
             const std::vector<ros2::Handle>& publishers);
 
   const ObjectModel& model_;
+  const ExecutorWaits& waits_;
   ExecutionSink& sink_;
   MessageMatcher messages_;
-  IntraProcessMatcher buffers_;
+  IntraProcessMatcher buffers_{model_};
+  bool tells_executions_ = false;  // the trace has rclcpp_executor_execute
   MessageCounts counts_;
 };
 

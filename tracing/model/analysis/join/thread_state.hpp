@@ -9,6 +9,7 @@
 
 #include "tracing/model/execution/callback_tracker.hpp"
 #include "tracing/model/execution/execution_tracker.hpp"
+#include "tracing/model/execution/executor_waits.hpp"
 #include "tracing/model/messages/intra_process_matcher.hpp"
 #include "tracing/model/messages/message_matcher.hpp"
 
@@ -19,8 +20,8 @@ struct ThreadState {
   std::optional<ActiveExecution> execution;
 
   // Of the executor that spins in this thread.
-  std::int64_t free_ns = 0;   // its last wait for work began
-  std::int64_t woken_ns = 0;  // that wait ended; 0: not yet
+  ThreadWaits waits;
+  ros2::Handle executed = 0;  // rcl's handle of the timer or subscription that it executed last, since its last wait
 
   // The thread's last rclcpp_publish and rcl_publish, which its rmw_publish follows.
   ros2::Handle rclcpp_message = 0;

@@ -72,25 +72,15 @@ std::vector<TopicResult> topic_results(const Subjects& subjects, const MessageMa
   return results;
 }
 
-std::map<ObjectId, std::uint64_t> overwritten_in_buffers(const ObjectModel& model, const IntraProcessMatcher& buffers) {
-  std::map<ObjectId, std::uint64_t> counts;
-  for (const auto& [object, count] : buffers.overwritten()) {
-    const ObjectId subscription = model.subscription_of_object(object.first, object.second);
-    if (subscription != kNoObject) {
-      counts[subscription] += count;
-    }
-  }
-  return counts;
-}
-
 std::vector<SubscriptionResult> subscription_results(const Subjects& subjects, const DeliveryStatistics& deliveries,
                                                      const IntraProcessMatcher& buffers) {
   const ObjectModel& model = subjects.model();
-  std::map<ObjectId, std::uint64_t> overwritten_in_buffer = overwritten_in_buffers(model, buffers);
+  std::map<ObjectId, std::uint64_t> overwritten_in_buffer = buffers.overwritten();
   std::vector<SubscriptionResult> results;
-  for (ObjectId id = 0; id < deliveries.subscriptions().size(); ++id) {
-    const DeliveryRecord& record = deliveries.subscriptions()[id];
-    if (record.received == 0) {
+  const DeliveryRecord nothing;
+  for (ObjectId id = 0; id < model.subscriptions().size(); ++id) {
+    const DeliveryRecord& record = id < deliveries.subscriptions().size() ? deliveries.subscriptions()[id] : nothing;
+    if (record.received == 0 && !overwritten_in_buffer.contains(id)) {
       continue;
     }
     const EndpointObject& subscription = model.subscriptions()[id];

@@ -60,8 +60,6 @@ std::vector<TopicResult> topic_results(const Subjects& subjects, const MessageMa
                                        const DeliveryStatistics& deliveries);
 std::vector<SubscriptionResult> subscription_results(const Subjects& subjects, const DeliveryStatistics& deliveries,
                                                      const IntraProcessMatcher& buffers);
-// Messages that newer ones have pushed out of ring buffers, by subscription.
-std::map<ObjectId, std::uint64_t> overwritten_in_buffers(const ObjectModel& model, const IntraProcessMatcher& buffers);
 
 std::vector<CallResult> call_results(const Subjects& subjects, const ServiceMatcher& calls);
 
