@@ -74,9 +74,28 @@ TEST_F(Scheduler, DividesTheTimeOfACallback) {
   EXPECT_EQ(callback.blocked.max_ns, 300);
   EXPECT_EQ(callback.longest_runnable_ns, 8'000);
   EXPECT_EQ(callback.ran_instead, "stress");
+  EXPECT_EQ(callback.ran_instead_ns, 8'000);
   using State = ThreadInterval::State;
   EXPECT_EQ(sink_.states, (std::vector{State::kBlocked, State::kRunnable, State::kRunning, State::kRunnable,
                                        State::kRunning, State::kBlocked, State::kRunnable}));
+}
+
+// The last one before the thread came back had the processor for a moment only.
+TEST_F(Scheduler, NamesTheThreadThatHadTheProcessorLongest) {
+  constexpr Thread kMunged{91, 91, "munged"};
+  switches(100, kSleeper, 1, kIdle);
+  switches(210, kIdle, 0, kSleeper);
+  writes(1'000, ros2::CallbackStart{0xcb, false});
+  switches(1'100, kSleeper, 0, kStress);
+  switches(5'100, kStress, 0, kMunged);
+  switches(5'200, kMunged, 1, kStress);
+  switches(9'100, kStress, 0, kMunged);
+  switches(9'200, kMunged, 1, kSleeper);
+  writes(10'000, ros2::CallbackEnd{0xcb});
+  const CallbackResult callback = result();
+  EXPECT_EQ(callback.longest_runnable_ns, 8'100);
+  EXPECT_EQ(callback.ran_instead, "stress");
+  EXPECT_EQ(callback.ran_instead_ns, 7'900);
 }
 
 TEST_F(Scheduler, SaysNothingOfAThreadThatTheKernelDidNotTellOf) {

@@ -89,6 +89,7 @@ void CallbackTiming::on_thread_state(const ThreadInterval& interval) {
     if (took > timing.longest_runnable_ns) {
       timing.longest_runnable_ns = took;
       timing.ran_instead = interval.other_name;
+      timing.ran_instead_ns = std::min(interval.other_ns, took);
     }
   }
 }

@@ -28,7 +28,8 @@ struct CallbackTimingRecord {
   DurationStatistics runnable;  // waited for a processor
   DurationStatistics blocked;
   std::int64_t longest_runnable_ns = 0;  // without a break
-  std::string ran_instead;               // the thread that had the processor last in that time
+  std::string ran_instead;               // the thread that had the processor for most of that time
+  std::int64_t ran_instead_ns = 0;       // for how long
 };
 
 class CallbackTiming : public ExecutionSink {

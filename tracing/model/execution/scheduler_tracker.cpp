@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/model/execution/scheduler_tracker.hpp"
 
+#include <algorithm>
+#include <map>
+
 namespace tracing {
 
 namespace {
@@ -8,6 +11,7 @@ namespace {
 // A thread that was switched off while it could go on: TASK_RUNNING, and what newer kernels record for a preempted one.
 constexpr std::int64_t kRunning = 0;
 constexpr std::int64_t kPreempted = 0x100;
+constexpr std::size_t kTurns = 4'096;  // of a processor that are remembered
 
 std::int64_t number(const Event& event, std::size_t field) {
   return event.field(field).integer().value_or(0);
@@ -25,26 +29,68 @@ SchedulerTracker::Plan SchedulerTracker::plan_of(const EventClass& event_class) 
     if (!previous_tid || !previous_state || !previous_name || !next_tid) {
       return plan;
     }
-    plan = {Kind::kSwitch, *previous_tid, *previous_state, *previous_name, *next_tid, 0};
+    plan = {Kind::kSwitch, *previous_tid, *previous_state, *previous_name, *next_tid, 0, {}};
   } else if (event_class.name == "sched_wakeup" || event_class.name == "sched_waking" ||
              event_class.name == "sched_wakeup_new") {
     if (const auto tid = event_class.index_of("tid")) {
-      plan = {Kind::kWakeup, 0, 0, 0, 0, *tid};
+      plan = {Kind::kWakeup, 0, 0, 0, 0, *tid, event_class.index_of("target_cpu")};
     }
   }
   return plan;
 }
 
+void SchedulerTracker::end_turn(std::int64_t cpu, std::int64_t time_ns, std::int64_t tid, std::int64_t next_tid) {
+  Processor& processor = processors_[cpu];
+  if (processor.turn.begin_ns != 0 && processor.turn.tid == tid) {
+    processor.newest.push_back({processor.turn.begin_ns, time_ns, tid});
+    if (processor.newest.size() > kTurns) {
+      processor.newest.pop_front();
+    }
+  }
+  processor.turn = {time_ns, 0, next_tid};
+}
+
+SchedulerTracker::Other SchedulerTracker::longest_on(std::int64_t cpu, std::int64_t begin_ns,
+                                                     std::int64_t end_ns) const {
+  const auto processor = processors_.find(cpu);
+  if (processor == processors_.end()) {
+    return {};
+  }
+  std::map<std::int64_t, std::int64_t> times;
+  const auto add = [&](const Turn& turn, std::int64_t turn_end_ns) {
+    const std::int64_t ns = std::min(turn_end_ns, end_ns) - std::max(turn.begin_ns, begin_ns);
+    if (ns > 0 && turn.tid != 0) {
+      times[turn.tid] += ns;
+    }
+  };
+  const std::deque<Turn>& newest = processor->second.newest;
+  for (auto turn = newest.rbegin(); turn != newest.rend() && turn->end_ns > begin_ns; ++turn) {
+    add(*turn, turn->end_ns);
+  }
+  if (processor->second.turn.begin_ns != 0) {
+    add(processor->second.turn, end_ns);
+  }
+  Other longest;
+  for (const auto& [tid, ns] : times) {
+    if (ns > longest.ns) {
+      longest = {tid, ns};
+    }
+  }
+  return longest;
+}
+
 void SchedulerTracker::change(KernelThread& thread, ThreadInterval::State state, std::int64_t time_ns,
-                              std::string_view other_name, std::int64_t other_tid) {
+                              const Other& other) {
   if (thread.id && thread.since_ns != 0 && time_ns > thread.since_ns) {
+    const auto name = names_.find(other.tid);
     sink_.on_thread_state({.state = thread.state,
                            .thread = *thread.id,
                            .begin_ns = thread.since_ns,
                            .end_ns = time_ns,
                            .cpu = thread.cpu,
-                           .other_name = other_name,
-                           .other_tid = other_tid});
+                           .other_name = name == names_.end() ? std::string_view() : name->second,
+                           .other_tid = other.tid,
+                           .other_ns = other.ns});
   }
   thread.state = state;
   thread.since_ns = time_ns;
@@ -55,7 +101,13 @@ void SchedulerTracker::on_switch(const Event& event, const Plan& plan, ProcessId
   const std::int64_t previous_tid = number(event, plan.previous_tid);
   const std::int64_t next_tid = number(event, plan.next_tid);
   const std::int64_t cpu = event.cpu_id.value_or(0);
+  end_turn(cpu, event.timestamp_ns, previous_tid, next_tid);
   if (previous_tid != 0) {  // the idle thread of each processor has number 0
+    std::string& name = names_[previous_tid];
+    const std::string_view name_now = event.field(plan.previous_name).string().value_or("");
+    if (name != name_now) {
+      name = name_now;
+    }
     KernelThread& previous = thread(previous_tid);
     if (!previous.id) {
       previous.id = ThreadId{process, event.vtid.value_or(previous_tid)};
@@ -63,15 +115,17 @@ void SchedulerTracker::on_switch(const Event& event, const Plan& plan, ProcessId
     const std::int64_t state = number(event, plan.previous_state);
     previous.cpu = cpu;
     change(previous, state == kRunning || state == kPreempted ? State::kRunnable : State::kBlocked, event.timestamp_ns,
-           {}, 0);
+           {});
   }
   if (next_tid != 0) {
     KernelThread& next = thread(next_tid);
+    // It waited for the processor on which it was, or was woken to run, and may have been moved to another one.
+    Other other;
+    if (next.state == State::kRunnable && next.id && next.since_ns != 0) {
+      other = longest_on(next.cpu, next.since_ns, event.timestamp_ns);
+    }
     next.cpu = cpu;
-    const bool waited = next.state == State::kRunnable && previous_tid != 0;
-    change(next, State::kRunning, event.timestamp_ns,
-           waited ? event.field(plan.previous_name).string().value_or("") : std::string_view(),
-           waited ? previous_tid : 0);
+    change(next, State::kRunning, event.timestamp_ns, other);
   }
 }
 
@@ -93,7 +147,10 @@ bool SchedulerTracker::on_event(const Event& event, ProcessId process) {
   }
   KernelThread& woken = thread(number(event, plan.tid));
   if (woken.state == ThreadInterval::State::kBlocked) {
-    change(woken, ThreadInterval::State::kRunnable, event.timestamp_ns, {}, 0);
+    change(woken, ThreadInterval::State::kRunnable, event.timestamp_ns, {});
+    if (plan.target_cpu) {
+      woken.cpu = number(event, *plan.target_cpu);
+    }
   }
   return true;
 }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -31,6 +32,7 @@ class SchedulerTracker {
     std::size_t previous_name = 0;
     std::size_t next_tid = 0;
     std::size_t tid = 0;
+    std::optional<std::size_t> target_cpu{};
   };
   struct KernelThread {
     std::optional<ThreadId> id;  // nullopt until it was switched off once
@@ -38,16 +40,35 @@ class SchedulerTracker {
     std::int64_t since_ns = 0;  // 0: not known yet
     std::int64_t cpu = 0;
   };
+  // A time in which a thread had a processor.
+  struct Turn {
+    std::int64_t begin_ns = 0;
+    std::int64_t end_ns = 0;
+    std::int64_t tid = 0;
+  };
+  struct Processor {
+    Turn turn;  // of the thread that has it; it has no end yet
+    std::deque<Turn> newest;
+  };
+  struct Other {
+    std::int64_t tid = 0;
+    std::int64_t ns = 0;
+  };
 
   static Plan plan_of(const EventClass& event_class);
   KernelThread& thread(std::int64_t tid) { return threads_[tid]; }
-  void change(KernelThread& thread, ThreadInterval::State state, std::int64_t time_ns, std::string_view other_name,
-              std::int64_t other_tid);
+  // `other`: of the state that ends.
+  void change(KernelThread& thread, ThreadInterval::State state, std::int64_t time_ns, const Other& other);
+  void end_turn(std::int64_t cpu, std::int64_t time_ns, std::int64_t tid, std::int64_t next_tid);
+  // Who had the processor longest in this time.
+  Other longest_on(std::int64_t cpu, std::int64_t begin_ns, std::int64_t end_ns) const;
   void on_switch(const Event& event, const Plan& plan, ProcessId process);
 
   ExecutionSink& sink_;
   std::vector<std::optional<Plan>> plans_;                  // by EventClass::id
   std::unordered_map<std::int64_t, KernelThread> threads_;  // by the kernel's number
+  std::unordered_map<std::int64_t, std::string> names_;     // likewise
+  std::unordered_map<std::int64_t, Processor> processors_;
 };
 
 }  // namespace tracing

@@ -228,7 +228,10 @@ std::optional<Finding> starved(const TraceResults& results) {
     if (callback.longest_runnable_ns < kLongTail) {
       continue;
     }
-    const std::string other = callback.ran_instead.empty() ? "" : fmt::format(" while '{}' ran", callback.ran_instead);
+    const std::string other =
+        callback.ran_instead.empty()
+            ? ""
+            : fmt::format(", which '{}' had for {}", callback.ran_instead, duration(callback.ran_instead_ns));
     const double milliseconds = static_cast<double>(callback.longest_runnable_ns) / 1e6;
     offer(best, {Finding::Kind::kStarvedCallback, std::min(95.0, 50 + 15 * std::log10(1 + milliseconds)),
                  label(hosts, callback),

@@ -91,7 +91,7 @@ struct ThreadState {
   std::int64_t begin_ns = 0;
   std::int64_t end_ns = 0;
   Index thread = kNone;
-  Index other = kNone;  // index in other_threads: runnable, which thread had the processor last; kNone: none
+  Index other = kNone;  // index in other_threads: runnable, which thread had the processor longest; kNone: none
   std::int32_t cpu = 0;
   State state = State::kRunning;
 };

@@ -32,6 +32,7 @@ struct CallbackResult {
   DurationSummary blocked;
   std::int64_t longest_runnable_ns = 0;
   std::string ran_instead;
+  std::int64_t ran_instead_ns = 0;
   bool doubtful = false;
 
   const char* owner_word() const;
@@ -69,10 +70,11 @@ inline constexpr Field<CallbackResult> CallbackResult::kFields[] = {
     {"intra_process", &CallbackResult::intra_process, "how many of these got their message from within the process"},
     {"unfinished", &CallbackResult::unfinished,
      "instances without an end: an exception, a killed process, or still running"},
-    {"rate_hz", &CallbackResult::rate_hz, "begins in a second, between the first and the last one; 0 for a single one"},
+    {"rate_hz", &CallbackResult::rate_hz,
+     "begins in a second, between the first and the last one; 0 for a single one"},
     {"interval", &CallbackResult::interval, "from one begin to the next"},
-    {"jitter", &CallbackResult::jitter, "of a timer: distance of the intervals from the period", trait::kPlain,
-     &CallbackResult::is_of_timer},
+    {"jitter", &CallbackResult::jitter, "of a timer: distance of the intervals from the period",
+     trait::kPlain, &CallbackResult::is_of_timer},
     {"missed", &CallbackResult::missed, "of a timer: periods without a call", trait::kPlain,
      &CallbackResult::is_of_timer},
     {"overruns", &CallbackResult::overruns, "of a timer: runs that took longer than the period", trait::kPlain,
@@ -90,7 +92,9 @@ inline constexpr Field<CallbackResult> CallbackResult::kFields[] = {
      &CallbackResult::has_thread_states},
     {"longest_runnable_ns", &CallbackResult::longest_runnable_ns, "the longest wait for a processor without a break",
      trait::kPlain, &CallbackResult::has_thread_states},
-    {"ran_instead", &CallbackResult::ran_instead, "the thread that had the processor last in that time", trait::kPlain,
+    {"ran_instead", &CallbackResult::ran_instead, "the thread that had the processor for most of that time",
+     trait::kPlain, &CallbackResult::has_thread_states},
+    {"ran_instead_ns", &CallbackResult::ran_instead_ns, "for how long", trait::kPlain,
      &CallbackResult::has_thread_states},
     {"doubtful", &CallbackResult::doubtful, "its process may have lost events"},
 };

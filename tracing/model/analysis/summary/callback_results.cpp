@@ -59,6 +59,7 @@ CallbackResult callback_result(const Subjects& subjects, ObjectId id, const Call
   result.blocked = timing.blocked.summary();
   result.longest_runnable_ns = timing.longest_runnable_ns;
   result.ran_instead = timing.ran_instead;
+  result.ran_instead_ns = timing.ran_instead_ns;
   return result;
 }
 
