@@ -136,6 +136,13 @@ void say_what_is_open(const tracing::TraceReader& reader) {
   }
 }
 
+// Before the events, because nobody may look behind them.
+void say_what_is_missing(const tracing::TraceReader& reader) {
+  for (const std::string& line : reader.damage()) {
+    std::fputs(fmt::format("launch trace read: warning: {}\n", line).c_str(), stderr);
+  }
+}
+
 void say_that_there_is_no_such_node(const tracing::EventFilter& filter) {
   if (filter.nodes.empty() || (filter.node_filter() != nullptr && filter.node_filter()->has_match())) {
     return;
@@ -155,6 +162,7 @@ int read_into(const Arguments& arguments, tracing::TraceSink& sink) {
   try {
     tracing::TraceReader reader(arguments.directories);
     say_what_is_open(reader);
+    say_what_is_missing(reader);
     if (arguments.limit != 0) {
       reader.read(sink);
     }

@@ -99,8 +99,14 @@ int print_summary(const Arguments& arguments) {
   tracing::TraceReader reader(arguments.paths);
   say_what_is_open(reader.open_directories());
   reader.read(counter);
-  print_out(summary_line(counter.overview(), tracing::read_verdicts(arguments.paths)) + "\n");
-  return kSuccess;
+  const tracing::RecordedVerdict verdict = tracing::read_verdicts(arguments.paths);
+  print_out(summary_line(counter.overview(), verdict) + "\n");
+  const std::string missing = reader.open_directories().empty() ? missing_events(verdict, counter.overview()) : "";
+  if (missing.empty()) {
+    return kSuccess;
+  }
+  print_error(missing);
+  return kFailure;
 }
 
 int print_recorded(const Arguments& arguments) {
@@ -221,6 +227,13 @@ int print_report(const Arguments& arguments) {
     report.error = error.what();
     print_error(error.what(), error.remedy());
     exit_code = kFailure;
+  }
+  if (report.error.empty() && report.open.empty()) {
+    report.error = missing_events(report.verdict, report.results.overview);
+    if (!report.error.empty()) {
+      print_error(report.error);
+      exit_code = kFailure;
+    }
   }
   report.lacks_descriptions = reader.lacks_descriptions();
   report.sessions = tracing::several_sessions(reader.traces());

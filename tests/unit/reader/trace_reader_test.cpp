@@ -256,8 +256,17 @@ TEST(TraceReader, NamesTheTraceWhoseMetadataAreDamaged) {
   EXPECT_EQ(error.what(), "cannot read the trace '" + directory.path().string() + "': Cannot create trace for `" +
                               directory.path().string() + "`.");
   EXPECT_EQ(error.remedy(),
-            "a file of it is incomplete or not CTF 1.8: a full disk or a killed session daemon leaves such a trace");
+            "its metadata are damaged or not those of CTF 1.8; a full disk or a killed session daemon cuts them");
   EXPECT_NE(error.details(), "");
+}
+
+TEST(TraceReader, SaysThatItDoesNotKnowCtf2) {
+  const TemporaryDirectory directory;
+  std::ofstream(directory.path() / "metadata") << "\x1e"
+                                                  R"({"type": "preamble", "version": 2})";
+  RecordingSink sink;
+  EXPECT_EQ(error_of(directory.path(), sink).remedy(),
+            "it is a trace of CTF 2, and this reader knows CTF 1.8; babeltrace2 from version 2.1 on converts it");
 }
 
 TEST(TraceReader, NamesTheStreamFileThatIsTruncated) {

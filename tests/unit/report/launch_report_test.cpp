@@ -132,6 +132,29 @@ TEST_F(LaunchReport, WhatTheVerdictMissesIsRepeated) {
   EXPECT_EQ(cost["processes"][0]["vpid"], 71);
 }
 
+// A stream file and its index are gone, or another session with the same processes was given.
+TEST_F(LaunchReport, EventsThatTheVerdictCountsAndTheTraceLacksAreDamage) {
+  TraceWriter writer(directory_.path() / "ust/uid/0/64-bit");
+  write_ping_pong(writer);
+  writer.finish();
+  const auto write_verdict = [this](std::uint64_t events) {
+    std::ofstream(directory_.path() / "verdict.json")
+        << R"json({"damage": "", "cut_short": false, "lost_by_process": {"method": "exact"}, "processes": [
+                   {"name": "ping", "pid": 71, "events": )json"
+        << events << R"json(, "lost": 3}]})json";
+  };
+  write_verdict(1003);
+  const Outcome outcome = launch_report(path_);
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("\nDamaged    971 events that the session recorded are missing: ping [71] 971 of "
+                                     "1000\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("\nLosses     unknown, as a part of the trace is missing\n"));
+  EXPECT_THAT(outcome.err, HasSubstr("971 events that the session recorded are missing"));
+  EXPECT_EQ(launch_report(path_ + " --summary").exit_code, 1);
+  write_verdict(32);
+  EXPECT_EQ(launch_report(path_).exit_code, 0);
+}
+
 TEST_F(LaunchReport, WhatWasOverwrittenOrOnlyTheDaemonCountedIsSaid) {
   TraceWriter writer(directory_.path() / "ust/uid/0/64-bit");
   write_ping_pong(writer);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
 #include <optional>
 
 #include "tracing/decode/reader/babeltrace.hpp"
@@ -17,6 +18,21 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kDamagedRemedy = "what comes before the damage was read";
+constexpr const char* kBesideRemedy = "what can be read beside the damage was read";
+
+// What to do about a trace that nobody can read.
+std::string remedy_of(const fs::path& trace) {
+  constexpr char kRecordSeparator = '\x1e';  // metadata of CTF 2 are a sequence of JSON texts
+  std::ifstream metadata(trace / "metadata", std::ios::binary);
+  const auto first = metadata.get();
+  if (first == kRecordSeparator || first == '{' || first == '[') {
+    return "it is a trace of CTF 2, and this reader knows CTF 1.8; babeltrace2 from version 2.1 on converts it";
+  }
+  if (first == std::ifstream::traits_type::eof()) {
+    return "its metadata are empty: a full disk or a killed session daemon leaves such a trace";
+  }
+  return "its metadata are damaged or not those of CTF 1.8; a full disk or a killed session daemon cuts them";
+}
 
 void add_source(babeltrace::MessageGraph& graph, const TraceDirectories& directories) {
   const babeltrace::Value parameters(bt_value_map_create());
@@ -27,8 +43,7 @@ void add_source(babeltrace::MessageGraph& graph, const TraceDirectories& directo
   }
   graph.add_source(directories.front(), parameters.get(),
                    fmt::format("cannot read the trace '{}'", directories.front().string()),
-                   "a file of it is incomplete or not CTF 1.8: a full disk or a killed session daemon leaves such a "
-                   "trace");
+                   remedy_of(directories.front()));
 }
 
 }  // namespace
@@ -81,10 +96,21 @@ TraceItem BabeltraceReader::next() {
     }
   } catch (const TraceReadError& error) {
     reader.is_at_end = true;
-    reader.damage = error;
+    if (!reader.damage) {
+      reader.damage = error;
+    }
     reader.damage_lines.emplace_back(error.what());
   }
   return {};
+}
+
+void BabeltraceReader::note(const std::string& damage) {
+  Implementation& reader = *implementation_;
+  if (!reader.damage) {
+    reader.damage = TraceReadError(
+        fmt::format("the trace '{}' is damaged or ends early: {}", reader.directory.string(), damage), kBesideRemedy);
+  }
+  reader.damage_lines.push_back(damage);
 }
 
 void BabeltraceReader::throw_damage() const {

@@ -18,6 +18,8 @@ class BabeltraceReader {
   BabeltraceReader(const std::filesystem::path& directory, const std::vector<std::filesystem::path>& traces);
   ~BabeltraceReader();
 
+  // Adds a line to damage().
+  void note(const std::string& damage);
   // As in TraceReader.
   TraceItem next();
   void throw_damage() const;

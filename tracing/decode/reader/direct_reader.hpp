@@ -20,6 +20,8 @@ class DirectReader {
                const std::vector<std::filesystem::path>& open);
   ~DirectReader();
 
+  // Adds a line to damage().
+  void note(const std::string& damage);
   // Gives all items, and throws nothing of its own.
   void read(TraceSink& sink);
   // As in TraceReader.
@@ -37,7 +39,6 @@ class DirectReader {
   void open_trace(Trace& trace);
   bool advance_to_earliest();
   void advance(OpenStream& stream);
-  void note(const std::string& damage);
 
   std::filesystem::path directory_;
   std::deque<TraceDescription> descriptions_;

@@ -41,7 +41,7 @@ class TraceReader {
   TraceItem next();
   void throw_damage() const;
 
-  // What could not be read so far, a line each.
+  // What could not be read so far, a line each. Files that are missing are known before the first item.
   const std::vector<std::string>& damage() const;
   // Directories with files that a program was writing when the reading began. Such a trace ends with the last packet
   // that was complete.

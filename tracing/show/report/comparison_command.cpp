@@ -49,8 +49,12 @@ compare::RunSummary read_run(const std::vector<fs::path>& directories) {
   }
   compare::RunSummary run = recorder.finish(analysis, results);
   run.directory = directories.front().native();
-  if (!results.overview.losses.empty()) {
-    run.remark = loss_phrase(results.overview);
+  const RecordedVerdict verdict = read_verdicts(directories);
+  if (!results.overview.losses.empty() || verdict.discarded_events > 0 || verdict.lost_packets > 0) {
+    run.remark = loss_phrase(results.overview, verdict);
+  }
+  if (error.empty() && reader.open_directories().empty()) {
+    error = missing_events(verdict, results.overview);
   }
   if (!error.empty()) {
     run.remark += (run.remark.empty() ? "" : ", ") + error;

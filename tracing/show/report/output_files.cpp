@@ -94,6 +94,9 @@ TracedSystem read(const std::vector<fs::path>& directories, const OutputFiles& f
     model->finish();
   }
   system.results = analysis.finish();
+  if (system.error.empty() && system.open.empty()) {
+    system.error = missing_events(system.verdict, system.results.overview);
+  }
   system.timeline = recorder.finish(analysis, system.results.overview);
   return system;
 }

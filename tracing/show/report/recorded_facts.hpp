@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tracing/decode/reader/event.hpp"
+#include "tracing/model/analysis/results/overview.hpp"
 #include "tracing/model/timeline/recorded_verdict.hpp"
 
 namespace tracing {
@@ -19,5 +20,8 @@ std::vector<std::string> several_sessions(const std::deque<TraceDescription>& tr
 // What all files verdict.json in the directories and below them say, each once. A file that cannot be read says
 // nothing.
 RecordedVerdict read_verdicts(const std::vector<std::filesystem::path>& directories);
+
+// A sentence if the trace has fewer events of some processes than the verdict says; else empty.
+std::string missing_events(const RecordedVerdict& verdict, const TraceOverview& overview);
 
 }  // namespace tracing

@@ -64,8 +64,11 @@ std::string head(const Report& report, bool color) {
   text += cost_line(report);
   const bool doubtful = !overview.losses.empty();
   const RecordedVerdict& verdict = report.verdict;
-  const bool none = !doubtful && verdict.discarded_events == 0 && verdict.lost_packets == 0;
-  const std::string losses = none && verdict.overwritten.empty() ? "no events lost" : loss_phrase(overview, verdict);
+  const bool counts_none = !doubtful && verdict.discarded_events == 0 && verdict.lost_packets == 0;
+  const bool none = counts_none && report.error.empty();
+  const std::string losses = counts_none && !none                  ? "unknown, as a part of the trace is missing"
+                             : none && verdict.overwritten.empty() ? "no events lost"
+                                                                   : loss_phrase(overview, verdict);
   return text + "Losses     " +
          styled(losses + (doubtful ? "; results marked with * may be wrong" : ""), none ? Style::kGood : Style::kBad,
                 color) +
