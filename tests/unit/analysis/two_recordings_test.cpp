@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two recordings below one directory whose processes have equal ids.
+// Two recordings below one directory whose processes have equal ids: two systems, or one that two sessions record.
 #include <gtest/gtest.h>
+
+#include <variant>
 
 #include "tests/support/trace_writer/ping_pong_sequence.hpp"
 #include "tests/support/trace_writer/temporary_directory.hpp"
@@ -13,18 +15,42 @@ namespace {
 using testing::TemporaryDirectory;
 using testing::TraceWriter;
 
-TEST(TwoRecordings, WithEqualProcessIdsHaveFourProcesses) {
-  const TemporaryDirectory directory;
+// `distance`: how far the contexts of the second system are from those of the first one.
+TraceResults results_of(const std::filesystem::path& directory, std::uint64_t distance) {
   for (const std::uint8_t identity : {1, 2}) {
-    TraceWriter writer(directory.path() / std::to_string(identity), {.identity = identity});
-    for (const auto& [time, thread, event] : testing::ping_pong_sequence()) {
+    TraceWriter writer(directory / std::to_string(identity), {.identity = identity});
+    for (auto [time, thread, event] : testing::ping_pong_sequence()) {
+      if (auto* const init = std::get_if<ros2::RclInit>(&event)) {
+        init->context_handle += (identity - 1) * distance;
+      }
       writer.write(thread.vpid == testing::kPing.vpid ? 0 : 1, time + identity, thread, event);
     }
     writer.finish();
   }
   TraceAnalysis analysis;
-  TraceReader(directory.path()).read(analysis);
-  const TraceResults results = analysis.finish();
+  TraceReader(directory).read(analysis);
+  return analysis.finish();
+}
+
+// A tracepoint hands its event to both sessions, so it is there twice.
+TEST(TwoRecordings, OfOneSystemHaveItsProcessesAndEventsOnce) {
+  const TemporaryDirectory directory;
+  const TraceResults results = results_of(directory.path(), 0);
+  ASSERT_EQ(results.overview.processes.size(), 2u);
+  EXPECT_EQ(results.overview.processes[0].vpid, 71);
+  EXPECT_EQ(results.overview.processes[1].vpid, 72);
+  ASSERT_EQ(results.ros2.callbacks.size(), 3u);
+  for (const CallbackResult& callback : results.ros2.callbacks) {
+    EXPECT_EQ(callback.durations.count, 1u);
+    EXPECT_EQ(callback.unfinished, 0u);
+  }
+  EXPECT_EQ(results.ros2.executors.size(), 2u);
+  EXPECT_EQ(results.ros2.nodes.size(), 2u);
+}
+
+TEST(TwoRecordings, WithEqualProcessIdsHaveFourProcesses) {
+  const TemporaryDirectory directory;
+  const TraceResults results = results_of(directory.path(), std::uint64_t{1} << 40);
   ASSERT_EQ(results.overview.processes.size(), 4u);
   EXPECT_EQ(results.overview.processes[0].vpid, 71);
   EXPECT_EQ(results.overview.processes[1].vpid, 71);

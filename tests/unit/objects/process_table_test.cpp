@@ -73,6 +73,18 @@ TEST(ProcessTable, FindsAProcessOfTheSameSession) {
   EXPECT_EQ(table.beside(launcher, 72), std::nullopt);
 }
 
+TEST(ProcessTable, TellsMachinesOfOneNameApartByTheirBoots) {
+  const Recording namesake{.host = "robot", .machine = "0123456789ab", .session = "drive monday"};
+  const EventClass of_namesake = class_of(5, namesake);
+  ProcessTable table;
+  const ProcessId monday = table.of(event_of(kOfMonday, 71));
+  EXPECT_EQ(table.host_of(monday), "robot");
+  const ProcessId other = table.of(event_of(of_namesake, 71));
+  EXPECT_NE(other, monday);
+  EXPECT_EQ(table.host_of(other), "robot (boot 01234567)");
+  EXPECT_EQ(table.host_of(monday), "robot (boot boot-1)");
+}
+
 TEST(Recording, IsTheSameForTheHalvesOfADualSession) {
   const RecordingFacts snapshot{.hostname = "robot",
                                 .domain = "ust",

@@ -97,7 +97,12 @@ std::vector<ProcessId> OverviewCounter::processes_that_lost(const CountedLoss& l
 // The processes that have events, in the order of the overview.
 std::vector<ProcessId> OverviewCounter::order() const {
   std::vector<ProcessId> order;
+  std::vector<std::string> hosts;
   for (ProcessId process = 0; process < processes_.processes().size(); ++process) {
+    hosts.push_back(processes_.host_of(process));
+    if (processes_.processes()[process].merged_into != kNoProcess) {
+      continue;
+    }
     const bool has_events = std::any_of(classes_.begin(), classes_.end(), [&](const CountedClass& counted) {
       return process < counted.by_process.size() && counted.by_process[process] > 0;
     });
@@ -105,10 +110,10 @@ std::vector<ProcessId> OverviewCounter::order() const {
       order.push_back(process);
     }
   }
-  std::stable_sort(order.begin(), order.end(), [this](ProcessId left, ProcessId right) {
+  std::stable_sort(order.begin(), order.end(), [&](ProcessId left, ProcessId right) {
     const ProcessObject& a = processes_.processes()[left];
     const ProcessObject& b = processes_.processes()[right];
-    return std::tie(a.host, a.vpid) < std::tie(b.host, b.vpid);
+    return std::tie(hosts[left], a.vpid) < std::tie(hosts[right], b.vpid);
   });
   return order;
 }
@@ -118,6 +123,13 @@ std::vector<std::optional<ProcessIndex>> OverviewCounter::places() const {
   const std::vector<ProcessId> ordered = order();
   for (ProcessIndex place = 0; place < ordered.size(); ++place) {
     places[ordered[place]] = place;
+  }
+  for (ProcessId process = 0; process < places.size(); ++process) {
+    ProcessId shown = process;
+    while (processes_.processes()[shown].merged_into != kNoProcess) {
+      shown = processes_.processes()[shown].merged_into;
+    }
+    places[process] = places[shown];
   }
   return places;
 }
@@ -131,7 +143,7 @@ TraceOverview OverviewCounter::overview() const {
   }
   for (const ProcessId process : order()) {
     const ProcessObject& known = processes_.processes()[process];
-    result.processes.push_back({known.vpid, known.name, 0, false, known.host});
+    result.processes.push_back({known.vpid, known.name, 0, false, processes_.host_of(process)});
   }
   const std::vector<std::optional<ProcessIndex>> place = places();
 

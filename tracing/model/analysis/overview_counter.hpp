@@ -14,14 +14,18 @@ namespace tracing {
 
 class OverviewCounter : public TraceSink {
  public:
-  void on_event(const Event& event) override { count(event, processes_.of(event)); }
+  void on_event(const Event& event) override { count(event); }
   void on_loss(const Loss& loss) override;
 
   TraceOverview overview() const;
 
-  // For one that also needs the process of each event: counts the event and returns its process.
+  // For one that also needs the process of each event: counts the event and returns its process. kNoProcess: it is the
+  // copy that another session has recorded.
   ProcessId count(const Event& event) {
     const ProcessId process = processes_.of(event);
+    if (processes_.is_copy(event, process)) {
+      return kNoProcess;
+    }
     count(event, process);
     return process;
   }

@@ -5,6 +5,9 @@ namespace tracing {
 
 void TraceAnalysis::on_event(const Event& event) {
   const ProcessId process = overview_.count(event);
+  if (process == kNoProcess) {
+    return;
+  }
   ros2_.learn(overview_.processes());
   starts_.on_event(event, process);
   const Origin origin{event.timestamp_ns, process, event.vtid.value_or(0)};

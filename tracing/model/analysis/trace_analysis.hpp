@@ -8,6 +8,7 @@
 // After a TraceReadError finish() still gives the results of the events before the damage.
 #pragma once
 
+#include <string>
 #include <utility>
 
 #include "tracing/decode/reader/ext_events.hpp"
@@ -40,6 +41,7 @@ class TraceAnalysis : public TraceSink {
   // What the ids of the sink refer to.
   const ObjectModel& objects() const { return ros2_.model(); }
   const std::vector<ProcessObject>& processes() const { return overview_.processes().processes(); }
+  std::string host_of(ProcessId process) const { return overview_.processes().host_of(process); }
   // Where each process is in TraceResults::overview.processes; nullopt when it is not there.
   std::vector<std::optional<ProcessIndex>> places() const { return overview_.places(); }
 

@@ -93,7 +93,39 @@ ProcessId ProcessTable::find(const Key& key) {
   return found->second;
 }
 
+ProcessId ProcessTable::shared_with(ProcessId known, const Key& key, std::uint64_t address) {
+  const Space& space = spaces_[key.place];
+  if (space.recording.machine.empty() || space.recording.of_kernel) {
+    return kNoProcess;  // equal addresses of two machines mean nothing
+  }
+  const auto [found, is_new] = by_context_.try_emplace({space.machine, *key.vpid, address}, kNoProcess);
+  if (is_new || found->second == kNoProcess || found->second == known || keys_[found->second].place == key.place) {
+    return kNoProcess;
+  }
+  const ProcessId shared = found->second;
+  is_shared_.resize(std::max<std::size_t>(is_shared_.size(), shared + 1));
+  is_shared_[shared] = true;
+  by_space_[key] = shared;
+  if (contexts_[known].empty() && keys_[known] == key) {
+    processes_[known].merged_into = shared;
+  }
+  return shared;
+}
+
+std::string ProcessTable::host_of(ProcessId process) const {
+  const Recording& own = spaces_[keys_[process].place].recording;
+  const bool has_namesake = std::any_of(spaces_.begin(), spaces_.end(), [&own](const Space& space) {
+    return space.recording.host == own.host && !space.recording.machine.empty() &&
+           space.recording.machine != own.machine;
+  });
+  constexpr std::size_t kShown = 8;
+  return has_namesake && !own.machine.empty() ? own.host + " (boot " + own.machine.substr(0, kShown) + ")" : own.host;
+}
+
 ProcessId ProcessTable::of_context(ProcessId known, const Key& key, const Event& event, std::uint64_t address) {
+  if (const ProcessId shared = shared_with(known, key, address); shared != kNoProcess) {
+    return shared;
+  }
   const std::vector<std::uint64_t>& contexts = contexts_[known];
   const auto is_apart = [address](std::uint64_t other) { return are_of_two_processes(address, other); };
   // A state dump repeats it, also if another process has the id meanwhile.
@@ -123,6 +155,10 @@ ProcessId ProcessTable::of_context(ProcessId known, const Key& key, const Event&
   }
   if (!is_same) {
     contexts_[process].push_back(address);
+    if (const auto found = by_context_.find({spaces_[key.place].machine, *key.vpid, address});
+        found != by_context_.end() && found->second == kNoProcess) {
+      found->second = process;
+    }
   }
   return process;
 }

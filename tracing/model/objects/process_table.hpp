@@ -5,17 +5,23 @@
 // context than the last one had, where no process has both, is that of a new process. Its events before are taken for
 // the last one's.
 //
+// Two sessions may record one process. It is known by the boot of its machine, its id, and the address of a context in
+// its `rcl_init`, which a new session records again. What a session has recorded of it before that stays a process of
+// its own, which is merged into the other one in the results.
+//
 // The tracer of the kernel sees the processes of all sessions of its machine, so its events are those of a process that
 // another trace of the machine knows.
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
 #include "tracing/decode/reader/event.hpp"
+#include "tracing/model/objects/repeated_events.hpp"
 
 namespace tracing {
 
@@ -30,6 +36,7 @@ struct ProcessObject {
   // The process that had its id before; kNoProcess if there was none. If both run at the same time, in two containers
   // whose namespaces were not recorded, events of the earlier one are taken for those of the later one.
   ProcessId earlier = kNoProcess;
+  ProcessId merged_into = kNoProcess;  // another session had it as this process
 };
 
 class ProcessTable {
@@ -40,7 +47,15 @@ class ProcessTable {
   // The process with an id as another process sees it.
   std::optional<ProcessId> beside(ProcessId process, std::int64_t vpid) const;
 
+  // Whether another session has recorded this event, too, and it came before. To be asked once for each event.
+  bool is_copy(const Event& event, ProcessId process) {
+    return process < is_shared_.size() && is_shared_[process] &&
+           copies_.is_copy(event, process, facts_of(*event.event_class).space);
+  }
+
   const std::vector<ProcessObject>& processes() const { return processes_; }
+  // The name of the machine of a process. Where machines of one name differ, each has the beginning of its boot's id.
+  std::string host_of(ProcessId process) const;
 
  private:
   // Process ids are unique within a space, which is the session of a machine, and a namespace.
@@ -70,6 +85,8 @@ class ProcessTable {
   ProcessId add(const Key& key, ProcessId earlier);
   // The process of an rcl_init, which may be a new one.
   ProcessId of_context(ProcessId known, const Key& key, const Event& event, std::uint64_t address);
+  // The process of another session with the context, if it is certain that it is the same one.
+  ProcessId shared_with(ProcessId known, const Key& key, std::uint64_t address);
   static void learn_name(ProcessObject& process, const Event& event, bool of_kernel);
 
   std::vector<ProcessObject> processes_;
@@ -80,6 +97,16 @@ class ProcessTable {
   std::unordered_map<ProcessId, std::vector<std::uint64_t>> contexts_;  // their addresses
   std::unordered_map<Key, ProcessId, HashKey> by_space_;
   std::unordered_map<Key, ProcessId, HashKey> by_machine_;  // the first process with the id on a machine
+
+  struct Context {
+    std::uint32_t machine = 0;
+    std::int64_t vpid = 0;
+    std::uint64_t address = 0;
+    auto operator<=>(const Context&) const = default;
+  };
+  std::map<Context, ProcessId> by_context_;
+  std::vector<bool> is_shared_;  // by process: several sessions have it; may be shorter
+  RepeatedEvents copies_;
 
   Key last_key_;  // consecutive events often come from one process
   ProcessId last_process_ = kNoProcess;

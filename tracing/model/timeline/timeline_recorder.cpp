@@ -45,9 +45,9 @@ Callback callback_of(const CallbackObject& object, const ObjectModel& objects) {
 void copy_objects(const TraceAnalysis& analysis, Timeline& timeline) {
   const ObjectModel& objects = analysis.objects();
   const std::vector<std::optional<ProcessIndex>> places = analysis.places();
-  for (std::size_t id = 0; id < analysis.processes().size(); ++id) {
+  for (ProcessId id = 0; id < analysis.processes().size(); ++id) {
     const ProcessObject& process = analysis.processes()[id];
-    timeline.processes.push_back({process.vpid.value_or(0), process.name, process.host, places[id]});
+    timeline.processes.push_back({process.vpid.value_or(0), process.name, analysis.host_of(id), places[id]});
   }
   for (const NodeObject& node : objects.nodes()) {
     timeline.nodes.push_back({node.process, node.name});
