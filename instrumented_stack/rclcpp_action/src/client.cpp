@@ -99,14 +99,6 @@ bool ClientBase::wait_for_action_server_nanoseconds(nanoseconds timeout) {
   return false;
 }
 
-size_t ClientBase::get_number_of_ready_subscriptions() {
-  return 2;
-}
-
-size_t ClientBase::get_number_of_ready_clients() {
-  return 3;
-}
-
 void ClientBase::add_to_wait_set(rcl_wait_set_t& wait_set) {
   require_ok(rcl_action_wait_set_add_action_client(&wait_set, &client_), "could not wait for an action client");
 }

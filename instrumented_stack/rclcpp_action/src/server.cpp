@@ -15,6 +15,7 @@
 
 namespace rclcpp_action {
 
+using action_msgs::srv::CancelGoal;
 using rclcpp::detail::require_ok;
 
 namespace {
@@ -71,14 +72,6 @@ ServerBase::~ServerBase() {
   warn(rcl_action_server_fini(&server_, node_base_->get_rcl_node_handle()), "finalize an action server");
 }
 
-size_t ServerBase::get_number_of_ready_timers() {
-  return 1;
-}
-
-size_t ServerBase::get_number_of_ready_services() {
-  return 3;
-}
-
 void ServerBase::add_to_wait_set(rcl_wait_set_t& wait_set) {
   const std::lock_guard lock(mutex_);
   require_ok(rcl_action_wait_set_add_action_server(&wait_set, &server_), "could not wait for an action server");
@@ -96,11 +89,11 @@ std::shared_ptr<void> ServerBase::take_data() {
   const std::lock_guard lock(mutex_);
   Work work;
   if (std::exchange(ready_.goal, false)) {
-    work = take_goal_request();
+    work = take(EntityType::GoalService);
   } else if (std::exchange(ready_.cancel, false)) {
-    work = take_cancel_request();
+    work = take(EntityType::CancelService);
   } else if (std::exchange(ready_.result, false)) {
-    work = take_result_request();
+    work = take(EntityType::ResultService);
   } else if (std::exchange(ready_.expired, false)) {
     work = [this] { forget_expired_goals(); };
   }
@@ -109,18 +102,7 @@ std::shared_ptr<void> ServerBase::take_data() {
 
 std::shared_ptr<void> ServerBase::take_data_by_entity_id(size_t id) {
   const std::lock_guard lock(mutex_);
-  Work work;
-  switch (static_cast<EntityType>(id)) {
-    case EntityType::GoalService:
-      work = take_goal_request();
-      break;
-    case EntityType::ResultService:
-      work = take_result_request();
-      break;
-    case EntityType::CancelService:
-      work = take_cancel_request();
-      break;
-  }
+  Work work = take(static_cast<EntityType>(id));
   return work ? std::make_shared<Work>(std::move(work)) : nullptr;
 }
 
@@ -151,37 +133,30 @@ void ServerBase::execute(const std::shared_ptr<void>& data) {
   }
 }
 
-ServerBase::Work ServerBase::take_goal_request() {
-  rmw_request_id_t header{};
-  std::shared_ptr<void> request = create_goal_request();
-  const rcl_ret_t ret = rcl_action_take_goal_request(&server_, &header, request.get());
-  if (ret != RCL_RET_OK) {
-    warn(ret, "take a goal request");
-    return nullptr;
+ServerBase::Work ServerBase::take(EntityType entity) {
+  switch (entity) {
+    case EntityType::GoalService:
+      return take_request(rcl_action_take_goal_request, create_goal_request(), &ServerBase::answer_goal_request,
+                          "take a goal request");
+    case EntityType::ResultService:
+      return take_request(rcl_action_take_result_request, create_result_request(), &ServerBase::answer_result_request,
+                          "take a result request");
+    case EntityType::CancelService:
+      return take_request(rcl_action_take_cancel_request, std::make_shared<CancelGoal::Request>(),
+                          &ServerBase::answer_cancel_request, "take a cancel request");
   }
-  return [this, header, request = std::move(request)] { answer_goal_request(header, request); };
+  return nullptr;
 }
 
-ServerBase::Work ServerBase::take_cancel_request() {
+ServerBase::Work ServerBase::take_request(Take take_from_rcl, std::shared_ptr<void> request, Answer answer,
+                                          const char* what) {
   rmw_request_id_t header{};
-  action_msgs::srv::CancelGoal::Request request;
-  const rcl_ret_t ret = rcl_action_take_cancel_request(&server_, &header, &request);
+  const rcl_ret_t ret = take_from_rcl(&server_, &header, request.get());
   if (ret != RCL_RET_OK) {
-    warn(ret, "take a cancel request");
+    warn(ret, what);
     return nullptr;
   }
-  return [this, header, request] { answer_cancel_request(header, request); };
-}
-
-ServerBase::Work ServerBase::take_result_request() {
-  rmw_request_id_t header{};
-  std::shared_ptr<void> request = create_result_request();
-  const rcl_ret_t ret = rcl_action_take_result_request(&server_, &header, request.get());
-  if (ret != RCL_RET_OK) {
-    warn(ret, "take a result request");
-    return nullptr;
-  }
-  return [this, header, request = std::move(request)] { answer_result_request(header, request); };
+  return [this, answer, header, request = std::move(request)] { (this->*answer)(header, request); };
 }
 
 void ServerBase::answer_goal_request(rmw_request_id_t header, const std::shared_ptr<void>& request) {
@@ -236,12 +211,13 @@ std::shared_ptr<rcl_action_goal_handle_t> ServerBase::accept(const GoalUUID& uui
   return goal;
 }
 
-void ServerBase::answer_cancel_request(rmw_request_id_t header, const action_msgs::srv::CancelGoal::Request& request) {
-  action_msgs::srv::CancelGoal::Response response;
+void ServerBase::answer_cancel_request(rmw_request_id_t header, const std::shared_ptr<void>& request) {
+  CancelGoal::Response response;
   std::vector<rcl_action_goal_info_t> candidates;
   {
     const std::lock_guard lock(mutex_);
-    const rcl_action_cancel_request_t wanted{to_info(request.goal_info)};
+    const rcl_action_cancel_request_t wanted{
+        to_info(std::static_pointer_cast<CancelGoal::Request>(request)->goal_info)};
     rcl_action_cancel_response_t possible{};
     require_ok(rcl_action_process_cancel_request(&server_, &wanted, &possible), "could not process a cancel request");
     response.return_code = static_cast<int8_t>(possible.return_code);
@@ -261,7 +237,7 @@ void ServerBase::answer_cancel_request(rmw_request_id_t header, const action_msg
     }
   }
   if (!candidates.empty() && response.goals_canceling.empty()) {
-    response.return_code = action_msgs::srv::CancelGoal::Response::ERROR_REJECTED;
+    response.return_code = CancelGoal::Response::ERROR_REJECTED;
   }
   if (!response.goals_canceling.empty()) {
     publish_status();

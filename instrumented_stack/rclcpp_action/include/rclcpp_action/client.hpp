@@ -44,8 +44,8 @@ class ClientBase : public rclcpp::Waitable {
     return wait_for_action_server_nanoseconds(std::chrono::duration_cast<std::chrono::nanoseconds>(timeout));
   }
 
-  size_t get_number_of_ready_subscriptions() override;
-  size_t get_number_of_ready_clients() override;
+  size_t get_number_of_ready_subscriptions() override { return 2; }
+  size_t get_number_of_ready_clients() override { return 3; }
   void add_to_wait_set(rcl_wait_set_t& wait_set) override;
   bool is_ready(const rcl_wait_set_t& wait_set) override;
   std::shared_ptr<void> take_data() override;

@@ -43,8 +43,8 @@ class ServerBase : public rclcpp::Waitable {
 
   ~ServerBase() override;
 
-  size_t get_number_of_ready_timers() override;
-  size_t get_number_of_ready_services() override;
+  size_t get_number_of_ready_timers() override { return 1; }
+  size_t get_number_of_ready_services() override { return 3; }
   void add_to_wait_set(rcl_wait_set_t& wait_set) override;
   bool is_ready(const rcl_wait_set_t& wait_set) override;
   std::shared_ptr<void> take_data() override;
@@ -92,12 +92,13 @@ class ServerBase : public rclcpp::Waitable {
     bool expired = false;
   };
   using Work = std::function<void()>;  // the result of take_data()
+  using Take = rcl_ret_t (*)(const rcl_action_server_t*, rmw_request_id_t*, void*);
+  using Answer = void (ServerBase::*)(rmw_request_id_t header, const std::shared_ptr<void>& request);
 
-  Work take_goal_request();
-  Work take_cancel_request();
-  Work take_result_request();
+  Work take(EntityType entity);
+  Work take_request(Take take_from_rcl, std::shared_ptr<void> request, Answer answer, const char* what);
   void answer_goal_request(rmw_request_id_t header, const std::shared_ptr<void>& request);
-  void answer_cancel_request(rmw_request_id_t header, const action_msgs::srv::CancelGoal::Request& request);
+  void answer_cancel_request(rmw_request_id_t header, const std::shared_ptr<void>& request);
   void answer_result_request(rmw_request_id_t header, const std::shared_ptr<void>& request);
   void forget_expired_goals();
   // Sets the timer of get_timers() to the time of rcl's timer. The mutex must be held.

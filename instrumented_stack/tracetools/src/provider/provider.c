@@ -2,6 +2,7 @@
 /* libtracetools_provider.so: the probes. Written in C, because LTTng's probe macros are not C++. */
 #define LTTNG_UST_TRACEPOINT_CREATE_PROBES
 #include "provider/provider.h"
+
 #include "provider/provider_deadline.h"
 #include "provider/provider_ext.h"
 #include "provider/provider_session.h"
