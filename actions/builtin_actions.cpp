@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "actions/builtin_actions.hpp"
 
-#include "launcher/python/exposed_names.hpp"
 #include "launcher/python/python_launch_file.hpp"
 
 namespace launch {

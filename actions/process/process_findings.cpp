@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "actions/values/ros_names.hpp"
-#include "base/text/remap_name.hpp"
+#include "base/text/names.hpp"
 
 namespace launch {
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "base/text/nearest_name.hpp"
+#include "base/text/names.hpp"
 #include "base/text/utf8.hpp"
 
 namespace launch {

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/terminal/terminal.hpp"
 
+#include <signal.h>
 #include <stdlib.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <string_view>
 
 namespace launch {
+
 namespace {
 
 std::string_view variable(const char* name) {
@@ -42,6 +45,35 @@ std::size_t terminal_columns(int fd) {
   constexpr std::size_t kUsual = 80;
   const std::size_t columns = terminal_size(fd).columns;
   return columns > 0 ? columns : kUsual;
+}
+
+std::optional<TerminalState> TerminalState::of(int fd) {
+  termios modes{};
+  if (::tcgetpgrp(fd) != ::getpgrp() || ::tcgetattr(fd, &modes) != 0) {
+    return std::nullopt;
+  }
+  return TerminalState(fd, modes);
+}
+
+void TerminalState::restore() const {
+  const pid_t foreground = ::tcgetpgrp(fd_);
+  if (foreground < 0) {
+    return;
+  }
+  if (foreground != ::getpgrp()) {
+    if (::kill(-foreground, 0) == 0 || errno != ESRCH) {
+      return;
+    }
+    // SIGTTOU would stop a program of the background that takes the terminal.
+    sigset_t stop;
+    sigset_t before;
+    sigemptyset(&stop);
+    sigaddset(&stop, SIGTTOU);
+    ::pthread_sigmask(SIG_BLOCK, &stop, &before);
+    ::tcsetpgrp(fd_, ::getpgrp());
+    ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  }
+  ::tcsetattr(fd_, TCSANOW, &modes_);
 }
 
 }  // namespace launch

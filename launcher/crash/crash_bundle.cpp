@@ -13,11 +13,11 @@
 #include <optional>
 #include <string_view>
 
-#include "base/text/shell_quoted.hpp"
+#include "base/text/quoted_text.hpp"
 #include "launcher/crash/core_file.hpp"
 #include "launcher/crash/core_search.hpp"
 #include "launcher/crash/timed_command.hpp"
-#include "launcher/process/process_exit_text.hpp"
+#include "launcher/process/process_messages.hpp"
 
 namespace launch {
 namespace {

@@ -12,7 +12,7 @@
 #include <system_error>
 
 #include "base/diagnostics/diagnostic.hpp"
-#include "base/text/nearest_name.hpp"
+#include "base/text/names.hpp"
 #include "launcher/substitution/package_index.hpp"
 #include "launcher/visit/joined_description.hpp"
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/message_types/idl_file.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 
 #include "base/diagnostics/diagnostic.hpp"
 #include "launcher/message_types/idl_tokens.hpp"
+#include "launcher/message_types/interface_file.hpp"
 #include "launcher/message_types/read_value.hpp"
 
 namespace launch {

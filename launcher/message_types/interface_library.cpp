@@ -10,7 +10,6 @@
 
 #include "base/diagnostics/diagnostic.hpp"
 #include "base/diagnostics/read_source_file.hpp"
-#include "launcher/message_types/idl_file.hpp"
 #include "launcher/message_types/interface_file.hpp"
 
 namespace launch {

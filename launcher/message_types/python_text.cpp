@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/message_types/python_text.hpp"
 
 #include <fmt/format.h>
 

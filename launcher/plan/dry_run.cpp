@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/overloaded.hpp"
-#include "base/text/shell_quoted.hpp"
+#include "base/text/quoted_text.hpp"
 #include "launcher/language/parameter_value.hpp"
 #include "launcher/plan/parameter_json.hpp"
 

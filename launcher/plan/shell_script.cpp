@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/overloaded.hpp"
-#include "base/text/shell_quoted.hpp"
+#include "base/text/quoted_text.hpp"
 #include "launcher/plan/dry_run.hpp"
 
 namespace launch {

@@ -10,6 +10,7 @@
 #include <string>
 
 namespace launch {
+
 namespace {
 
 std::string signal_name(int signal) {
@@ -108,6 +109,31 @@ class Messages {
 
 ProcessSupervisor::Observer process_messages(OutputRouter& output) {
   return [&output](const ProcessEvent& event) { std::visit(Messages(output, event), event.what); };
+}
+
+namespace {
+
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
+}
+
+}  // namespace
+
+std::string end_of(const ProcessExit& exit) {
+  if (exit.code >= 0) {
+    return fmt::format("exit code {}", exit.code);
+  }
+  const char* const name = ::sigabbrev_np(-exit.code);
+  return (name == nullptr ? fmt::format("signal {}", -exit.code) : fmt::format("SIG{}", name)) +
+         (exit.core_dumped ? ", core dumped," : "");
+}
+
+std::string describe(const ProcessExit& exit) {
+  constexpr double kKibPerMib = 1024.0;
+  return fmt::format("{} after {:.2f} s, with {:.2f} s of processor time and {:.1f} MiB", end_of(exit),
+                     std::chrono::duration<double>(exit.ran_for).count(),
+                     seconds(exit.usage.ru_utime) + seconds(exit.usage.ru_stime),
+                     static_cast<double>(exit.usage.ru_maxrss) / kKibPerMib);
 }
 
 }  // namespace launch

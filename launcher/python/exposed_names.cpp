@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/python/exposed_names.hpp"
-
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -10,6 +8,7 @@
 #include "launcher/frontend/entity.hpp"
 #include "launcher/python/interpreter/python_module.hpp"
 #include "launcher/python/python_file.hpp"
+#include "launcher/python/python_launch_file.hpp"
 #include "launcher/visit/launch_context.hpp"
 
 namespace launch {

@@ -2,19 +2,37 @@
 // A Python launch file. The objects that it builds become actions; while it runs, its calls act on the launch.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "base/diagnostics/source.hpp"
 #include "launcher/frontend/entity.hpp"
 #include "launcher/language/action.hpp"
 #include "launcher/language/registry.hpp"
 #include "launcher/python/interpreter/python_runtime.hpp"
-#include "launcher/python/python_places.hpp"
 #include "launcher/substitution/scope.hpp"
 #include "launcher/substitution/substitution.hpp"
 
 namespace launch {
+
+// Turns the file names and lines of Python's objects and errors into places in the kept source text: those of one
+// launch file and of the modules that it takes objects from.
+class PythonPlaces {
+ public:
+  explicit PythonPlaces(std::shared_ptr<const SourceFile> file) : file_(std::move(file)) {}
+
+  // The place, or the beginning of the launch file when it is unknown.
+  SourceRange range(const python::Place& place);
+
+  // Throws the exception of a call of the host, or a LaunchError at the place of Python's error.
+  [[noreturn]] void fail(const python::Error& error);
+
+ private:
+  std::shared_ptr<const SourceFile> file_;
+  std::map<std::string, std::shared_ptr<const SourceFile>> modules_;
+};
 
 class LaunchContext;
 

@@ -5,6 +5,8 @@
 #include <memory>
 
 #include "launcher/language/launch_description.hpp"
+#include "launcher/language/registry.hpp"
+#include "launcher/substitution/foreign_substitutions.hpp"
 #include "launcher/substitution/scope.hpp"
 
 namespace launch {
@@ -15,5 +17,11 @@ namespace launch {
 // is looked at. Throws LaunchError at the place in the Python file.
 std::shared_ptr<const LaunchDescription> load_python_launch_file(std::shared_ptr<const SourceFile> file,
                                                                  const Registry& registry, const Scope& scope);
+
+// Actions and substitutions that Python packages offer to XML and YAML files: expose_action() and expose_substitution()
+// of launch.frontend. Python is started by the first name that the launcher does not know itself.
+ForeignActions exposed_actions();
+
+ForeignSubstitutions exposed_substitutions();
 
 }  // namespace launch

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "base/text/quoted_text.hpp"
 #include "base/text/utf8.hpp"
-#include "base/text/xml_text.hpp"
 
 namespace launch {
 

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cstdint>
 
-#include "base/text/shell_quoted.hpp"
+#include "base/text/quoted_text.hpp"
 
 namespace launch {
 

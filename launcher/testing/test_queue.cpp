@@ -26,7 +26,7 @@
 #include "base/files/unique_fd.hpp"
 #include "base/processes/ending_signals.hpp"
 #include "base/processes/spawn.hpp"
-#include "launcher/process/guardian/left_behind.hpp"
+#include "launcher/process/guardian/guardian.hpp"
 #include "launcher/testing/checks/check.hpp"
 #include "launcher/testing/engine.hpp"
 #include "launcher/testing/failure.hpp"

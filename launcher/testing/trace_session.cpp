@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "base/text/xml_text.hpp"
+#include "base/text/quoted_text.hpp"
 
 namespace launch {
 

@@ -16,7 +16,6 @@
 #include "launcher/process/guardian/process_scan.hpp"
 #include "programs/guardian/guardian_log.hpp"
 #include "programs/guardian/launch_cgroup.hpp"
-#include "programs/guardian/left_output.hpp"
 
 namespace launch {
 

@@ -21,7 +21,7 @@
 #include <utility>
 
 #include "base/files/unique_fd.hpp"
-#include "base/terminal/terminal_state.hpp"
+#include "base/terminal/terminal.hpp"
 #include "programs/guardian/clean_ups.hpp"
 #include "programs/guardian/gentle_end.hpp"
 #include "programs/guardian/launch_cgroup.hpp"

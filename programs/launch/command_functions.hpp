@@ -6,6 +6,7 @@
 // `launch` and return what may stand in the place of the last one.
 #pragma once
 
+#include "base/environment/environment.hpp"
 #include "programs/launch/commands.hpp"
 
 namespace launch {
@@ -27,6 +28,11 @@ int signal_command(const Words& words);
 int start_command(const Words& words);
 int stop_command(const Words& words);
 int top_command(const Words& words);
+
+// Starts `launch` with these words in the background, and shows it in `launch top`. When the view is left, the lines of
+// the launch follow on the terminal. SIGINT and other signals that end this process end the launch instead. Returns the
+// exit code of the launch.
+int launch_in_top(Words words, const Environment& environment);
 
 // The help of their option --launch.
 inline constexpr const char* kLaunchHelp = "number or file of the launch, if several run";

@@ -13,9 +13,7 @@
 #include "programs/launch/completion/help_options.hpp"
 #include "programs/launch/run/command_line.hpp"
 #include "programs/launch/run/run_command.hpp"
-#include "programs/launch/top/launch_in_top.hpp"
 #include "programs/launch/trace/trace_command.hpp"
-#include "programs/launch/trace/trace_completion.hpp"
 
 namespace launch {
 

@@ -63,65 +63,50 @@ bool is_number(const FieldValue& value) {
   return value.unsigned_integer().has_value() || value.integer().has_value();
 }
 
-void append_text(Buffer& out, const FieldValue& value) {
+namespace {
+
+void append_value(Buffer& out, const FieldValue& value, bool json) {
   if (const auto label = value.enumeration_label()) {
+    if (json) {
+      return append_quoted(out, *label);
+    }
     append(out, *label);
     out.push_back(':');
   }
   if (is_number(value)) {
-    return append_number(out, value, value.is_hexadecimal());
+    return append_number(out, value, !json && value.is_hexadecimal());
   }
   if (const auto real = value.real()) {
-    return append_real(out, *real, false);
+    return append_real(out, *real, json);
   }
   if (const auto text = value.string()) {
     return append_quoted(out, *text);
   }
   if (value.is_variant()) {
-    return append_text(out, value[0]);
+    return append_value(out, value[0], json);
   }
   out.push_back(value.is_structure() ? '{' : '[');
   for (std::size_t i = 0; i < value.size(); ++i) {
     if (i > 0) {
-      out.push_back(' ');
+      out.push_back(json ? ',' : ' ');
     }
     if (value.is_structure()) {
-      append(out, value.member_name(i));
-      out.push_back('=');
+      json ? append_quoted(out, value.member_name(i)) : append(out, value.member_name(i));
+      out.push_back(json ? ':' : '=');
     }
-    append_text(out, value[i]);
+    append_value(out, value[i], json);
   }
   out.push_back(value.is_structure() ? '}' : ']');
 }
 
+}  // namespace
+
+void append_text(Buffer& out, const FieldValue& value) {
+  append_value(out, value, false);
+}
+
 void append_json(Buffer& out, const FieldValue& value) {
-  if (const auto label = value.enumeration_label()) {
-    return append_quoted(out, *label);
-  }
-  if (is_number(value)) {
-    return append_number(out, value, false);
-  }
-  if (const auto real = value.real()) {
-    return append_real(out, *real, true);
-  }
-  if (const auto text = value.string()) {
-    return append_quoted(out, *text);
-  }
-  if (value.is_variant()) {
-    return append_json(out, value[0]);
-  }
-  out.push_back(value.is_structure() ? '{' : '[');
-  for (std::size_t i = 0; i < value.size(); ++i) {
-    if (i > 0) {
-      out.push_back(',');
-    }
-    if (value.is_structure()) {
-      append_quoted(out, value.member_name(i));
-      out.push_back(':');
-    }
-    append_json(out, value[i]);
-  }
-  out.push_back(value.is_structure() ? '}' : ']');
+  append_value(out, value, true);
 }
 
 }  // namespace tracing

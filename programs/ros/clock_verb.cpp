@@ -5,18 +5,82 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
+#include <charconv>
+#include <chrono>
 #include <cmath>
+#include <optional>
 #include <rosgraph_msgs/msg/clock.hpp>
 #include <string>
+#include <string_view>
 
 #include "programs/ros/graph_session.hpp"
-#include "programs/ros/simulated_clock.hpp"
 #include "programs/ros/verb.hpp"
 
 namespace launch {
 
 namespace {
+
+// Time that runs at a rate of its own, stands still and jumps, as faults of the clock want it.
+class SimulatedClock {
+ public:
+  using Real = std::chrono::steady_clock::time_point;
+  using Seconds = std::chrono::duration<double>;
+
+  SimulatedClock(Real now, double start, double rate) : since_(now), then_(start), rate_(rate) {}
+
+  // Never negative.
+  Seconds time(Real now) const;
+
+  // "stop" and "go", which may be nested; "scale FACTOR" of the rate; "jump SECONDS". False for anything else.
+  bool obey(std::string_view command, Real now);
+
+ private:
+  void hold(Real now);
+
+  Real since_;
+  Seconds then_;  // at since_
+  double rate_;
+  int stops_ = 0;
+};
+
+std::optional<double> number_behind(std::string_view word, std::string_view command) {
+  if (!command.starts_with(word)) {
+    return std::nullopt;
+  }
+  command.remove_prefix(word.size());
+  double value = 0;
+  const auto [end, error] = std::from_chars(command.data(), command.data() + command.size(), value);
+  return error == std::errc() && end == command.data() + command.size() && std::isfinite(value) ? std::optional(value)
+                                                                                                : std::nullopt;
+}
+
+SimulatedClock::Seconds SimulatedClock::time(Real now) const {
+  const Seconds time = stops_ > 0 ? then_ : then_ + Seconds(now - since_) * rate_;
+  return std::max(time, Seconds(0));
+}
+
+void SimulatedClock::hold(Real now) {
+  then_ = time(now);
+  since_ = now;
+}
+
+bool SimulatedClock::obey(std::string_view command, Real now) {
+  hold(now);
+  if (command == "stop") {
+    ++stops_;
+  } else if (command == "go") {
+    stops_ = std::max(stops_ - 1, 0);
+  } else if (const std::optional<double> factor = number_behind("scale ", command); factor && *factor > 0) {
+    rate_ *= *factor;
+  } else if (const std::optional<double> seconds = number_behind("jump ", command)) {
+    then_ = std::max(then_ + Seconds(*seconds), Seconds(0));
+  } else {
+    return false;
+  }
+  return true;
+}
 
 // The lines of standard input, as far as they are there.
 class Input {

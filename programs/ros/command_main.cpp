@@ -14,7 +14,7 @@
 #include "base/diagnostics/command_error.hpp"
 #include "base/diagnostics/diagnostic.hpp"
 #include "base/terminal/terminal.hpp"
-#include "base/text/nearest_name.hpp"
+#include "base/text/names.hpp"
 #include "programs/ros/verb.hpp"
 
 namespace launch {

@@ -62,25 +62,21 @@ class LifecycleVerb : public Verb {
 
 class LifecycleNodes final : public Verb {
  public:
-  void declare(CLI::App& app) override {
-    look_.declare(app);
-    app.add_flag("-a,--all", all_, "also nodes whose name begins with '_'");
-    app.add_flag("-c,--count-nodes", count_, "print only how many there are");
-  }
+  void declare(CLI::App& app) override { options_.declare(app); }
 
   int run() override {
     GraphSession session;
-    session.discover(look_.time());
+    session.discover(options_.time());
     std::vector<std::string> nodes = managed_nodes(session);
-    std::erase_if(nodes, [this](const std::string& node) { return !all_ && is_hidden(node); });
-    put(count_ ? fmt::format("{}\n", nodes.size()) : nodes.empty() ? "" : fmt::format("{}\n", fmt::join(nodes, "\n")));
+    std::erase_if(nodes, [this](const std::string& node) { return !options_.all && is_hidden(node); });
+    put(options_.count  ? fmt::format("{}\n", nodes.size())
+        : nodes.empty() ? ""
+                        : fmt::format("{}\n", fmt::join(nodes, "\n")));
     return 0;
   }
 
  private:
-  LookOptions look_;
-  bool all_ = false;
-  bool count_ = false;
+  NodeListOptions options_;
 };
 
 class LifecycleList final : public LifecycleVerb {

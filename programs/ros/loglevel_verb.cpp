@@ -12,7 +12,7 @@
 #include "base/diagnostics/diagnostic.hpp"
 #include "launcher/message_types/yaml_text.hpp"
 #include "programs/ros/graph_names.hpp"
-#include "programs/ros/parameter_text.hpp"
+#include "programs/ros/parameter_verb.hpp"
 #include "programs/ros/topic_graph.hpp"
 
 namespace launch {

@@ -14,17 +14,13 @@ namespace {
 
 class NodeList final : public Verb {
  public:
-  void declare(CLI::App& app) override {
-    look_.declare(app);
-    app.add_flag("-a,--all", all_, "also nodes whose name begins with '_'");
-    app.add_flag("-c,--count-nodes", count_, "print only how many there are");
-  }
+  void declare(CLI::App& app) override { options_.declare(app); }
 
   int run() override {
     GraphSession session;
-    session.discover(look_.time());
-    const std::vector<std::string> names = node_names(session, all_);
-    if (count_) {
+    session.discover(options_.time());
+    const std::vector<std::string> names = node_names(session, options_.all);
+    if (options_.count) {
       put(fmt::format("{}\n", names.size()));
       return 0;
     }
@@ -38,9 +34,7 @@ class NodeList final : public Verb {
   }
 
  private:
-  LookOptions look_;
-  bool all_ = false;
-  bool count_ = false;
+  NodeListOptions options_;
 };
 
 class NodeInfo final : public Verb {

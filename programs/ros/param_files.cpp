@@ -8,7 +8,6 @@
 
 #include "launcher/message_types/print_value.hpp"
 #include "launcher/message_types/yaml_text.hpp"
-#include "programs/ros/parameter_text.hpp"
 #include "programs/ros/parameter_verb.hpp"
 
 namespace launch {

@@ -9,7 +9,6 @@
 #include "base/diagnostics/diagnostic.hpp"
 #include "launcher/message_types/print_value.hpp"
 #include "programs/ros/graph_names.hpp"
-#include "programs/ros/parameter_text.hpp"
 #include "programs/ros/parameter_verb.hpp"
 
 namespace launch {

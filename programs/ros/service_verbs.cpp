@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/diagnostics/diagnostic.hpp"
-#include "launcher/message_types/python_text.hpp"
+#include "launcher/message_types/print_value.hpp"
 #include "launcher/message_types/read_value.hpp"
 #include "programs/ros/endpoints.hpp"
 #include "programs/ros/graph_names.hpp"

@@ -9,7 +9,6 @@
 #include "launcher/message_types/message_condition.hpp"
 #include "launcher/message_types/message_part.hpp"
 #include "launcher/message_types/print_value.hpp"
-#include "launcher/message_types/python_text.hpp"
 #include "programs/ros/endpoints.hpp"
 #include "programs/ros/graph_names.hpp"
 #include "programs/ros/topic_graph.hpp"
@@ -81,11 +80,7 @@ class TopicEcho final : public Verb {
     return 0;
   }
 
-  std::vector<std::string> complete(const std::vector<std::string>& words) override {
-    return words.empty()       ? all_names(kTopics)
-           : words.size() == 1 ? types_of_topic_or_all(words.front())
-                               : std::vector<std::string>();
-  }
+  std::vector<std::string> complete(const std::vector<std::string>& words) override { return topic_then_type(words); }
 
  private:
   void compile(const std::shared_ptr<const MessageType>& type) {

@@ -71,6 +71,12 @@ std::optional<Seconds> LookOptions::time() const {
   return spin_time ? std::optional<Seconds>(*spin_time) : std::nullopt;
 }
 
+void NodeListOptions::declare(CLI::App& app) {
+  LookOptions::declare(app);
+  app.add_flag("-a,--all", all, "also nodes whose name begins with '_'");
+  app.add_flag("-c,--count-nodes", count, "print only how many there are");
+}
+
 void ValuesOption::declare(CLI::App& app, const std::string& name, const std::string& what) {
   CLI::Option* const values = app.add_option(name, text, fmt::format("the {} as YAML; default: {{}}", what));
   app.add_flag("--stdin", from_standard_input, fmt::format("read the {} from standard input", what))->excludes(values);
@@ -181,6 +187,12 @@ std::vector<std::string> types_of_topic_or_all(const std::string& topic) {
   const auto topics = session.node().get_topic_names_and_types();
   const auto found = topics.find(full_name(topic));
   return found == topics.end() ? installed_interfaces().names("msg") : found->second;
+}
+
+std::vector<std::string> topic_then_type(const std::vector<std::string>& words) {
+  return words.empty()       ? all_names(kTopics)
+         : words.size() == 1 ? types_of_topic_or_all(words.front())
+                             : std::vector<std::string>();
 }
 
 }  // namespace launch

@@ -19,6 +19,14 @@ struct LookOptions {
   std::optional<Seconds> time() const;
 };
 
+// Those of the commands that list nodes.
+struct NodeListOptions : LookOptions {
+  bool all = false;
+  bool count = false;
+
+  void declare(CLI::App& app);
+};
+
 // A message on the command line, as YAML, or on standard input.
 struct ValuesOption {
   std::string text = "{}";
@@ -53,7 +61,8 @@ std::optional<std::string> type_of_topic(GraphSession& session, const std::strin
 // Waits until the topic has a type, without end, and says once that it waits. Empty if the user has asked to stop.
 std::string wait_for_type(GraphSession& session, const std::string& topic);
 
-// The types of a topic, for the shell's completion.
+// The types of a topic, for the shell's completion; and a topic, then its type.
 std::vector<std::string> types_of_topic_or_all(const std::string& topic);
+std::vector<std::string> topic_then_type(const std::vector<std::string>& words);
 
 }  // namespace launch

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <map>
+#include <string>
+#include <type_traits>
 
 #include "programs/ros/graph_names.hpp"
 #include "programs/ros/topic_graph.hpp"
@@ -21,56 +24,35 @@ std::string duration_text(const rmw_time_t& time) {
   return fmt::format("{} nanoseconds", time.sec * 1'000'000'000 + time.nsec);
 }
 
-const char* text_of(rmw_qos_reliability_policy_t policy) {
-  switch (policy) {
-    case RMW_QOS_POLICY_RELIABILITY_RELIABLE:
-      return "RELIABLE";
-    case RMW_QOS_POLICY_RELIABILITY_BEST_EFFORT:
-      return "BEST_EFFORT";
-    case RMW_QOS_POLICY_RELIABILITY_SYSTEM_DEFAULT:
-      return "SYSTEM_DEFAULT";
-    default:
-      return "UNKNOWN";
-  }
-}
-
-const char* text_of(rmw_qos_durability_policy_t policy) {
-  switch (policy) {
-    case RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL:
-      return "TRANSIENT_LOCAL";
-    case RMW_QOS_POLICY_DURABILITY_VOLATILE:
-      return "VOLATILE";
-    case RMW_QOS_POLICY_DURABILITY_SYSTEM_DEFAULT:
-      return "SYSTEM_DEFAULT";
-    default:
-      return "UNKNOWN";
-  }
-}
-
-const char* text_of(rmw_qos_liveliness_policy_t policy) {
-  switch (policy) {
-    case RMW_QOS_POLICY_LIVELINESS_AUTOMATIC:
-      return "AUTOMATIC";
-    case RMW_QOS_POLICY_LIVELINESS_MANUAL_BY_TOPIC:
-      return "MANUAL_BY_TOPIC";
-    case RMW_QOS_POLICY_LIVELINESS_SYSTEM_DEFAULT:
-      return "SYSTEM_DEFAULT";
-    default:
-      return "UNKNOWN";
-  }
+template <typename Policy>
+std::string text_of(Policy policy, const std::map<std::type_identity_t<Policy>, const char*>& names) {
+  const auto found = names.find(policy);
+  return found == names.end() ? "UNKNOWN" : found->second;
 }
 
 std::string history_text(const rmw_qos_profile_t& qos) {
-  switch (qos.history) {
-    case RMW_QOS_POLICY_HISTORY_KEEP_LAST:
-      return fmt::format("KEEP_LAST ({})", qos.depth);
-    case RMW_QOS_POLICY_HISTORY_KEEP_ALL:
-      return "KEEP_ALL";
-    case RMW_QOS_POLICY_HISTORY_SYSTEM_DEFAULT:
-      return "SYSTEM_DEFAULT";
-    default:
-      return "UNKNOWN";
-  }
+  return qos.history == RMW_QOS_POLICY_HISTORY_KEEP_LAST
+             ? fmt::format("KEEP_LAST ({})", qos.depth)
+             : text_of(qos.history, {{RMW_QOS_POLICY_HISTORY_KEEP_ALL, "KEEP_ALL"},
+                                     {RMW_QOS_POLICY_HISTORY_SYSTEM_DEFAULT, "SYSTEM_DEFAULT"}});
+}
+
+std::string reliability_text(const rmw_qos_profile_t& qos) {
+  return text_of(qos.reliability, {{RMW_QOS_POLICY_RELIABILITY_RELIABLE, "RELIABLE"},
+                                   {RMW_QOS_POLICY_RELIABILITY_BEST_EFFORT, "BEST_EFFORT"},
+                                   {RMW_QOS_POLICY_RELIABILITY_SYSTEM_DEFAULT, "SYSTEM_DEFAULT"}});
+}
+
+std::string durability_text(const rmw_qos_profile_t& qos) {
+  return text_of(qos.durability, {{RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL, "TRANSIENT_LOCAL"},
+                                  {RMW_QOS_POLICY_DURABILITY_VOLATILE, "VOLATILE"},
+                                  {RMW_QOS_POLICY_DURABILITY_SYSTEM_DEFAULT, "SYSTEM_DEFAULT"}});
+}
+
+std::string liveliness_text(const rmw_qos_profile_t& qos) {
+  return text_of(qos.liveliness, {{RMW_QOS_POLICY_LIVELINESS_AUTOMATIC, "AUTOMATIC"},
+                                  {RMW_QOS_POLICY_LIVELINESS_MANUAL_BY_TOPIC, "MANUAL_BY_TOPIC"},
+                                  {RMW_QOS_POLICY_LIVELINESS_SYSTEM_DEFAULT, "SYSTEM_DEFAULT"}});
 }
 
 std::string hash_text(const rosidl_type_hash_t& hash) {
@@ -108,8 +90,8 @@ std::string endpoint_text(const rclcpp::TopicEndpointInfo& endpoint) {
       "  Liveliness: {}\n"
       "  Liveliness lease duration: {}",
       endpoint.node_name(), endpoint.node_namespace(), endpoint.topic_type(), hash_text(endpoint.topic_type_hash()),
-      is_publisher ? "PUBLISHER" : "SUBSCRIPTION", gid, text_of(qos.reliability), history_text(qos),
-      text_of(qos.durability), duration_text(qos.lifespan), duration_text(qos.deadline), text_of(qos.liveliness),
+      is_publisher ? "PUBLISHER" : "SUBSCRIPTION", gid, reliability_text(qos), history_text(qos), durability_text(qos),
+      duration_text(qos.lifespan), duration_text(qos.deadline), liveliness_text(qos),
       duration_text(qos.liveliness_lease_duration));
 }
 

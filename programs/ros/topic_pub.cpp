@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "launcher/message_types/python_text.hpp"
+#include "launcher/message_types/print_value.hpp"
 #include "launcher/message_types/read_value.hpp"
 #include "programs/ros/endpoints.hpp"
 #include "programs/ros/graph_names.hpp"
@@ -76,11 +76,7 @@ class TopicPub final : public Verb {
     return 0;
   }
 
-  std::vector<std::string> complete(const std::vector<std::string>& words) override {
-    return words.empty()       ? all_names(kTopics)
-           : words.size() == 1 ? types_of_topic_or_all(words.front())
-                               : std::vector<std::string>();
-  }
+  std::vector<std::string> complete(const std::vector<std::string>& words) override { return topic_then_type(words); }
 
  private:
   bool wait_for_subscriptions(GraphSession& session, const DescribedPublisher& publisher, std::size_t wanted) const {

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "base/diagnostics/diagnostic.hpp"
-#include "base/text/nearest_name.hpp"
+#include "base/text/names.hpp"
 #include "tracing/decode/reader/event_pattern.hpp"
 #include "tracing/model/selection/event_condition.hpp"
 

@@ -8,7 +8,7 @@
 #include <map>
 #include <utility>
 
-#include "base/text/nearest_name.hpp"
+#include "base/text/names.hpp"
 
 namespace launch_trace_testing {
 

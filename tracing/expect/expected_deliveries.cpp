@@ -7,7 +7,7 @@
 #include <set>
 #include <tuple>
 
-#include "base/text/nearest_name.hpp"
+#include "base/text/names.hpp"
 #include "launch_trace_testing/expectations.hpp"
 #include "tracing/expect/event_table.hpp"
 #include "tracing/expect/verdict_text.hpp"

@@ -22,10 +22,11 @@
 #include "base/environment/network_device.hpp"
 #include "base/files/pipe.hpp"
 #include "launcher/process/exec/launch_exec_protocol.hpp"
-#include "launcher/process/isolation/tap_device.hpp"
+#include "launcher/process/isolation/packet_switch.hpp"
 #include "launcher/process/process_runner.hpp"
 
 namespace launch {
+
 namespace {
 
 constexpr const char* kSharedMemory = "/dev/shm";
@@ -285,6 +286,17 @@ void Namespaces::put_in(ChildProgram& child) const {
   for (const ChildDescriptor& descriptor : descriptors()) {
     child.descriptors.push_back(descriptor);
   }
+}
+
+Isolation make_isolation() {
+  Isolation isolation;
+  try {
+    isolation.namespaces.emplace(Namespaces::make());
+  } catch (const std::system_error& error) {
+    isolation.refused = error.what();
+    isolation.domain.emplace();
+  }
+  return isolation;
 }
 
 }  // namespace launch

@@ -6,9 +6,11 @@
 // the session daemon that it starts and the commands of its launch file are where they always are.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/environment/domain_lease.hpp"
 #include "base/files/unique_fd.hpp"
 #include "base/processes/spawn.hpp"
 
@@ -23,7 +25,7 @@ class Namespaces {
   // Throws std::system_error where the machine does not allow it.
   static Namespaces make();
 
-  // Each host of a network has namespaces of its own. Their network ends in this descriptor (tap_device.hpp).
+  // Each host of a network has namespaces of its own. Their network ends in this descriptor (packet_switch.hpp).
   struct Host;
   // With the number of the host, as make_tap_device() takes it. Otherwise as make().
   static Host make_host(unsigned host);
@@ -45,5 +47,16 @@ struct Namespaces::Host {
   Namespaces namespaces;
   UniqueFd device;
 };
+
+// What keeps one launch apart from the others of the machine, although all have the same topics: one of both.
+struct Isolation {
+  std::optional<Namespaces> namespaces;
+  std::optional<DomainLease> domain;
+  std::string refused;  // why there are no namespaces, of a launch with a domain
+};
+
+// Makes namespaces, or leases a ROS domain where they are not allowed. Must be called while there is one thread. Throws
+// std::runtime_error when all domains are taken.
+Isolation make_isolation();
 
 }  // namespace launch

@@ -27,13 +27,12 @@
 #include "base/processes/ending_signals.hpp"
 #include "base/processes/process_mark.hpp"
 #include "base/processes/spawn.hpp"
-#include "base/terminal/terminal_state.hpp"
+#include "base/terminal/terminal.hpp"
 #include "launcher/process/exec/launch_exec_protocol.hpp"
 #include "launcher/process/guardian/process_scan.hpp"
 #include "launcher/process/isolation/namespaces.hpp"
 #include "launcher/process/process_runner.hpp"
 #include "launcher/process/spawn/program_search.hpp"
-#include "launcher/process/spawn/spawn_failure.hpp"
 #include "launcher/process/spawn/stopped_threads.hpp"
 
 namespace launch {

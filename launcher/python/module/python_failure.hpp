@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turns Python's exceptions into errors with a place.
+// Turns Python's exceptions into errors with a place, and lets a signal end Python code that would run for ever.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -8,9 +8,24 @@
 
 #include "launcher/python/interpreter/python_runtime.hpp"
 #include "launcher/python/module/current_host.hpp"
-#include "launcher/python/module/python_interrupt.hpp"
 
 namespace launch::python {
+
+// The launcher's loop reads signals, but not while it waits for Python. Until the end of the block, a signal that asks
+// the launcher to end interrupts Python, if the launcher has blocked the signal: about a second later Python code gets
+// KeyboardInterrupt, once. Code that returns before that is not disturbed. The signal stays pending, so the loop reads
+// it afterwards. Blocks may nest; the outermost one counts. The caller holds the interpreter's lock, in the thread of
+// the loop.
+class PythonInterrupt {
+ public:
+  PythonInterrupt();
+  PythonInterrupt(const PythonInterrupt&) = delete;
+  PythonInterrupt& operator=(const PythonInterrupt&) = delete;
+  ~PythonInterrupt();
+
+ private:
+  bool outermost_;
+};
 
 // `place` is (file, line, begin, end), or None.
 Place read_place(const pybind11::handle& place);

@@ -15,7 +15,6 @@
 #include "launcher/python/interpreter/python_runtime.hpp"
 #include "launcher/python/module/entity_reader.hpp"
 #include "launcher/python/module/python_failure.hpp"
-#include "launcher/python/module/python_interrupt.hpp"
 
 namespace py = pybind11;
 

@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "launcher/process/process_exit_text.hpp"
+#include "launcher/process/process_messages.hpp"
 
 namespace launch {
 namespace {

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <vector>
 
-#include "base/text/name_list.hpp"
+#include "base/text/names.hpp"
 
 namespace launch {
 

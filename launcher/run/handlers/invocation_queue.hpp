@@ -38,4 +38,27 @@ class InvocationQueue {
   std::deque<std::vector<Invocation>> events_;
 };
 
+inline void InvocationQueue::add(std::vector<Invocation> invocations) {
+  if (!invocations.empty()) {
+    events_.push_back(std::move(invocations));
+    loop_.post([this] { visit_next(); });
+  }
+}
+
+inline void InvocationQueue::forget(const std::string& name) {
+  for (std::vector<Invocation>& event : events_) {
+    std::erase_if(event, [&](const Invocation& each) { return each.handler->name == name; });
+  }
+}
+
+inline void InvocationQueue::visit_next() {
+  const std::vector<Invocation> invocations = std::move(events_.front());
+  events_.front().clear();
+  for (const Invocation& invocation : invocations) {
+    visit_(invocation);
+  }
+  events_.pop_front();
+  visited_();
+}
+
 }  // namespace launch

@@ -5,6 +5,8 @@
 #include <functional>
 #include <list>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -32,5 +34,19 @@ class ReadyHandlers {
   std::function<void(const LaunchError&)> fail_;
   std::list<std::shared_ptr<const EventHandler>> handlers_;
 };
+
+inline void ReadyHandlers::add(EventHandler handler) {
+  const auto place = handlers_.insert(handlers_.end(), std::make_shared<const EventHandler>(std::move(handler)));
+  std::get<OnceReady>((*place)->event)
+      .condition->watch(loop_, [this, place](const std::optional<std::string>& failure) {
+        const std::shared_ptr<const EventHandler> ready = *place;
+        handlers_.erase(place);
+        if (failure) {
+          fail_(LaunchError(*failure, ready->where));
+        } else {
+          invoke_({{ready, {}}});
+        }
+      });
+}
 
 }  // namespace launch

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <iterator>
 #include <list>
 #include <utility>
 
@@ -35,5 +36,21 @@ class Timers {
   std::function<void(TimerRequest)> fire_;
   std::list<Timer> timers_;
 };
+
+inline void Timers::start(TimerRequest request) {
+  timers_.push_back({std::move(request), nullptr});
+  const auto timer = std::prev(timers_.end());
+  timer->source = loop_.after(timer->request.period, [this, timer] { on_due(timer); });
+}
+
+inline void Timers::shutdown() {
+  timers_.remove_if([](const Timer& timer) { return timer.request.cancel_on_shutdown; });
+}
+
+inline void Timers::on_due(std::list<Timer>::iterator timer) {
+  TimerRequest request = std::move(timer->request);
+  timers_.erase(timer);
+  fire_(std::move(request));
+}
 
 }  // namespace launch

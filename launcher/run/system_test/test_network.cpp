@@ -6,7 +6,7 @@
 #include <system_error>
 #include <utility>
 
-#include "launcher/process/isolation/tap_device.hpp"
+#include "launcher/process/isolation/packet_switch.hpp"
 #include "launcher/visit/process_table.hpp"
 
 namespace launch {

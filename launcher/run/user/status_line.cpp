@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/text/name_list.hpp"
+#include "base/text/names.hpp"
 
 namespace launch {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "base/text/remap_name.hpp"
+#include "base/text/names.hpp"
 #include "launcher/process/spawn/program_search.hpp"
 #include "launcher/substitution/unrun_commands.hpp"
 #include "programs/launch/check/finders.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "base/text/xml_text.hpp"
+#include "base/text/quoted_text.hpp"
 #include "programs/launch/describe/descriptions.hpp"
 
 namespace launch {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "base/text/xml_text.hpp"
+#include "base/text/quoted_text.hpp"
 #include "programs/launch/graph/graph.hpp"
 
 namespace launch {

@@ -29,7 +29,7 @@
 #include "launcher/language/introspection.hpp"
 #include "launcher/plan/dry_run.hpp"
 #include "launcher/process/guardian/guardian.hpp"
-#include "launcher/process/isolation/isolation.hpp"
+#include "launcher/process/isolation/namespaces.hpp"
 #include "launcher/process/process_messages.hpp"
 #include "launcher/python/interpreter/python_module.hpp"
 #include "launcher/ros/ros_client_process.hpp"
@@ -40,7 +40,6 @@
 #include "programs/command_line/result_output.hpp"
 #include "programs/command_line/subcommand.hpp"
 #include "programs/launch/commands.hpp"
-#include "programs/launch/run/trace_every_launch.hpp"
 
 namespace launch {
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "programs/launch/run/trace_every_launch.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <utility>
 
 #include "launcher/visit/launch_context.hpp"
+#include "programs/launch/run/run_command.hpp"
 
 namespace launch {
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "programs/launch/top/launch_in_top.hpp"
-
+// `launch --top FILE`: a launch that is seen in `launch top` from its start on.
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>

@@ -12,8 +12,7 @@
 #include <optional>
 
 #include "base/diagnostics/command_error.hpp"
-#include "programs/launch/trace/enter_or_signal.hpp"
-#include "programs/launch/trace/session_guard.hpp"
+#include "programs/launch/trace/session_end.hpp"
 #include "programs/launch/trace/session_text.hpp"
 #include "programs/launch/trace/trace_options.hpp"
 #include "tracing/record/account/cost_measurement.hpp"

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "programs/launch/trace/trace_completion.hpp"
-
 #include <algorithm>
 #include <set>
 #include <sstream>
 
+#include "programs/launch/trace/trace_command.hpp"
 #include "programs/launch/trace/trace_options.hpp"
 #include "tracing/record/checks/kernel_checks.hpp"
 #include "tracing/record/lttng/lttng_ctl.hpp"

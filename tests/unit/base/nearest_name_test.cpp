@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/text/nearest_name.hpp"
-
 #include <gtest/gtest.h>
 
 #include "base/diagnostics/diagnostic.hpp"
+#include "base/text/names.hpp"
 
 namespace launch {
 namespace {

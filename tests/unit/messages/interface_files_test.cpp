@@ -8,7 +8,6 @@
 #include <set>
 
 #include "base/overloaded.hpp"
-#include "launcher/message_types/idl_file.hpp"
 #include "launcher/message_types/interface_file.hpp"
 #include "test_library.hpp"
 

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "launcher/message_types/python_text.hpp"
 #include "launcher/message_types/yaml_text.hpp"
 #include "test_library.hpp"
 

@@ -87,7 +87,8 @@ class GuardianTest : public testing::Test {
   std::string read_line() {
     std::string line;
     pollfd readable{run.out.get(), POLLIN, 0};
-    for (char byte = 0; ::poll(&readable, 1, kGuardianPatience) == 1 && ::read(run.out.get(), &byte, 1) == 1 && byte != '\n';) {
+    for (char byte = 0;
+         ::poll(&readable, 1, kGuardianPatience) == 1 && ::read(run.out.get(), &byte, 1) == 1 && byte != '\n';) {
       line.push_back(byte);
     }
     return line;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/process/guardian/left_behind.hpp"
-
 #include <gmock/gmock.h>
+
+#include "launcher/process/guardian/guardian.hpp"
 
 namespace {
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The message for the user when a process cannot be started.
-#include "launcher/process/spawn/spawn_failure.hpp"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -12,6 +10,7 @@
 #include <string>
 
 #include "launcher/process/process_runner.hpp"
+#include "launcher/process/spawn/program_search.hpp"
 #include "temporary_directory.hpp"
 
 namespace launch {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "base/text/nearest_name.hpp"
+#include "base/text/names.hpp"
 #include "tracing/decode/ctf/metadata_text.hpp"
 #include "tracing/decode/ctf/trace_class.hpp"
 #include "tracing/record/account/stream_packets.hpp"

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "base/text/nearest_name.hpp"
+#include "base/text/names.hpp"
 #include "tracing/record/lttng/channels.hpp"
 #include "tracing/record/lttng/lttng_ctl.hpp"
 #include "tracing/record/lttng/lttng_list.hpp"

@@ -9,7 +9,7 @@
 #include <charconv>
 #include <string_view>
 
-#include "base/text/nearest_name.hpp"
+#include "base/text/names.hpp"
 #include "tracing/record/plan/trace_error.hpp"
 
 namespace tracing {

@@ -4,7 +4,7 @@
 #include <fmt/core.h>
 #include <fnmatch.h>
 
-#include "base/text/nearest_name.hpp"
+#include "base/text/names.hpp"
 #include "tracetools/event_table.h"
 
 namespace tracing {

@@ -1,9 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/text/shell_quoted.hpp"
+#include "base/text/quoted_text.hpp"
 
 #include <string_view>
 
 namespace launch {
+
+std::string as_xml_text(std::string_view text) {
+  std::string result;
+  for (const char character : text) {
+    switch (character) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += character;
+    }
+  }
+  return result;
+}
 
 std::string shell_quoted(const std::string& word) {
   constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:=@%+,-";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/text/nearest_name.hpp"
+#include "base/text/names.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes text for XML.
+// Texts as other languages quote them: words of a shell, text of XML.
 #pragma once
 
 #include <string>
@@ -9,5 +9,8 @@ namespace launch {
 
 // The text with entities for the characters that mean something in XML text and in quoted attributes.
 std::string as_xml_text(std::string_view text);
+
+// A word quoted in such a way that a shell reads this word.
+std::string shell_quoted(const std::string& word);
 
 }  // namespace launch
