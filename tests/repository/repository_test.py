@@ -137,6 +137,10 @@ class Version(unittest.TestCase):
                 self.assertEqual(re.search(r'<version>(.*)</version>', text)[1],
                                  VERSIONS_OF_ROS_2.get(name, self.version))
 
+    def test_packages_of_debian(self):
+        newest = re.match(r'launch \((.*)\)', (SOURCE / 'debian/changelog').read_text())[1]
+        self.assertEqual(newest, self.version)
+
     def test_changelog(self):
         releases = re.findall(r'^## \[(\d[^\]]*)\]', (SOURCE / 'CHANGELOG.md').read_text(), re.M)
         self.assertEqual(releases[0], self.version)
