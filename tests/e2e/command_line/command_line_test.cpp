@@ -3,7 +3,6 @@
 // started.
 #include <gmock/gmock.h>
 
-#include <chrono>
 #include <ostream>
 
 #include "tests/support/command.hpp"
@@ -12,7 +11,6 @@
 namespace {
 
 using namespace test_support;
-using namespace std::chrono_literals;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
@@ -286,24 +284,6 @@ TEST_F(CommandLine, DryRunOfAllProcessAttributes) {
   "shutdown": false
 }
 )json");
-}
-
-TEST_F(CommandLine, LiveGraphDrawsTheNodesThatRun) {
-  const auto file = sandbox_.directory() / "talker.launch.xml";
-  write_file(file, "<launch><node pkg=\"demo_nodes\" exec=\"talker\" name=\"drawn\" output=\"screen\"/></launch>\n");
-  RunningCommand nodes({.argv = {LAUNCH_PROGRAM, file.string()}});
-  ASSERT_TRUE(nodes.wait_for_output("Publishing: 'Hello World: 2'", 60s)) << nodes.out() << nodes.err();
-  // A busy machine may take longer than the recording to tell of the node.
-  CommandResult graph;
-  for (const auto end = std::chrono::steady_clock::now() + 60s;
-       graph.out.find("label=\"/drawn\"") == std::string::npos && std::chrono::steady_clock::now() < end;) {
-    graph = run_command(Command{.argv = {LAUNCH_PROGRAM, "graph", "--live"}}, 120s);
-  }
-  EXPECT_EQ(graph.exit_code, 0) << graph.err;
-  EXPECT_THAT(graph.out, StartsWith("//"));
-  EXPECT_THAT(graph.out, HasSubstr("label=\"/drawn\"")) << graph.err;
-  EXPECT_THAT(graph.out, HasSubstr("label=\"/chatter\""));
-  EXPECT_EQ(nodes.end_gently().exit_code, 0);
 }
 
 struct Malformed {

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
 #include <regex>
 #include <string>
@@ -28,6 +30,16 @@ class LaunchTestFixture : public testing::Test {
   static CommandResult run(std::vector<std::string> words) {
     words.insert(words.begin(), {LAUNCH_PROGRAM, "test"});
     return run_command({.argv = std::move(words)}, std::chrono::seconds(100));
+  }
+
+  // Waits until a process of a test has made the file.
+  bool appears(const std::string& name) const {
+    const std::filesystem::path path = sandbox_.directory() / name;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (!std::filesystem::exists(path) && std::chrono::steady_clock::now() < end) {
+      ::usleep(10'000);
+    }
+    return std::filesystem::exists(path);
   }
 
   // Without times and directories, which differ.

@@ -1,104 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Events of the kernel beside those of userspace, recorded through tracefs because LTTng's modules are missing.
 #include <gmock/gmock.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <string>
-#include <vector>
-
-#include "tests/support/command.hpp"
-#include "tests/support/sandbox.hpp"
+#include "tests/e2e/tracing/kernel_trace_fixture.hpp"
 
 namespace {
 
-namespace fs = std::filesystem;
 using namespace test_support;
 using testing::HasSubstr;
-
-// Lists the instances. For this, tracefs must be mounted.
-constexpr const char* kSeeTracefs =
-    "ls /sys/kernel/tracing/instances 2>/dev/null || "
-    "{ mount -t tracefs none /sys/kernel/tracing && ls /sys/kernel/tracing/instances; }";
-
-class KernelTrace : public testing::Test {
- protected:
-  void SetUp() override {
-    if (geteuid() != 0) {
-      GTEST_SKIP() << "skipped, because the kernel is traced by root alone";
-    }
-    if (run_command({"unshare", "-m", "sh", "-c", kSeeTracefs}).exit_code != 0) {
-      GTEST_SKIP() << "skipped, because tracefs can't be mounted here";
-    }
-  }
-
-  CommandResult launch(const std::string& actions) const {
-    const fs::path path = sandbox_.directory() / "system.launch.xml";
-    write_file(path, "<launch>\n" + actions + "\n</launch>\n");
-    return run_command({LAUNCH_PROGRAM, path});
-  }
-
-  static std::vector<std::string> lines_of(const fs::path& directory) {
-    const CommandResult read = run_command({"babeltrace2", directory.string()});
-    EXPECT_EQ(read.exit_code, 0) << read.err;
-    std::vector<std::string> lines;
-    std::istringstream out(read.out);
-    for (std::string line; std::getline(out, line);) {
-      lines.push_back(line);
-    }
-    return lines;
-  }
-
-  // The consumer daemons in the mount namespace of this test.
-  static std::vector<long> own_consumers() {
-    std::vector<long> consumers;
-    for (const auto& entry : fs::directory_iterator("/proc")) {
-      std::error_code error;
-      std::string name;
-      std::getline(std::ifstream(entry.path() / "comm") >> std::ws, name);
-      if (name == "lttng-consumerd" &&
-          fs::read_symlink(entry.path() / "ns/mnt", error) == fs::read_symlink("/proc/self/ns/mnt")) {
-        consumers.push_back(std::stol(entry.path().filename()));
-      }
-    }
-    return consumers;
-  }
-
-  // The number after `key` in the first line from `begin` on that has all the texts; -1 if no line has them. `found`
-  // gets the index of the line.
-  static long number_in(const std::vector<std::string>& lines, const std::vector<std::string>& texts,
-                        const std::string& key, std::size_t& found, std::size_t begin = 0) {
-    for (std::size_t i = begin; i < lines.size(); ++i) {
-      if (!std::all_of(texts.begin(), texts.end(),
-                       [&](const std::string& text) { return lines[i].find(text) != std::string::npos; })) {
-        continue;
-      }
-      found = i;
-      const std::size_t value = lines[i].find(key + " = ");
-      return value == std::string::npos ? -1 : std::stol(lines[i].substr(value + key.size() + 3));
-    }
-    return -1;
-  }
-
-  // The snapshots of the session, from the oldest to the newest.
-  std::vector<fs::path> snapshots_of(const std::string& session) const {
-    std::vector<fs::path> snapshots;
-    for (const auto& entry : fs::directory_iterator(sandbox_.trace_directory() / session)) {
-      if (entry.path().filename().string().starts_with("snapshot-")) {
-        snapshots.push_back(entry.path());
-      }
-    }
-    std::sort(snapshots.begin(), snapshots.end());
-    return snapshots;
-  }
-
-  // All sandboxes share the instances of the kernel.
-  const std::string session_ = "kernel_test_" + std::to_string(getpid());
-  Sandbox sandbox_;
-};
 
 TEST_F(KernelTrace, KernelAndUserspaceEventsStandInOneOrderWithTheRightThreads) {
   // In a container the kernel's process ids differ from those that the programs see.
@@ -137,43 +46,6 @@ TEST_F(KernelTrace, KernelAndUserspaceEventsStandInOneOrderWithTheRightThreads) 
       application)
       << "the scheduler let it run";
   EXPECT_EQ(number_in(lines, {"launch:exec"}, "vtid", switched) > 0, true);
-}
-
-TEST_F(KernelTrace, UnknownEventsAreAnErrorAtTheTraceAndLeaveNothing) {
-  const CommandResult result = launch("<trace session-name=\"" + session_ + "\" events-kernel=\"sched_swich\"/>");
-  EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.err,
-              HasSubstr(":2:2: error: tracing setup failed: kernel events cannot be recorded: the kernel has "
-                        "no event 'sched_swich'"));
-  EXPECT_THAT(run_command({"lttng", "list"}).out, HasSubstr("Currently no available recording session"));
-  EXPECT_FALSE(fs::exists(sandbox_.trace_directory() / session_)) << "another try finds the place free";
-  EXPECT_EQ(run_command(
-                {"unshare", "-m", "sh", "-c", "{ " + std::string(kSeeTracefs) + "; } | grep ^launch-" + session_ + "$"})
-                .out,
-            "");
-}
-
-TEST_F(KernelTrace, UnknownEventsBesideKnownOnesAreAWarning) {
-  const CommandResult result =
-      launch("<trace session-name=\"" + session_ +
-             "\" events-kernel=\"lttng_statedump_start sched_process_exec sched_swich\" syscalls=\"opennat\"/>" +
-             "<executable cmd=\"true\"/>");
-  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
-  EXPECT_THAT(result.out, HasSubstr("not recorded, for the kernel has no event 'lttng_statedump_start', no event "
-                                    "'sched_swich', no system call 'opennat'\n"));
-  std::size_t found = 0;
-  EXPECT_GT(number_in(lines_of(sandbox_.trace_directory() / session_), {"sched_process_exec: "}, "vpid", found), 0);
-}
-
-TEST_F(KernelTrace, ContextFieldsThatTracefsDoesNotTellAreAnErrorAtTheTrace) {
-  const CommandResult result = launch("<trace session-name=\"" + session_ +
-                                      "\" events-kernel=\"sched_switch\" context-fields-kernel=\"tid nice\"/>");
-  EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.err,
-              HasSubstr(":2:2: error: tracing setup failed: context field 'nice' of kernel events cannot be "
-                        "recorded without LTTng's kernel modules\n"));
-  EXPECT_THAT(result.err, HasSubstr("= help: give context-fields-kernel some of procname, pid, tid, vpid and vtid; or "
-                                    "install lttng-modules-dkms"));
 }
 
 TEST_F(KernelTrace, SeveralTracesRecordEachItsOwnEvents) {
@@ -219,87 +91,6 @@ TEST_F(KernelTrace, WhatHappensDuringAPauseIsNotRecorded) {
   EXPECT_TRUE(recorded("before"));
   EXPECT_FALSE(recorded("meanwhile"));
   EXPECT_TRUE(recorded("after"));
-}
-
-TEST_F(KernelTrace, AFlightRecorderHoldsWhatTheKernelDidBeforeTheCrash) {
-  const fs::path unlucky = sandbox_.directory() / "unlucky";
-  fs::copy_file("/bin/sh", unlucky);
-  const CommandResult result =
-      launch("<trace session-name=\"" + session_ + "\" snapshot-on-crash=\"true\" events-kernel=\"sched_process_*\"/>" +
-             "<executable cmd=\"" + unlucky.string() + " -c '" TRACED_APP " 3 10 &lt;/dev/null; kill -SEGV $$'\"/>");
-  EXPECT_EQ(result.exit_code, 3) << result.out << result.err;
-  EXPECT_THAT(result.out, HasSubstr("snapshot written to: "));
-  const std::vector<fs::path> snapshots = snapshots_of(session_);
-  ASSERT_EQ(snapshots.size(), 1U);
-  const std::vector<std::string> lines = lines_of(snapshots.front());
-  std::size_t exec = 0;
-  std::size_t told = 0;
-  std::size_t exited = 0;
-  const long pid = number_in(lines, {"sched_process_exec: ", "/unlucky\""}, "vpid", exec);
-  EXPECT_GT(pid, 0);
-  EXPECT_GT(number_in(lines, {"sched_process_exit: ", "comm = \"unlucky\""}, "vpid", exited), 0);
-  EXPECT_GT(number_in(lines, {"ros2:rcl_init: "}, "vtid", told), 0);
-  EXPECT_LT(exec, told);
-  EXPECT_LT(told, exited);
-  EXPECT_FALSE(fs::exists(snapshots.front().parent_path() / "kernel-recorder.pid"));
-  EXPECT_FALSE(fs::exists(snapshots.front().parent_path() / "kernel-recorder.json"));
-}
-
-TEST_F(KernelTrace, ASnapshotByCommandBeginsWhereTheOneBeforeEnded) {
-  const auto trace = [this](const std::string& verb, const std::vector<std::string>& more = {}) {
-    std::vector<std::string> argv = {LAUNCH_PROGRAM, "trace", verb, session_};
-    argv.insert(argv.end(), more.begin(), more.end());
-    const CommandResult result = run_command(argv);
-    EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
-  };
-  const auto run_as = [this](const std::string& name) {
-    const fs::path copy = sandbox_.directory() / name;
-    fs::copy_file("/bin/true", copy);
-    run_command({copy.string()});
-  };
-  const auto recorded = [](const fs::path& snapshot, const std::string& name) {
-    std::size_t found = 0;
-    return number_in(lines_of(snapshot), {"sched_process_exec: ", "/" + name + "\""}, "vpid", found) > 0;
-  };
-  trace("start", {"--snapshot-mode", "-k", "sched_process_exec"});
-  run_as("first");
-  trace("record_snapshot");
-  run_as("second");
-  trace("record_snapshot");
-  trace("stop");
-  const std::vector<fs::path> snapshots = snapshots_of(session_);
-  ASSERT_EQ(snapshots.size(), 2U);
-  EXPECT_TRUE(recorded(snapshots[0], "first"));
-  EXPECT_FALSE(recorded(snapshots[0], "second"));
-  EXPECT_FALSE(recorded(snapshots[1], "first"));
-  EXPECT_TRUE(recorded(snapshots[1], "second"));
-}
-
-TEST_F(KernelTrace, WhoIsNotRootIsToldWhatToDo) {
-  const std::vector<std::string> as_nobody = {"setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"};
-  std::vector<std::string> reach = as_nobody;
-  reach.insert(reach.end(), {"test", "-x", LAUNCH_PROGRAM});
-  if (run_command({reach}).exit_code != 0) {
-    GTEST_SKIP() << "skipped, because other users can't reach the build";
-  }
-  const fs::path path = sandbox_.directory() / "system.launch.xml";
-  write_file(path, "<launch>\n<trace session-name=\"run\" events-kernel=\"sched_switch\"/>\n</launch>\n");
-  fs::permissions(sandbox_.directory(), fs::perms::all);
-  for (const auto& entry : fs::directory_iterator(sandbox_.directory())) {
-    fs::permissions(entry.path(), fs::perms::all);
-  }
-  std::vector<std::string> run = as_nobody;
-  run.insert(run.end(), {LAUNCH_PROGRAM, path.string()});
-  const CommandResult result = run_command({run});
-  EXPECT_EQ(result.exit_code, 1);
-  EXPECT_EQ(
-      result.err,
-      path.string() +
-          R"(:2:2: error: tracing setup failed: kernel events cannot be recorded: root's session daemon alone records them, and this user has none
-    2 | <trace session-name="run" events-kernel="sched_switch"/>
-      |  ^~~~~
-      = help: run as root; or let root start lttng-sessiond, join the group `tracing` (sudo usermod -aG tracing USER), and log in again
-)");
 }
 
 TEST_F(KernelTrace, TheExampleRecordsWhoRan) {
