@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "launcher/language/condition.hpp"
 #include "launcher/substitution/substitution.hpp"
 
 namespace launch {
@@ -46,6 +45,22 @@ struct Introspection {
   const std::shared_ptr<const LaunchDescription>* description = nullptr;  // a launch file that is already loaded
   const std::vector<ActionPtr>* children = nullptr;
   bool children_may_not_run = false;  // they wait for something, like the children of a timer
+};
+
+// Its `if` and `unless`.
+class Condition {
+ public:
+  Condition() = default;  // always holds
+  Condition(Template expression, bool negated) : expression_(std::move(expression)), negated_(negated) {}
+
+  bool is_given() const { return expression_.has_value(); }
+
+  // Throws LaunchError when the performed text is not true, 1, false or 0 (in any case).
+  bool holds(Scope& scope) const;
+
+ private:
+  std::optional<Template> expression_;
+  bool negated_ = false;
 };
 
 class Action {

@@ -283,6 +283,11 @@ class TemplateParser {
   int nesting_ = 0;
 };
 
+ForeignSubstitutions& known_foreign_substitutions() {
+  static ForeignSubstitutions substitutions;
+  return substitutions;
+}
+
 }  // namespace
 
 std::optional<std::string> wrong_number_of_arguments(const SubstitutionType& type, std::size_t count) {
@@ -311,6 +316,14 @@ std::string unescape(std::string_view text) {
     result += text[i];
   }
   return result;
+}
+
+void use_foreign_substitutions(ForeignSubstitutions substitutions) {
+  known_foreign_substitutions() = std::move(substitutions);
+}
+
+const ForeignSubstitutions& foreign_substitutions() {
+  return known_foreign_substitutions();
 }
 
 }  // namespace launch

@@ -30,7 +30,6 @@
 #include "launcher/testing/artefacts.hpp"
 #include "launcher/testing/run_judge.hpp"
 #include "launcher/testing/test_result.hpp"
-#include "launcher/testing/trace_session.hpp"
 #include "tracing/record/lttng/session_daemon.hpp"
 
 namespace launch {

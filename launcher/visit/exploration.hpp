@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/diagnostics/diagnostic.hpp"
 #include "launcher/substitution/scope.hpp"
@@ -38,14 +39,22 @@ class Exploration {
   // Tells of an error behind which the visit goes on.
   void report(const LaunchError& error) const { observer_.report(error, in_left_out_); }
   // Tells of what would go wrong only when the requests are carried out. Does nothing in a visit that does not explore.
-  void remark(Diagnostic diagnostic) const;
+  void remark(Diagnostic diagnostic) const {
+    if (is_on() && observer_.judges && !scope_.incomplete && !scope_.command_was_left_out()) {
+      report(LaunchError(std::vector<Diagnostic>{std::move(diagnostic)}));
+    }
+  }
   // Whether a file was not seen before: a file that many nodes read is judged once.
   bool sees_first(const std::string& path) { return seen_files_.emplace(path, in_left_out_).second; }
 
   // For the visit: an action that its condition leaves out begins and ends.
   bool enters_left_out() { return is_on() && !std::exchange(in_left_out_, true); }
   void leave_left_out() { in_left_out_ = false; }
-  void tell_left_out(Requests requests) const;
+  void tell_left_out(Requests requests) const {
+    if (observer_.left_out) {
+      observer_.left_out(std::move(requests));
+    }
+  }
 
  private:
   const Scope& scope_;

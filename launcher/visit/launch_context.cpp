@@ -172,7 +172,7 @@ Requests LaunchContext::take_requests() {
   return std::exchange(requests_, Requests{});
 }
 
-// Here, because test_visits.cpp must not know the context that holds its class.
+// Here, because test_visits.hpp must not know the context that holds its class.
 std::vector<FaultRequest> TestVisits::visit(LaunchContext& context, const std::vector<ActionPtr>& actions) {
   AtExit restore([this] { in_test_ = false; });
   in_test_ = true;

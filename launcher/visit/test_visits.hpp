@@ -24,7 +24,16 @@ class TestVisits {
   }
   enum class Part { kNothing, kExpectations, kActionsToo };
   // To be called once by each test that is visited: what it should request.
-  Part next();
+  Part next() {
+    const std::size_t number = visited_++;
+    if (!takes_) {
+      return Part::kNothing;
+    }
+    if (!chosen_) {
+      return Part::kExpectations;
+    }
+    return chosen_ == number ? Part::kActionsToo : Part::kNothing;
+  }
 
   // The actions within a test are visited by this call, in a scope of their own. Returns the faults that they ask for.
   std::vector<FaultRequest> visit(LaunchContext& context, const std::vector<ActionPtr>& actions);

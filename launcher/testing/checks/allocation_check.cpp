@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/testing/checks/allocation_check.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
+
+#include "launcher/testing/checks/trace_judges.hpp"
 
 namespace launch {
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/testing/checks/chain_times.hpp"
-
+#include "launcher/testing/checks/trace_judges.hpp"
 #include "tracing/decode/reader/trace_reader.hpp"
 #include "tracing/model/analysis/trace_analysis.hpp"
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/testing/checks/timer_check.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +7,8 @@
 #include <map>
 #include <set>
 #include <tuple>
+
+#include "launcher/testing/checks/trace_judges.hpp"
 
 namespace launch {
 

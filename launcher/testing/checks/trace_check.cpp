@@ -10,9 +10,7 @@
 
 #include "launch_trace_testing/event_query.hpp"
 #include "launch_trace_testing/expectations.hpp"
-#include "launcher/testing/checks/allocation_check.hpp"
-#include "launcher/testing/checks/chain_times.hpp"
-#include "launcher/testing/checks/timer_check.hpp"
+#include "launcher/testing/checks/trace_judges.hpp"
 #include "tracing/decode/reader/trace_read_error.hpp"
 
 namespace launch {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/language/condition.hpp"
+#include "launcher/language/action.hpp"
 
 #include <fmt/format.h>
 

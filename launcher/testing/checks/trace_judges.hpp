@@ -1,16 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// The times of chains of callbacks in the trace of a test.
+// The parts of trace_check.cpp for expectations that need more than a question to the trace. Those that return an
+// optional give nullopt if everything is as expected.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "launch_trace_testing/trace.hpp"
+#include "launcher/testing/failure.hpp"
+#include "launcher/visit/test_request.hpp"
 #include "tracing/model/analysis/results.hpp"
 #include "tracing/model/chains/chain_definition.hpp"
 
 namespace launch {
+
+// How often the callbacks of a node ask for memory.
+std::optional<Failure> judge_allocations(const ExpectedAllocations& expected, const tracing::TraceResults& results,
+                                         const SourceRange& where);
+
+// How regularly the timers of a node have fired.
+std::optional<Failure> judge_timer(const ExpectedTimer& expected, const launch_trace_testing::Trace& trace,
+                                   const SourceRange& where);
 
 // The chains that the trace holds, with the names of the definitions, of the events of these processes. Throws
 // tracing::TraceReadError.
