@@ -35,7 +35,7 @@ ItemSpec DependsOn::item() {
 ItemSpec DependsOn::item_of_fault() {
   std::vector<AttributeSpec> attributes = {
       {"process", AttributeType::kText, false, "", "another process, by its name or that of its node", true}};
-  for (AttributeSpec& attribute : RosCondition::attributes()) {
+  for (AttributeSpec& attribute : ros_condition_attributes()) {
     attributes.push_back(std::move(attribute));
   }
   const std::vector<AttributeSpec> rest = {
@@ -59,9 +59,9 @@ ItemSpec DependsOn::item_of_fault() {
 
 DependsOn::DependsOn(const Fields& fields)
     : fields_(fields),
+      subject_(ros_subject_of(fields, {"process"})),
       on_failure_(static_cast<OnFailure>(choice(fields, "on_failure", {"shutdown", "start", "skip"}))) {
-  const std::string subject = RosCondition::subject_of(fields, {"process"});
-  if (subject == "process") {
+  if (subject_ == "process") {
     state_ = static_cast<State>(choice(fields, "condition", {"started", "exited", "output"}));
     for (const char* const of_node : {"state", "parameter", "value"}) {
       if (fields.has(of_node)) {
@@ -70,7 +70,7 @@ DependsOn::DependsOn(const Fields& fields)
       }
     }
   } else {
-    ros_condition_.emplace(fields, subject);
+    check_ros_condition(fields, subject_);
   }
   require_state(fields, "exit_code", "exited", state_ == State::kExited);
   require_state(fields, "pattern", "output", state_ == State::kOutput);
@@ -79,12 +79,12 @@ DependsOn::DependsOn(const Fields& fields)
   if (std::optional<NumberField> timeout = fields.number("timeout")) {
     timeout->require_not_negative();
   }
-  RangeField::of(fields, "occurrence", true);
+  check_range(fields, "occurrence", RangeOf::kWholeNumbersFromOne);
 }
 
 NumberRange DependsOn::occurrence(Scope& scope) const {
-  const std::optional<RangeField> given = RangeField::of(fields_, "occurrence", true);
-  return given ? given->perform(scope) : NumberRange{1, 1};
+  return fields_.has("occurrence") ? perform_range(fields_, "occurrence", scope, RangeOf::kWholeNumbersFromOne)
+                                   : NumberRange{1, 1};
 }
 
 void DependsOn::request(LaunchContext& context, std::size_t process) const {
@@ -117,14 +117,14 @@ bool DependsOn::is_random(Scope& scope) const {
 Dependency DependsOn::dependency(LaunchContext& context, std::uint64_t occurrence) const {
   Scope& scope = context.scope();
   Dependency dependency;
-  if (ros_condition_) {
-    dependency.condition = ros_condition_->perform(context);
-  } else {
+  if (subject_ == "process") {
     dependency.condition = process_condition(scope, occurrence);
+  } else {
+    dependency.condition = perform_ros_condition(fields_, subject_, context);
   }
   if (std::optional<NumberField> timeout = fields_.number("timeout")) {
     timeout->require_not_negative();
-    dependency.timeout = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(timeout->perform(scope)));
+    dependency.timeout = as_duration(timeout->perform(scope));
   }
   dependency.on_failure = on_failure_;
   dependency.where = fields_.where();
@@ -132,9 +132,6 @@ Dependency DependsOn::dependency(LaunchContext& context, std::uint64_t occurrenc
 }
 
 ProcessCondition DependsOn::process_condition(Scope& scope, std::uint64_t occurrence) const {
-  const auto text = [&](const char* attribute, const char* otherwise) {
-    return fields_.has(attribute) ? fields_.text(attribute).perform(scope) : std::string(otherwise);
-  };
   ProcessCondition condition;
   condition.process = fields_.text("process").perform(scope);
   switch (state_) {
@@ -142,12 +139,11 @@ ProcessCondition DependsOn::process_condition(Scope& scope, std::uint64_t occurr
       condition.state = UntilStarted{};
       break;
     case State::kExited:
-      condition.state = UntilExited{ExitCodeFilter(text("exit_code", "0"), fields_.where("exit_code"))};
+      condition.state = UntilExited{ExitCodeFilter(
+          fields_.has("exit_code") ? fields_.text("exit_code").perform(scope) : "0", fields_.where("exit_code"))};
       break;
     case State::kOutput:
-      condition.state = UntilOutput{
-          OutputPattern(text("pattern", ""), fields_.where("pattern"), text("stream", "both"), fields_.where("stream")),
-          occurrence};
+      condition.state = UntilOutput{perform_output_pattern(fields_, scope), occurrence};
       break;
   }
   return condition;

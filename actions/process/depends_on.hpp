@@ -38,7 +38,7 @@ class DependsOn {
   ProcessCondition process_condition(Scope& scope, std::uint64_t occurrence) const;
 
   Fields fields_;
-  std::optional<RosCondition> ros_condition_;  // without it, the item is about a process
+  std::string subject_;  // the attribute that gives it: process, or one of the ROS graph
   State state_ = State::kStarted;
   OnFailure on_failure_ = OnFailure::kShutdown;
 };

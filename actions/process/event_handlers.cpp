@@ -1,107 +1,84 @@
 // SPDX-License-Identifier: Apache-2.0
-// <on_process_start>, <on_process_exit>, <on_process_io>, <on_shutdown>, <on_state_transition>: visit actions when
-// something happens.
+// <on_process_start>, <on_process_exit>, <on_process_io>, <on_shutdown>, <on_state_transition>, <wait_for>: visit
+// actions when something happens. <unregister_event_handler>: a handler gets no more events.
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "actions/row_action.hpp"
+#include "actions/values/ros_condition.hpp"
 #include "actions/values/ros_names.hpp"
-#include "launcher/language/fields.hpp"
-#include "launcher/visit/launch_context.hpp"
 
 namespace launch {
 
 namespace {
 
-constexpr double kDefaultShutdownTimeout = 5.0;  // seconds
+using Type = AttributeType;
 
-using Event = decltype(EventHandler::event);
-
-// The part that all event handlers have in common. `make_event` evaluates the rest each time the handler is visited.
-class RegisterEventHandler : public Action {
- public:
-  using MakeEvent = std::function<Event(Scope&)>;
-
-  RegisterEventHandler(const Fields& fields, MakeEvent make_event)
-      : Action(fields.where(), fields.condition()),
-        name_(fields.optional_text("name")),
-        process_(fields.optional_text("process")),
-        once_(fields.boolean("once", false)),
-        actions_(fields.actions()),
-        make_event_(std::move(make_event)) {}
-
-  Introspection introspect() const override { return {.children = &actions_, .children_may_not_run = true}; }
-
- protected:
-  void execute(LaunchContext& context) const override {
-    Scope& scope = context.scope();
-    EventHandler handler;
-    handler.event = make_event_(scope);
-    handler.name = name_ ? name_->perform(scope) : "";
-    if (process_) {
-      handler.process = process_->perform(scope);
-      if (handler.process.empty()) {
-        throw LaunchError("the name of the process is empty", process_->where(),
-                          "leave the attribute out to mean every process");
-      }
-    }
-    handler.once = once_.perform(scope);
-    handler.actions = actions_;
-    handler.scope = scope;
-    handler.where = where();
-    context.requests().handlers.push_back(std::move(handler));
-  }
-
- private:
-  std::optional<Template> name_;
-  std::optional<Template> process_;
-  BooleanField once_;
-  std::vector<ActionPtr> actions_;
-  MakeEvent make_event_;
+// What a handler is evaluated to.
+template <typename Event>
+struct Handled {
+  Event event = {};
+  EventHandler handler = {};
 };
 
-// Evaluates literal attributes now, so that their errors are found at load.
-RegisterEventHandler::MakeEvent checked(RegisterEventHandler::MakeEvent make_event, bool literal) {
-  if (literal) {
-    Scope nothing;
-    make_event(nothing);
+template <typename Event>
+using HandlerRows = std::vector<Setting<Handled<Event>>>;
+
+template <typename Event>
+Setting<Handled<Event>> process_row() {
+  return {.attribute = {"process", Type::kText, false, "every process", "name of the process or of its node"},
+          .perform = [](const Fields& fields, Scope& scope, Handled<Event>& handled) {
+            handled.handler.process = fields.text("process").perform(scope);
+            if (handled.handler.process.empty()) {
+              throw LaunchError("the name of the process is empty", fields.text("process").where(),
+                                "leave the attribute out to mean every process");
+            }
+          }};
+}
+
+template <typename Event>
+Setting<Handled<Event>> once_row() {
+  return {.attribute = {"once", Type::kBoolean, false, "false", "true: only the first time"},
+          .place = place_of(&Handled<Event>::handler, &EventHandler::once)};
+}
+
+template <typename Event>
+Setting<Handled<Event>> handler_name_row() {
+  return {.attribute = {"name", Type::kText, false, "", "name of the handler, for unregister_event_handler"},
+          .place = place_of(&Handled<Event>::handler, &EventHandler::name)};
+}
+
+template <typename Event>
+ActionType handler_of(std::string tag, std::string help, HandlerRows<Event> rows,
+                      void (*check)(const Fields&) = nullptr,
+                      void (*finish)(const Fields&, LaunchContext&, Handled<Event>&) = nullptr) {
+  for (Setting<Handled<Event>>& row : rows) {
+    row.attribute.extension = true;
   }
-  return make_event;
+  return action_of<Handled<Event>>(
+      {.tag = std::move(tag), .help = std::move(help), .holds_actions = true, .extension = true}, std::move(rows),
+      [finish](const Fields& fields, LaunchContext& context, Handled<Event>& handled) {
+        if (finish != nullptr) {
+          finish(fields, context, handled);
+        }
+        EventHandler& handler = handled.handler;
+        handler.event = std::move(handled.event);
+        handler.actions = fields.actions();
+        handler.scope = context.scope();
+        handler.where = fields.where();
+        context.requests().handlers.push_back(std::move(handler));
+      },
+      check);
 }
 
-bool needs_no_visit(const std::optional<Template>& text) {
-  return !text || text->is_literal();
-}
-
-ActionPtr make_on_process_exit(const Fields& fields) {
-  const std::optional<Template> exit_code = fields.optional_text("exit_code");
-  auto make_event = [exit_code](Scope& scope) -> Event {
-    return OnProcessExit{exit_code ? ExitCodeFilter(exit_code->perform(scope), exit_code->where()) : ExitCodeFilter()};
+void check_pattern(const Fields& fields) {
+  const auto is_known = [&](const char* attribute) {
+    return !fields.has(attribute) || fields.text(attribute).is_literal();
   };
-  return std::make_shared<RegisterEventHandler>(fields, checked(make_event, needs_no_visit(exit_code)));
-}
-
-ActionPtr make_on_process_io(const Fields& fields) {
-  const std::optional<Template> pattern = fields.optional_text("pattern");
-  const std::optional<Template> stream = fields.optional_text("stream");
-  RegisterEventHandler::MakeEvent make_event = [pattern, stream](Scope& scope) -> Event {
-    return OnProcessIo{OutputPattern(pattern ? pattern->perform(scope) : "", pattern ? pattern->where() : SourceRange(),
-                                     stream ? stream->perform(scope) : "both",
-                                     stream ? stream->where() : SourceRange())};
-  };
-  return std::make_shared<RegisterEventHandler>(
-      fields, checked(std::move(make_event), needs_no_visit(pattern) && needs_no_visit(stream)));
-}
-
-ActionPtr make_on_shutdown(const Fields& fields) {
-  std::optional<NumberField> timeout = fields.number("timeout");
-  if (timeout) {
-    timeout->require_not_negative();
+  if (Scope nothing; is_known("pattern") && is_known("stream")) {
+    perform_output_pattern(fields, nothing);
   }
-  return std::make_shared<RegisterEventHandler>(fields, [timeout](Scope& scope) -> Event {
-    const std::chrono::duration<double> seconds(timeout ? timeout->perform(scope) : kDefaultShutdownTimeout);
-    return OnShutdown{std::chrono::duration_cast<Duration>(seconds)};
-  });
 }
 
 // The states that a node stays in, and the states that it passes through.
@@ -109,102 +86,119 @@ const std::vector<std::string> kStates = {"unconfigured", "inactive",       "act
                                           "configuring",  "cleaningup",     "activating", "deactivating",
                                           "shuttingdown", "errorprocessing"};
 
-std::string state_of(const std::optional<Template>& given, Scope& scope) {
-  if (!given) {
-    return {};
-  }
-  std::string state = given->perform(scope);
-  if (std::find(kStates.begin(), kStates.end(), state) == kStates.end()) {
-    throw LaunchError(fmt::format("a node with a managed life cycle has no state '{}'", state), given->where(),
-                      did_you_mean(state, kStates));
-  }
-  return state;
-}
-
-ActionPtr make_on_state_transition(const Fields& fields) {
-  const Template& node = fields.text("node");
-  const std::optional<Template> start = fields.optional_text("start_state");
-  const std::optional<Template> goal = fields.optional_text("goal_state");
-  for (const std::optional<Template>& state : {start, goal}) {
-    if (Scope nothing; needs_no_visit(state)) {
-      state_of(state, nothing);
-    }
-  }
-  return std::make_shared<RegisterEventHandler>(fields, [node, start, goal](Scope& scope) -> Event {
-    return OnStateTransition{resolve_name(node, scope), state_of(start, scope), state_of(goal, scope)};
-  });
-}
-
-ActionType handler(std::string tag, std::string help, std::vector<AttributeSpec> attributes,
-                   std::function<ActionPtr(const Fields&)> make) {
-  attributes.push_back({"name", AttributeType::kText, false, "", "name of the handler, for unregister_event_handler"});
-  for (AttributeSpec& attribute : attributes) {
-    attribute.extension = true;
-  }
-  return {.tag = std::move(tag),
-          .help = std::move(help),
-          .attributes = std::move(attributes),
-          .items = {},
-          .holds_actions = true,
-          .extension = true,
-          .make = std::move(make)};
-}
-
-AttributeSpec any_process_attribute() {
-  return {"process", AttributeType::kText, false, "every process", "name of the process or of its node"};
-}
-
-AttributeSpec once_attribute() {
-  return {"once", AttributeType::kBoolean, false, "false", "true: only the first time"};
+Setting<Handled<OnStateTransition>> state_row(const char* name, const char* help,
+                                              std::string OnStateTransition::*member) {
+  return {.attribute = {name, Type::kText, false, "any", help},
+          .perform =
+              [name, member](const Fields& fields, Scope& scope, Handled<OnStateTransition>& handled) {
+                const Template& given = fields.text(name);
+                std::string state = given.perform(scope);
+                if (std::find(kStates.begin(), kStates.end(), state) == kStates.end()) {
+                  throw LaunchError(fmt::format("a node with a managed life cycle has no state '{}'", state),
+                                    given.where(), did_you_mean(state, kStates));
+                }
+                handled.event.*member = std::move(state);
+              },
+          .checks_literal = true};
 }
 
 }  // namespace
 
 ActionType on_process_start_action() {
-  return handler("on_process_start", "Visits its actions each time a process has started.",
-                 {any_process_attribute(), once_attribute()}, [](const Fields& fields) {
-                   return std::make_shared<RegisterEventHandler>(fields,
-                                                                 [](Scope&) -> Event { return OnProcessStart{}; });
-                 });
+  using Event = OnProcessStart;
+  return handler_of<Event>("on_process_start", "Visits its actions each time a process has started.",
+                           {process_row<Event>(), once_row<Event>(), handler_name_row<Event>()});
 }
 
 ActionType on_process_exit_action() {
-  return handler("on_process_exit",
-                 "Visits its actions each time a process has ended; a process that can't be started counts as ended "
-                 "with exit code 127.",
-                 {any_process_attribute(),
-                  {"exit_code", AttributeType::kText, false, "any",
-                   "any, nonzero, or codes and signals (-9 or SIGKILL) separated by commas"},
-                  once_attribute()},
-                 make_on_process_exit);
+  using Event = OnProcessExit;
+  return handler_of<Event>(
+      "on_process_exit",
+      "Visits its actions each time a process has ended; a process that can't be started counts as ended "
+      "with exit code 127.",
+      {process_row<Event>(),
+       {.attribute = {"exit_code", Type::kText, false, "any",
+                      "any, nonzero, or codes and signals (-9 or SIGKILL) separated by commas"},
+        .perform =
+            [](const Fields& fields, Scope& scope, Handled<Event>& handled) {
+              const Template& text = fields.text("exit_code");
+              handled.event.exit_code = ExitCodeFilter(text.perform(scope), text.where());
+            },
+        .checks_literal = true},
+       once_row<Event>(),
+       handler_name_row<Event>()});
 }
 
 ActionType on_process_io_action() {
-  return handler("on_process_io", "Visits its actions for each line that a process has written.",
-                 {any_process_attribute(),
-                  {"pattern", AttributeType::kText, false, "every line", "regular expression to be found in the line"},
-                  {"stream", AttributeType::kText, false, "both", "stdout, stderr or both"},
-                  once_attribute()},
-                 make_on_process_io);
+  using Event = OnProcessIo;
+  return handler_of<Event>(
+      "on_process_io", "Visits its actions for each line that a process has written.",
+      {process_row<Event>(),
+       {.attribute = {"pattern", Type::kText, false, "every line", "regular expression to be found in the line"}},
+       {.attribute = {"stream", Type::kText, false, "both", "stdout, stderr or both"}},
+       once_row<Event>(),
+       handler_name_row<Event>()},
+      check_pattern, [](const Fields& fields, LaunchContext& context, Handled<Event>& handled) {
+        handled.event.pattern = perform_output_pattern(fields, context.scope());
+      });
 }
 
 ActionType on_shutdown_action() {
-  return handler("on_shutdown",
-                 "Visits its actions when the system is about to end; processes that they start run before the others "
-                 "are asked to end.",
-                 {{"timeout", AttributeType::kFloat, false, "5", "seconds that these processes may take"}},
-                 make_on_shutdown);
+  using Event = OnShutdown;
+  return handler_of<Event>(
+      "on_shutdown",
+      "Visits its actions when the system is about to end; processes that they start run before the others "
+      "are asked to end.",
+      {{.attribute = {"timeout", Type::kFloat, false, "5", "seconds that these processes may take"},
+        .place = place_of(&Handled<Event>::event, &Event::timeout)},
+       handler_name_row<Event>()});
 }
 
 ActionType on_state_transition_action() {
-  return handler("on_state_transition",
-                 "Visits its actions each time a node with a managed life cycle has changed its state.",
-                 {{"node", AttributeType::kText, true, "",
-                   "the node, of this launch or not; a relative name is below the namespace of the scope"},
-                  {"start_state", AttributeType::kText, false, "any", "the state that the node has left"},
-                  {"goal_state", AttributeType::kText, false, "any", "the state that the node has reached"},
-                  once_attribute()},
-                 make_on_state_transition);
+  using Event = OnStateTransition;
+  return handler_of<Event>(
+      "on_state_transition", "Visits its actions each time a node with a managed life cycle has changed its state.",
+      {{.attribute = {"node", Type::kText, true, "",
+                      "the node, of this launch or not; a relative name is below the namespace of the scope"},
+        .perform = [](const Fields& fields, Scope& scope,
+                      Handled<Event>& handled) { handled.event.node = resolve_name(fields.text("node"), scope); }},
+       state_row("start_state", "the state that the node has left", &Event::start_state),
+       state_row("goal_state", "the state that the node has reached", &Event::goal_state),
+       once_row<Event>(),
+       handler_name_row<Event>()});
+}
+
+ActionType wait_for_action() {
+  HandlerRows<OnceReady> rows;
+  for (AttributeSpec& attribute : ros_condition_attributes()) {
+    rows.push_back({.attribute = std::move(attribute)});
+  }
+  rows.push_back({.attribute = {"condition", Type::kLiteral, false, "present",
+                                "with topic: present (it has a publisher) or message (a message has arrived)"}});
+  return handler_of<OnceReady>(
+      "wait_for", "Visits its actions once the ROS graph shows a node, a topic or a service.", std::move(rows),
+      [](const Fields& fields) { check_ros_condition(fields, ros_subject_of(fields)); },
+      [](const Fields& fields, LaunchContext& context, Handled<OnceReady>& handled) {
+        handled.event.condition = perform_ros_condition(fields, ros_subject_of(fields), context);
+        handled.handler.once = true;
+      });
+}
+
+ActionType unregister_event_handler_action() {
+  return action_of<UnregisterRequest>(
+      {.tag = "unregister_event_handler",
+       .help = "Removes the event handlers of a name; the processes that they started run on.",
+       .extension = true},
+      {{.attribute = {"name", Type::kText, true, "", "name of the handlers", true},
+        .place = place_of(&UnregisterRequest::name)}},
+      [](const Fields& fields, LaunchContext& context, UnregisterRequest& request) {
+        request.where = fields.text("name").where();
+        // A handler of the same traversal is not registered yet.
+        const auto is_meant = [&](const EventHandler& handler) { return handler.name == request.name; };
+        if (std::erase_if(context.requests().handlers, is_meant) == 0) {
+          context.requests().unregistered.push_back(std::move(request));
+        }
+      });
 }
 
 }  // namespace launch

@@ -2,8 +2,7 @@
 // <log message="…" level="…"/>, <log_info message="…"/> and the other levels: print a message.
 #include <fmt/format.h>
 
-#include "launcher/language/fields.hpp"
-#include "launcher/visit/launch_context.hpp"
+#include "actions/row_action.hpp"
 
 namespace launch {
 
@@ -18,81 +17,61 @@ const std::vector<std::pair<std::string, LogLevel>>& level_names() {
   return names;
 }
 
-class Log : public Action {
- public:
-  // `fallback` is the level when the tag doesn't take one or none is given.
-  Log(const Fields& fields, LogLevel fallback)
-      : Action(fields.where(), fields.condition()),
-        message_(fields.text("message")),
-        level_(fields.optional_text("level")),
-        fallback_(fallback) {}
-
- protected:
-  void execute(LaunchContext& context) const override {
-    const std::string text = message_.perform(context.scope());
-    context.message(level(context.scope()), "launch.user", text);
-    context.requests().logs.push_back(text);
-  }
-
- private:
-  LogLevel level(Scope& scope) const {
-    if (!level_) {
-      return fallback_;
-    }
-    std::string name = level_->perform(scope);
-    for (char& character : name) {
-      character = static_cast<char>(std::tolower(static_cast<unsigned char>(character)));
-    }
-    std::vector<std::string> known;
-    for (const auto& [known_name, known_level] : level_names()) {
-      if (name == known_name) {
-        return known_level;
-      }
-      known.push_back(known_name);
-    }
-    throw LaunchError(fmt::format("invalid log level '{}', expected debug, info, warning, error or critical", name),
-                      level_->where(), did_you_mean(name, known));
-  }
-
-  Template message_;
-  std::optional<Template> level_;
-  LogLevel fallback_;
+struct LogEntry {
+  std::string text = {};
+  LogLevel level = LogLevel::kInfo;
 };
 
-ActionType log_with_level(const std::string& level_name, LogLevel level) {
-  return {
-      .tag = "log_" + level_name,
-      .help = fmt::format("Prints a message of level {}.", level_name),
-      .attributes = {{"message", AttributeType::kText, true, "", "the text"}},
-      .items = {},
-      .make = [level](const Fields& fields) { return std::make_shared<Log>(fields, level); },
-  };
+void perform_level(const Fields& fields, Scope& scope, LogEntry& message) {
+  std::string name = fields.text("level").perform(scope);
+  for (char& character : name) {
+    character = static_cast<char>(std::tolower(static_cast<unsigned char>(character)));
+  }
+  std::vector<std::string> known;
+  for (const auto& [known_name, known_level] : level_names()) {
+    if (name == known_name) {
+      message.level = known_level;
+      return;
+    }
+    known.push_back(known_name);
+  }
+  throw LaunchError(fmt::format("invalid log level '{}', expected debug, info, warning, error or critical", name),
+                    fields.text("level").where(), did_you_mean(name, known));
+}
+
+// Without a level of its own the action has an attribute for it.
+ActionType log_of(std::string tag, std::string help, std::optional<LogLevel> own) {
+  std::vector<Setting<LogEntry>> rows = {
+      {.attribute = {"message", AttributeType::kText, true, "", "the text"}, .place = place_of(&LogEntry::text)}};
+  if (!own) {
+    rows.push_back(
+        {.attribute = {"level", AttributeType::kText, false, "info", "debug, info, warning, error or critical"},
+         .perform = perform_level});
+  }
+  return action_of<LogEntry>({.tag = std::move(tag), .help = std::move(help)}, std::move(rows),
+                             [own](const Fields&, LaunchContext& context, LogEntry& message) {
+                               context.message(own.value_or(message.level), "launch.user", message.text);
+                               context.requests().logs.push_back(std::move(message.text));
+                             });
 }
 
 }  // namespace
 
 ActionType log_debug_action() {
-  return log_with_level("debug", LogLevel::kDebug);
+  return log_of("log_debug", "Prints a message of level debug.", LogLevel::kDebug);
 }
 ActionType log_info_action() {
-  return log_with_level("info", LogLevel::kInfo);
+  return log_of("log_info", "Prints a message of level info.", LogLevel::kInfo);
 }
 ActionType log_warning_action() {
-  return log_with_level("warning", LogLevel::kWarning);
+  return log_of("log_warning", "Prints a message of level warning.", LogLevel::kWarning);
 }
 ActionType log_error_action() {
-  return log_with_level("error", LogLevel::kError);
+  return log_of("log_error", "Prints a message of level error.", LogLevel::kError);
 }
 
 ActionType log_action() {
-  return {
-      .tag = "log",
-      .help = "Prints a message.",
-      .attributes = {{"message", AttributeType::kText, true, "", "the text"},
-                     {"level", AttributeType::kText, false, "info", "debug, info, warning, error or critical"}},
-      .items = {},
-      .make = [](const Fields& fields) { return std::make_shared<Log>(fields, LogLevel::kInfo); },
-  };
+  return log_of("log", "Prints a message.", std::nullopt);
 }
 
 }  // namespace launch

@@ -1,53 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// <stop>, <restart>, <signal>: end, start again or signal a running process.
-
+// <stop>, <restart> and <signal>: what is done to running processes, and <shutdown/>, which ends the whole launch.
+#include "actions/row_action.hpp"
 #include "launcher/language/exit_code_filter.hpp"
-#include "launcher/language/fields.hpp"
-#include "launcher/visit/launch_context.hpp"
 
 namespace launch {
 
 namespace {
 
-class CommandProcess : public Action {
- public:
-  CommandProcess(const Fields& fields, ProcessCommand::Kind kind)
-      : Action(fields.where(), fields.condition()), kind_(kind), process_(fields.text("process")) {
-    if (kind == ProcessCommand::Kind::kSignal) {
-      signal_ = fields.text("signal");
-      if (signal_->is_literal()) {
-        Scope nothing;
-        signal_of(signal_->perform(nothing), signal_->where());
-      }
-    }
-  }
-
- protected:
-  void execute(LaunchContext& context) const override {
-    Scope& scope = context.scope();
-    context.requests().commands.push_back({.kind = kind_,
-                                           .process = process_.perform(scope),
-                                           .signal = signal_ ? signal_of(signal_->perform(scope), signal_->where()) : 0,
-                                           .where = process_.where()});
-  }
-
- private:
-  ProcessCommand::Kind kind_;
-  Template process_;
-  std::optional<Template> signal_;
-};
-
-ActionType command(ProcessCommand::Kind kind, std::string help, std::vector<AttributeSpec> more = {}) {
-  std::vector<AttributeSpec> attributes = {{"process", AttributeType::kText, true, "",
-                                            "name of the process or of its node; all processes of that name are meant",
-                                            true}};
-  attributes.insert(attributes.end(), more.begin(), more.end());
-  return {.tag = std::string(name_of(kind)),
-          .help = std::move(help),
-          .attributes = std::move(attributes),
-          .items = {},
-          .extension = true,
-          .make = [kind](const Fields& fields) { return std::make_shared<CommandProcess>(fields, kind); }};
+ActionType command(ProcessCommand::Kind kind, std::string help, std::vector<Setting<ProcessCommand>> more = {}) {
+  std::vector<Setting<ProcessCommand>> rows = {
+      {.attribute = {"process", AttributeType::kText, true, "",
+                     "name of the process or of its node; all processes of that name are meant", true},
+       .place = place_of(&ProcessCommand::process)}};
+  rows.insert(rows.end(), more.begin(), more.end());
+  return action_of<ProcessCommand>({.tag = std::string(name_of(kind)), .help = std::move(help), .extension = true},
+                                   std::move(rows),
+                                   [kind](const Fields& fields, LaunchContext& context, ProcessCommand& command) {
+                                     command.kind = kind;
+                                     command.where = fields.text("process").where();
+                                     context.requests().commands.push_back(std::move(command));
+                                   });
 }
 
 }  // namespace
@@ -65,8 +37,24 @@ ActionType restart_action() {
 }
 
 ActionType signal_action() {
-  return command(ProcessCommand::Kind::kSignal, "Sends a signal to a running process and its descendants.",
-                 {{"signal", AttributeType::kText, true, "", "its name or its number, such as SIGUSR1", true}});
+  return command(
+      ProcessCommand::Kind::kSignal, "Sends a signal to a running process and its descendants.",
+      {{.attribute = {"signal", AttributeType::kText, true, "", "its name or its number, such as SIGUSR1", true},
+        .perform =
+            [](const Fields& fields, Scope& scope, ProcessCommand& command) {
+              command.signal = signal_of(fields.text("signal").perform(scope), fields.text("signal").where());
+            },
+        .checks_literal = true}});
+}
+
+ActionType shutdown_action() {
+  return action_of<ShutdownRequest>(
+      {.tag = "shutdown", .help = "Ends the whole launch once everything around it has been visited."},
+      {{.attribute = {"reason", AttributeType::kText, false, "", "why, for the launch log"},
+        .place = place_of(&ShutdownRequest::reason)}},
+      [](const Fields&, LaunchContext& context, ShutdownRequest& shutdown) {
+        context.requests().shutdowns.push_back(std::move(shutdown));
+      });
 }
 
 }  // namespace launch

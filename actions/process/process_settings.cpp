@@ -2,13 +2,15 @@
 #include "actions/process/process_settings.hpp"
 
 #include <fmt/format.h>
+#include <sys/sysinfo.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <regex>
 
 #include "actions/process/depends_on.hpp"
-#include "actions/process/process_findings.hpp"
 #include "actions/process/resource_settings.hpp"
+#include "actions/values/pair_items.hpp"
 #include "base/processes/process_mark.hpp"
 #include "launcher/substitution/boolean.hpp"
 #include "launcher/substitution/template_parser.hpp"
@@ -95,8 +97,8 @@ OutputRouting output(const Fields& fields, LaunchContext& context) {
 
 Environment environment_of(const Fields& fields, Scope& scope) {
   Environment environment = fields.boolean("clean_env", false).perform(scope) ? Environment() : scope.environment;
-  for (const Fields* variable : fields.items("env")) {
-    environment.insert_or_assign(variable->text("name").perform(scope), variable->text("value").perform(scope));
+  for (const auto& [name, value] : perform_pairs(fields, "env", scope)) {
+    environment.insert_or_assign(name, value);
   }
   if (fields.boolean("leave-running", false).perform(scope)) {
     environment.insert_or_assign(kLeaveRunningVariable, "1");
@@ -249,7 +251,7 @@ void perform_configured_timeout(const Fields& fields, const char* name, Scope& s
   try {
     NumberField number(Template(*text, fields.where()), false);
     number.require_not_negative();
-    timeout = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(number.perform(scope)));
+    timeout = as_duration(number.perform(scope));
   } catch (const LaunchError& error) {
     throw LaunchError(fmt::format("launch configuration '{}': {}", name, error.diagnostics().front().message),
                       fields.where());
@@ -266,6 +268,30 @@ void perform_configurations(const Fields& fields, Scope& scope, ProcessSpec& spe
   perform_configured_timeout(fields, "sigkill_timeout", scope, spec.sigkill_timeout);
 }
 
+void find_missing_directory(const std::string& directory, const SourceRange& where, LaunchContext& context) {
+  std::error_code ignored;
+  if (!directory.empty() && !std::filesystem::is_directory(directory, ignored)) {
+    context.exploration().remark(
+        {Severity::kError, fmt::format("the working directory '{}' does not exist", directory), where,
+         directory.starts_with('/') ? "" : "a relative path is relative to the launcher's working directory",
+         Finding::kMissingDirectory});
+  }
+}
+
+void find_missing_cpus(const std::vector<int>& cpus, const SourceRange& where, LaunchContext& context) {
+  // Most nodes name no CPUs. Counting them opens a file of the system, which takes a fifth of the time of a node.
+  if (cpus.empty()) {
+    return;
+  }
+  const int count = get_nprocs_conf();
+  const auto missing = std::find_if(cpus.begin(), cpus.end(), [&](int cpu) { return cpu >= count; });
+  if (missing != cpus.end()) {
+    context.exploration().remark({cpus.front() >= count ? Severity::kError : Severity::kWarning,
+                                  fmt::format("this machine has no CPU {}", *missing), where,
+                                  fmt::format("its CPUs are 0 to {}", count - 1), Finding::kMissingCpu});
+  }
+}
+
 }  // namespace
 
 std::vector<AttributeSpec> with_process_attributes(std::vector<AttributeSpec> own) {
@@ -275,11 +301,7 @@ std::vector<AttributeSpec> with_process_attributes(std::vector<AttributeSpec> ow
 }
 
 std::vector<ItemSpec> process_items() {
-  return {{"env",
-           "a variable of the process's environment",
-           {{"name", AttributeType::kText, true, "", "name of the variable"},
-            {"value", AttributeType::kText, true, "", "its value"}}},
-          DependsOn::item()};
+  return {pair_item("env", "a variable of the process's environment", "name of the variable"), DependsOn::item()};
 }
 
 void check_process(const Fields& fields) {

@@ -1,49 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // <timer period="…"> and <ros_timer period="…">: visit actions once, after a delay.
-#include "launcher/language/fields.hpp"
-#include "launcher/visit/launch_context.hpp"
+#include "actions/row_action.hpp"
 
 namespace launch {
 
 namespace {
 
-class TimerAction : public Action {
- public:
-  explicit TimerAction(const Fields& fields)
-      : Action(fields.where(), fields.condition()),
-        period_(*fields.number("period")),
-        cancel_on_shutdown_(fields.boolean("cancel_on_shutdown", true)),
-        actions_(fields.actions()) {
-    period_.require_not_negative();
-  }
-
-  Introspection introspect() const override { return {.children = &actions_, .children_may_not_run = true}; }
-
- protected:
-  void execute(LaunchContext& context) const override {
-    Scope& scope = context.scope();
-    const std::chrono::duration<double> period(period_.perform(scope));
-    context.requests().timers.push_back(
-        {std::chrono::duration_cast<Duration>(period), cancel_on_shutdown_.perform(scope), actions_, scope});
-  }
-
- private:
-  NumberField period_;
-  BooleanField cancel_on_shutdown_;
-  std::vector<ActionPtr> actions_;
-};
-
 ActionType timer(std::string tag, std::string help) {
-  return {
-      .tag = std::move(tag),
-      .help = std::move(help),
-      .attributes = {{"period", AttributeType::kFloat, true, "", "delay in seconds"},
-                     {"cancel_on_shutdown", AttributeType::kBoolean, false, "true",
-                      "false: a shutdown waits until the timer has fired"}},
-      .items = {},
-      .holds_actions = true,
-      .make = [](const Fields& fields) { return std::make_shared<TimerAction>(fields); },
-  };
+  return action_of<TimerRequest>({.tag = std::move(tag), .help = std::move(help), .holds_actions = true},
+                                 {{.attribute = {"period", AttributeType::kFloat, true, "", "delay in seconds"},
+                                   .place = place_of(&TimerRequest::period)},
+                                  {.attribute = {"cancel_on_shutdown", AttributeType::kBoolean, false, "true",
+                                                 "false: a shutdown waits until the timer has fired"},
+                                   .place = place_of(&TimerRequest::cancel_on_shutdown)}},
+                                 [](const Fields& fields, LaunchContext& context, TimerRequest& timer) {
+                                   timer.actions = fields.actions();
+                                   timer.scope = context.scope();
+                                   context.requests().timers.push_back(std::move(timer));
+                                 });
 }
 
 }  // namespace

@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string_view>
 
-#include "actions/process/process_findings.hpp"
 #include "actions/ros/parameter_file.hpp"
-#include "actions/ros/parameter_file_findings.hpp"
 #include "actions/values/ros_names.hpp"
+#include "base/text/names.hpp"
 #include "launcher/substitution/package_index.hpp"
 
 namespace launch {
@@ -33,6 +33,55 @@ void append_global_parameters(ProcessSpec& spec, LaunchContext& context) {
     }
     spec.argv.insert(spec.argv.end(), {"--params-file", file.path});
     find_faults_of_parameter_file(file.path, file.where, context);
+  }
+}
+
+// Tokens with single slashes between them, behind "/" or "~/" or nothing. Wildcards, references and substitutions are
+// not judged, because not every release of ROS 2 reads them.
+bool is_remappable(std::string_view name) {
+  if (name.find_first_of("*\\{}") != std::string_view::npos || name == "~") {
+    return true;
+  }
+  name.remove_prefix(name.starts_with("~/") ? 2 : name.starts_with('/') ? 1 : 0);
+  while (true) {
+    const std::size_t slash = name.find('/');
+    if (!is_valid_node_name(name.substr(0, slash))) {
+      return false;
+    }
+    if (slash == std::string_view::npos) {
+      return true;
+    }
+    name.remove_prefix(slash + 1);
+  }
+}
+
+void remark_remap(const std::string& name, const SourceRange& where, LaunchContext& context) {
+  context.exploration().remark(
+      {Severity::kError,
+       name.empty() ? "a name of the remap is empty" : fmt::format("'{}' is no name for a remap", name), where,
+       "parts of letters, digits and underscores, not starting with a digit, with single slashes between",
+       Finding::kInvalidRemap});
+}
+
+// A node ends when it can't read one of its remaps.
+void find_invalid_remap(const std::string& from, const SourceRange& from_where, const std::string& to,
+                        const SourceRange& to_where, LaunchContext& context) {
+  if (!context.exploration().is_on()) {
+    return;
+  }
+  std::string_view before = without_scheme(from);
+  const std::string_view after = without_scheme(to);
+  if (const std::size_t colon = before.find(':'); colon != std::string_view::npos) {
+    before = without_scheme(before.substr(colon + 1));
+  }
+  if (before.starts_with("__")) {
+    return;  // the name of the node or its namespace
+  }
+  if (!is_remappable(before)) {
+    remark_remap(from, from_where, context);
+  }
+  if (!is_remappable(after)) {
+    remark_remap(to, to_where, context);
   }
 }
 

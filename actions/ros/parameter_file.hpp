@@ -8,6 +8,7 @@
 
 #include "base/diagnostics/source.hpp"
 #include "launcher/substitution/parameter.hpp"
+#include "launcher/visit/launch_context.hpp"
 
 namespace launch {
 
@@ -27,5 +28,9 @@ void append_parameter_file(const std::string& path, const std::string& full_name
 // The same for the text of such a file.
 void append_parameter_text(const LocatedText& text, const std::string& full_name,
                            std::vector<NamedParameter>& parameters);
+
+// A node ends when its parameter file is no YAML, or when a value stands outside of ros__parameters. The places are in
+// the file, which is read once for each visit.
+void find_faults_of_parameter_file(const std::string& path, const SourceRange& where, LaunchContext& context);
 
 }  // namespace launch

@@ -6,7 +6,6 @@
 #include <filesystem>
 
 #include "actions/ros/parameter_file.hpp"
-#include "actions/ros/parameter_file_findings.hpp"
 #include "base/diagnostics/read_source_file.hpp"
 #include "launcher/frontend/yaml_document.hpp"
 #include "launcher/substitution/template_parser.hpp"

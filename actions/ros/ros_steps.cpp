@@ -7,8 +7,8 @@
 #include <functional>
 
 #include "actions/process/process_settings.hpp"
-#include "actions/ros/lifecycle_names.hpp"
 #include "actions/values/message_texts.hpp"
+#include "actions/values/ros_names.hpp"
 #include "base/environment/own_prefix.hpp"
 #include "launcher/message_types/interface_library.hpp"
 #include "launcher/message_types/message_condition.hpp"

@@ -65,7 +65,6 @@ ActionType bool_arg_action() {
       .tag = "bool_arg",
       .help = "Declares a launch argument that is true or false.",
       .attributes = argument_attributes(),
-      .items = {},
       .make =
           [](const Fields& fields) {
             const std::vector<std::string> choices = {"true", "false", "True", "False", "TRUE", "FALSE"};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // <group>: actions in a scope of their own.
+#include "actions/values/pair_items.hpp"
 #include "actions/values/ros_names.hpp"
 #include "launcher/language/fields.hpp"
 #include "launcher/visit/launch_context.hpp"
@@ -10,55 +11,39 @@ namespace {
 
 class Group : public Action {
  public:
-  explicit Group(const Fields& fields)
-      : Action(fields.where(), fields.condition()),
-        scoped_(fields.boolean("scoped", true)),
-        forwarding_(fields.boolean("forwarding", true)),
-        namespace_(fields.optional_text("ns")),
-        actions_(fields.actions()) {
-    for (const Fields* keep : fields.items("keep")) {
-      keep_.emplace_back(keep->text("name"), keep->text("value"));
-    }
-  }
+  explicit Group(Fields fields) : Action(fields.where(), fields.condition()), fields_(std::move(fields)) {}
 
-  Introspection introspect() const override { return {.children = &actions_}; }
+  Introspection introspect() const override { return {.children = &fields_.actions()}; }
 
  protected:
   void execute(LaunchContext& context) const override {
     Scope inner = context.scope();
-    std::map<std::string, std::string> kept;
-    for (const auto& [name, value] : keep_) {
-      kept.insert_or_assign(name.perform(inner), value.perform(inner));
-    }
-    const bool scoped = scoped_.perform(inner);
-    if (namespace_ && !scoped) {
-      throw LaunchError("ns needs a scoped group: it ends with the group", namespace_->where(),
+    const auto kept = perform_pairs(fields_, "keep", inner);
+    const bool scoped = fields_.boolean("scoped", true).perform(inner);
+    if (fields_.has("ns") && !scoped) {
+      throw LaunchError("ns needs a scoped group: it ends with the group", fields_.text("ns").where(),
                         "use push_ros_namespace for a namespace that stays", Finding::kExclusive);
     }
-    if (scoped && !forwarding_.perform(inner)) {
+    if (scoped && !fields_.boolean("forwarding", true).perform(inner)) {
       inner.clear_configurations();
       inner.environment = context.initial_environment();
     }
-    for (auto& [name, value] : kept) {
+    for (const auto& [name, value] : kept) {
       inner.configurations.insert_or_assign(name, value);
     }
-    if (namespace_) {
-      push_namespace(*namespace_, inner);
+    if (fields_.has("ns")) {
+      push_namespace(fields_.text("ns"), inner);
     }
     if (scoped) {
-      context.visit_in(std::move(inner), actions_);
+      context.visit_in(std::move(inner), fields_.actions());
     } else {
       context.scope() = std::move(inner);
-      context.visit(actions_);
+      context.visit(fields_.actions());
     }
   }
 
  private:
-  BooleanField scoped_;
-  BooleanField forwarding_;
-  std::optional<Template> namespace_;
-  std::vector<std::pair<Template, Template>> keep_;
-  std::vector<ActionPtr> actions_;
+  Fields fields_;
 };
 
 }  // namespace
@@ -72,12 +57,9 @@ ActionType group_action() {
                      {"forwarding", AttributeType::kBoolean, false, "true",
                       "false: start without configurations and with the launcher's own environment"},
                      {"ns", AttributeType::kText, false, "", "namespace of every node in the group", true}},
-      .items = {{"keep",
-                 "a configuration to set inside, evaluated outside",
-                 {{"name", AttributeType::kText, true, "", "name of the configuration"},
-                  {"value", AttributeType::kText, true, "", "its value"}}}},
+      .items = {pair_item("keep", "a configuration to set inside, evaluated outside", "name of the configuration")},
       .holds_actions = true,
-      .make = [](const Fields& fields) { return std::make_shared<Group>(fields); },
+      .make = [](Fields fields) { return std::make_shared<Group>(std::move(fields)); },
   };
 }
 

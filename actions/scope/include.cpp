@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "actions/values/pair_items.hpp"
 #include "actions/values/ros_names.hpp"
 #include "base/monotonic_clock.hpp"
 #include "launcher/language/argument_use.hpp"
@@ -153,9 +154,6 @@ class IncludeLaunchDescription : public Action {
 }  // namespace
 
 ActionType include_action() {
-  const std::vector<AttributeSpec> name_and_value = {
-      {"name", AttributeType::kText, true, "", "name of the configuration"},
-      {"value", AttributeType::kText, true, "", "its value"}};
   return {
       .tag = "include",
       .help = "Visits another launch file in place. Not a scope: what the file sets stays set.",
@@ -163,8 +161,8 @@ ActionType include_action() {
                       "path of the launch file; relative to the launcher's working directory"},
                      {"ns", AttributeType::kText, false, "",
                       "namespace of every node of the file; ends with the file, unlike other settings", true}},
-      .items = {{"arg", "an argument for the file", name_and_value},
-                {"let", "an argument for the file, set after all arg items", name_and_value}},
+      .items = {pair_item("arg", "an argument for the file", "name of the configuration"),
+                pair_item("let", "an argument for the file, set after all arg items", "name of the configuration")},
       .make = [](const Fields& fields) { return std::make_shared<IncludeLaunchDescription>(fields); },
   };
 }

@@ -13,12 +13,9 @@
 
 #include "actions/process/depends_on.hpp"
 #include "actions/process/resource_settings.hpp"
-#include "actions/test/clock_fault.hpp"
-#include "actions/test/disk_fault.hpp"
-#include "actions/test/expectation_fields.hpp"
-#include "actions/test/message_fault.hpp"
-#include "actions/test/network_fault.hpp"
+#include "actions/test/fault_kinds.hpp"
 #include "actions/values/range_field.hpp"
+#include "actions/values/ros_condition.hpp"
 #include "launcher/language/exit_code_filter.hpp"
 #include "launcher/language/setting.hpp"
 #include "launcher/visit/launch_context.hpp"
@@ -117,7 +114,9 @@ struct FaultSettings {
 };
 
 void perform_probability(const Fields& fields, Scope& scope, FaultSettings& settings) {
-  settings.probability = from_zero(fields, "probability")->perform(scope);
+  NumberField probability = *fields.number("probability");
+  probability.require_not_negative();
+  settings.probability = probability.perform(scope);
   if (settings.probability > 1) {
     throw LaunchError(fmt::format("a probability is at most 1, got {:g}", settings.probability),
                       fields.where("probability"), {}, Finding::kWrongValue);
@@ -139,18 +138,14 @@ const std::vector<Setting<FaultSettings>>& fault_settings() {
                      "between processes are lost or late; stop, skew, jump: simulated time stands still, is faster or "
                      "slower, or jumps; fill_disk: a disk is full",
                      true}},
-      {.attribute = {"at", Type::kText, false, "0",
-                     "seconds from the begin of the test, or from when all depends_on hold; a range such as 1..5, "
-                     "from which the seed draws",
-                     true},
-       .perform = [](const Fields& fields, Scope& scope,
-                     FaultSettings& settings) { settings.at = RangeField::of(fields, "at")->perform(scope); },
-       .checks_literal = true},
-      {.attribute = {"for", Type::kText, false, "until the end", "not with kill and jump: seconds, or a range of them",
-                     true},
-       .perform = [](const Fields& fields, Scope& scope,
-                     FaultSettings& settings) { settings.lasts = RangeField::of(fields, "for")->perform(scope); },
-       .checks_literal = true},
+      range_row({"at", Type::kText, false, "0",
+                 "seconds from the begin of the test, or from when all depends_on hold; a range such as 1..5, "
+                 "from which the seed draws",
+                 true},
+                &FaultSettings::at),
+      range_row(
+          {"for", Type::kText, false, "until the end", "not with kill and jump: seconds, or a range of them", true},
+          &FaultSettings::lasts),
       {.attribute = {"probability", Type::kFloat, false, "1", "in how many runs it happens, from 0 to 1", true},
        .place = [](FaultSettings& settings) -> SettingPlace { return NumberFromZero{&settings.probability}; },
        .perform = perform_probability},
@@ -192,14 +187,14 @@ class Fault : public Action {
     for (const Fields* const item : fields.items("depends_on")) {
       dependencies_.emplace_back(*item);
     }
-    if (const auto network = network_kind(kind_, fields)) {
-      network_.emplace(fields, *network);
-    } else if (const auto clock = clock_kind(kind_, fields)) {
-      clock_.emplace(fields, *clock);
+    if (const auto network = network_kind(kind_, fields_)) {
+      perform_ = network_fault(fields_, *network);
+    } else if (const auto clock = clock_kind(kind_, fields_)) {
+      perform_ = clock_fault(fields_, *clock);
     } else if (const auto messages = message_kind(kind_)) {
-      messages_.emplace(fields, *messages);
+      perform_ = message_fault(fields_, *messages);
     } else if (kind_ == Kind::kFillDisk) {
-      disk_.emplace(fields);
+      perform_ = disk_fault(fields_);
     }
   }
 
@@ -214,7 +209,7 @@ class Fault : public Action {
     std::vector<FaultRequest>& others = context.requests().faults;
     FaultRequest fault;
     fault.number = others.size() + 1;
-    if (const char* const process = clock_ ? "clock" : "process"; fields_.has(process)) {
+    if (const char* const process = clock_kind(kind_, fields_) ? "clock" : "process"; fields_.has(process)) {
       fault.process = fields_.text(process).perform(scope);
       fault.process_where = fields_.where(process);
     }
@@ -225,18 +220,8 @@ class Fault : public Action {
     const double probability = settings.probability;
     const NumberRange lasts = settings.lasts.value_or(NumberRange{});
     set_what(fault, settings);
-    const std::optional<MessageFaultRanges> messages =
-        messages_ ? std::optional(messages_->perform(scope)) : std::nullopt;
-    const std::optional<NetworkFaultRanges> network = network_ ? std::optional(network_->perform(scope)) : std::nullopt;
-    const std::optional<ClockFaultRanges> clock = clock_ ? std::optional(clock_->perform(scope)) : std::nullopt;
-    if (disk_) {
-      fault.what = disk_->perform(scope);
-    }
-    const std::string what = messages  ? fmt::format("{} {}", fault.process, messages->identity())
-                             : network ? network->identity()
-                             : clock   ? fmt::format("{} {}", fault.process, clock->identity())
-                             : disk_   ? disk_->identity()
-                                       : describe(fault);
+    const FaultRanges ranges = perform_ ? perform_(fault.process, scope) : FaultRanges();
+    const std::string what = perform_ ? ranges.identity : describe(fault);
     fault.identity = fields_.has("name")
                          ? settings.name
                          : fmt::format("{} {}..{} {}..{} {}", what, at.from, at.to, lasts.from, lasts.to, probability);
@@ -248,16 +233,9 @@ class Fault : public Action {
     if (settings.lasts) {
       fault.lasts = as_duration(draw.number("for", lasts));
     }
-    fault.is_random = at.is_random() || lasts.is_random() || probability < 1;
-    if (messages) {
-      fault.what = messages->draw(draw);
-      fault.is_random = fault.is_random || messages->is_random();
-    } else if (network) {
-      fault.what = network->draw(draw);
-      fault.is_random = fault.is_random || network->is_random();
-    } else if (clock) {
-      fault.what = clock->draw(draw);
-      fault.is_random = fault.is_random || clock->is_random();
+    fault.is_random = at.is_random() || lasts.is_random() || probability < 1 || ranges.is_random;
+    if (ranges.draw) {
+      fault.what = ranges.draw(draw);
     }
     for (std::size_t i = 0; i < dependencies_.size(); ++i) {
       fault.is_random = fault.is_random || dependencies_[i].is_random(scope);
@@ -363,10 +341,7 @@ class Fault : public Action {
 
   Kind kind_;
   Fields fields_;
-  std::optional<MessageFaultFields> messages_;
-  std::optional<NetworkFaultFields> network_;
-  std::optional<ClockFaultFields> clock_;
-  std::optional<DiskFaultFields> disk_;
+  PerformFault perform_;  // null for a fault of a process
   std::vector<DependsOn> dependencies_;
 };
 
@@ -383,8 +358,8 @@ ActionType fault_action() {
       .items = {DependsOn::item_of_fault()},
       .extension = true,
       .make = [](const Fields& fields) { return std::make_shared<Fault>(fields); }};
-  for (const std::vector<AttributeSpec>& more : {MessageFaultFields::attributes(), NetworkFaultFields::attributes(),
-                                                 ClockFaultFields::attributes(), DiskFaultFields::attributes()}) {
+  for (const std::vector<AttributeSpec>& more :
+       {message_fault_attributes(), network_fault_attributes(), clock_fault_attributes(), disk_fault_attributes()}) {
     type.attributes.insert(type.attributes.end(), more.begin(), more.end());
   }
   return type;

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <utility>
 
-#include "actions/test/expectation_fields.hpp"
 #include "actions/test/expectations.hpp"
 #include "base/environment/test_run_variables.hpp"
 #include "launcher/language/fields.hpp"
@@ -31,14 +30,22 @@ class RunEnvironment {
   Environment before_;
 };
 
+const std::vector<Setting<TestRequest>>& test_rows() {
+  static const std::vector<Setting<TestRequest>> rows = {
+      {.attribute = {"name", AttributeType::kText, true, "", "name of the test", true},
+       .place = place_of(&TestRequest::name)},
+      time_row({"timeout", AttributeType::kFloat, false, "60", "seconds after which the test has failed", true},
+               &TestRequest::timeout),
+      time_row({"duration", AttributeType::kFloat, false, "none",
+                "seconds that the system runs at least, even if everything has happened", true},
+               &TestRequest::duration)};
+  return rows;
+}
+
 class Test : public Action {
  public:
-  explicit Test(const Fields& fields)
-      : Action(fields.where(), fields.condition()),
-        name_(fields.text("name")),
-        timeout_(TimeField::of(fields, "timeout")),
-        duration_(TimeField::of(fields, "duration")),
-        actions_(fields.actions()) {
+  explicit Test(const Fields& fields) : Action(fields.where(), fields.condition()), fields_(fields) {
+    check_settings(test_rows(), fields);
     std::vector<Diagnostic> errors;
     for (const ExpectationType& type : expectation_types()) {
       for (const Fields* const item : fields.items(type.item.tag)) {
@@ -62,7 +69,7 @@ class Test : public Action {
     std::sort(items_.begin(), items_.end(), [](const Item& a, const Item& b) { return a.where.begin < b.where.begin; });
   }
 
-  Introspection introspect() const override { return {.children = &actions_, .children_may_not_run = true}; }
+  Introspection introspect() const override { return {.children = &fields_.actions(), .children_may_not_run = true}; }
 
  protected:
   void execute(LaunchContext& context) const override {
@@ -71,13 +78,13 @@ class Test : public Action {
       // Each test is a run of its own: its processes are not there together with those of the others.
       Requests others = std::exchange(context.requests(), Requests());
       const RunEnvironment variables(context.scope());
-      context.tests().visit(context, actions_);
+      context.tests().visit(context, fields_.actions());
       request(context.scope(), context);
       context.requests() = std::move(others);
     } else if (part != TestVisits::Part::kNothing) {
       TestRequest test = request(context.scope(), context);
       if (part == TestVisits::Part::kActionsToo) {
-        test.faults = context.tests().visit(context, actions_);
+        test.faults = context.tests().visit(context, fields_.actions());
       }
       context.requests().tests.push_back(std::move(test));
     }
@@ -92,22 +99,19 @@ class Test : public Action {
 
   TestRequest request(Scope& scope, LaunchContext& context) const {
     TestRequest test;
-    test.name = name_.perform(scope);
-    test.name_where = name_.where();
+    test.timeout = kTimeout;
+    perform_settings(test_rows(), fields_, scope, test);
+    test.name_where = fields_.text("name").where();
     test.where = where();
     if (test.name.empty()) {
-      throw LaunchError("the test has no name", name_.where());
+      throw LaunchError("the test has no name", test.name_where);
     }
     const auto is_control = [](unsigned char c) { return std::iscntrl(c) != 0; };
     if (std::any_of(test.name.begin(), test.name.end(), is_control)) {
-      throw LaunchError("the name of the test has a line break or another control character", name_.where(),
+      throw LaunchError("the name of the test has a line break or another control character", test.name_where,
                         "it stands on one line in reports");
     }
-    test.has_actions = !actions_.empty();
-    test.timeout = timeout_ ? timeout_->perform(scope) : kTimeout;
-    if (duration_) {
-      test.duration = duration_->perform(scope);
-    }
+    test.has_actions = !fields_.actions().empty();
     for (const Item& item : items_) {
       if (item.condition.holds(scope)) {
         test.expectations.push_back(item.perform(context));
@@ -119,11 +123,8 @@ class Test : public Action {
     return test;
   }
 
-  Template name_;
-  std::optional<TimeField> timeout_;
-  std::optional<TimeField> duration_;
+  Fields fields_;
   std::vector<Item> items_;
-  std::vector<ActionPtr> actions_;
 };
 
 }  // namespace
@@ -133,20 +134,16 @@ ActionType test_action() {
   for (const ExpectationType& type : expectation_types()) {
     items.push_back(type.item);
   }
-  return {
-      .tag = "test",
-      .help =
-          "What must happen when the launch file runs: `launch test` runs it and checks. The actions are visited "
-          "for this test alone.",
-      .attributes = {{"name", AttributeType::kText, true, "", "name of the test", true},
-                     {"timeout", AttributeType::kFloat, false, "60", "seconds after which the test has failed", true},
-                     {"duration", AttributeType::kFloat, false, "none",
-                      "seconds that the system runs at least, even if everything has happened", true}},
-      .items = std::move(items),
-      .holds_actions = true,
-      .may_hold_none = true,
-      .extension = true,
-      .make = [](const Fields& fields) { return std::make_shared<Test>(fields); }};
+  return {.tag = "test",
+          .help =
+              "What must happen when the launch file runs: `launch test` runs it and checks. The actions are visited "
+              "for this test alone.",
+          .attributes = declared_attributes(test_rows()),
+          .items = std::move(items),
+          .holds_actions = true,
+          .may_hold_none = true,
+          .extension = true,
+          .make = [](const Fields& fields) { return std::make_shared<Test>(fields); }};
 }
 
 }  // namespace launch

@@ -6,11 +6,9 @@
 #include <algorithm>
 #include <array>
 
-#include "actions/test/expectation_fields.hpp"
 #include "actions/test/expectations.hpp"
 #include "actions/values/ros_condition.hpp"
 #include "actions/values/ros_names.hpp"
-#include "launcher/language/setting.hpp"
 #include "tracing/record/plan/ros_events.hpp"
 
 namespace launch {
@@ -18,37 +16,6 @@ namespace launch {
 namespace {
 
 constexpr double kAll = 100;
-
-std::optional<TimeField> milliseconds(const Fields& fields, const char* attribute) {
-  return TimeField::of(fields, attribute, TimeField::kMillisecond);
-}
-
-template <typename Expected>
-using Rows = std::vector<Setting<Expected>>;
-
-// An item that its rows tell. `check` says what is wrong with the fields together, `finish` with their values.
-template <typename Expected>
-ExpectationType expectation_of(std::string tag, std::string help, Rows<Expected> given,
-                               void (*check)(const Fields&) = nullptr,
-                               void (*finish)(const Fields&, Scope&, Expected&) = nullptr) {
-  const auto rows = std::make_shared<const Rows<Expected>>(std::move(given));
-  return {expectation_item(std::move(tag), std::move(help), declared_attributes(*rows)),
-          [=](const Fields& fields) -> PerformExpectation {
-            if (check != nullptr) {
-              check(fields);
-            }
-            check_settings(*rows, fields);
-            return [=, subject = ExpectationSubject(fields)](LaunchContext& context) {
-              Scope& scope = context.scope();
-              Expected expected;
-              perform_settings(*rows, fields, scope, expected);
-              if (finish != nullptr) {
-                finish(fields, scope, expected);
-              }
-              return subject.of(TraceExpectation(std::move(expected)), scope);
-            };
-          }};
-}
 
 AttributeSpec text_attribute(const char* name, bool required, const char* help) {
   return own_attribute(name, AttributeType::kText, required, required ? "" : "any", help);
@@ -61,11 +28,6 @@ Setting<Expected> name_row(const char* name, bool required, const char* help, st
           .perform = [name, member](const Fields& fields, Scope& scope, Expected& expected) {
             expected.*member = resolve_name(fields.text(name), scope);
           }};
-}
-
-template <typename Expected, typename Count>
-Setting<Expected> count_row(const char* name, const char* fallback, const std::string& help, Count Expected::*member) {
-  return {.attribute = own_attribute(name, AttributeType::kInteger, false, fallback, help), .place = place_of(member)};
 }
 
 double perform_percentile(const Fields& fields, Scope& scope) {
@@ -82,31 +44,38 @@ AttributeSpec percentile_attribute() {
 }
 
 void check_bounds(const Fields& fields) {
-  const bool has_least = milliseconds(fields, "min_ms").has_value();
-  if (!milliseconds(fields, "max_ms") && !has_least) {
+  if (!fields.has("max_ms") && !fields.has("min_ms")) {
     throw LaunchError("there is no bound", fields.where(), "give max_ms, milliseconds", Finding::kMissingAttribute);
   }
+}
+
+// A time in milliseconds, which is a bound of the time of what is expected.
+template <typename Expected, typename Time>
+Setting<Expected> bound_row(const char* name, const char* fallback, const char* help, Time TimeBounds::*member) {
+  return {.attribute = own_attribute(name, AttributeType::kFloat, false, fallback, help),
+          .place = [member](Expected& expected) -> SettingPlace { return &(expected.time.*member); },
+          .perform =
+              [name, member](const Fields& fields, Scope& scope, Expected& expected) {
+                expected.time.*member = perform_time(fields, name, scope, kMillisecond);
+              }};
 }
 
 // With min_ms, max_ms and percentile.
 template <typename Expected>
 Rows<Expected> with_bounds(Rows<Expected> rows) {
-  rows.push_back(
-      {.attribute = own_attribute("min_ms", AttributeType::kFloat, false, "0", "milliseconds that it takes at least"),
-       .perform = [](const Fields& fields, Scope& scope, Expected& expected) {
-         expected.time.least = milliseconds(fields, "min_ms")->perform(scope);
-       }});
-  rows.push_back(
-      {.attribute = own_attribute("max_ms", AttributeType::kFloat, false, "none", "milliseconds that it takes at most"),
-       .perform = [](const Fields& fields, Scope& scope, Expected& expected) {
-         TimeBounds& bounds = expected.time;
-         bounds.most = milliseconds(fields, "max_ms")->perform(scope);
-         if (*bounds.most < bounds.least) {
-           throw LaunchError(fmt::format("max_ms is less than min_ms, {:g}",
-                                         std::chrono::duration<double, std::milli>(bounds.least).count()),
-                             fields.where("max_ms"), {}, Finding::kWrongValue);
-         }
-       }});
+  rows.push_back(bound_row<Expected>("min_ms", "0", "milliseconds that it takes at least", &TimeBounds::least));
+  Setting<Expected> most =
+      bound_row<Expected>("max_ms", "none", "milliseconds that it takes at most", &TimeBounds::most);
+  most.perform = [read = std::move(most.perform)](const Fields& fields, Scope& scope, Expected& expected) {
+    read(fields, scope, expected);
+    const TimeBounds& bounds = expected.time;
+    if (*bounds.most < bounds.least) {
+      throw LaunchError(fmt::format("max_ms is less than min_ms, {:g}",
+                                    std::chrono::duration<double, std::milli>(bounds.least).count()),
+                        fields.where("max_ms"), {}, Finding::kWrongValue);
+    }
+  };
+  rows.push_back(std::move(most));
   rows.push_back(
       {.attribute = percentile_attribute(), .perform = [](const Fields& fields, Scope& scope, Expected& expected) {
          expected.time.percentile = perform_percentile(fields, scope);
@@ -136,7 +105,7 @@ ExpectationType event_type() {
   rows.push_back(count_row("min", "1; with max: 0", "how many there are at least", &ExpectedEvent::least));
   rows.push_back(count_row("max", "any number", "how many there are at most", &ExpectedEvent::most));
   return expectation_of<ExpectedEvent>("event", "events that the trace of the test holds", std::move(rows), nullptr,
-                                       [](const Fields& fields, Scope&, ExpectedEvent& event) {
+                                       [](const Fields& fields, LaunchContext&, ExpectedEvent& event) {
                                          locate_event(fields, event);
                                          if (event.most && !fields.has("min")) {
                                            event.least = 0;
@@ -149,33 +118,31 @@ const Rows<ExpectedEvent>& step_rows() {
   return rows;
 }
 
-PerformExpectation order_expectation(const Fields& fields) {
-  if (fields.items("event").size() < 2) {
-    throw LaunchError("an order needs two events at least", fields.where(), "give each one: <event name=\"…\"/>",
-                      Finding::kMissingAttribute);
-  }
-  return [fields, subject = ExpectationSubject(fields)](LaunchContext& context) {
-    Scope& scope = context.scope();
-    ExpectedEventOrder order;
-    for (const Fields* const item : fields.items("event")) {
-      ExpectedEventOrder::Step& step = order.steps.emplace_back();
-      perform_settings(step_rows(), *item, scope, step.event);
-      locate_event(*item, step.event);
-      if (item->has("process")) {
-        step.process = item->text("process").perform(scope);
-        step.process_where = item->where("process");
-      }
+void finish_order(const Fields& fields, LaunchContext& context, ExpectedEventOrder& order) {
+  for (const Fields* const item : fields.items("event")) {
+    ExpectedEventOrder::Step& step = order.steps.emplace_back();
+    perform_settings(step_rows(), *item, context.scope(), step.event);
+    locate_event(*item, step.event);
+    if (item->has("process")) {
+      step.process = item->text("process").perform(context.scope());
+      step.process_where = item->where("process");
     }
-    return subject.of(TraceExpectation(std::move(order)), scope);
-  };
+  }
 }
 
 ExpectationType order_type() {
-  ItemSpec spec = expectation_item(
-      "events_in_order", "events of the trace that come one after the other, with any others between them", {});
-  spec.items = {
+  ExpectationType type = expectation_of<ExpectedEventOrder>(
+      "events_in_order", "events of the trace that come one after the other, with any others between them", {},
+      [](const Fields& fields) {
+        if (fields.items("event").size() < 2) {
+          throw LaunchError("an order needs two events at least", fields.where(), "give each one: <event name=\"…\"/>",
+                            Finding::kMissingAttribute);
+        }
+      },
+      finish_order);
+  type.item.items = {
       {.tag = "event", .help = "the next event", .attributes = declared_attributes(step_rows()), .extension = true}};
-  return {std::move(spec), order_expectation};
+  return type;
 }
 
 ExpectationType delivery_type() {
@@ -212,7 +179,7 @@ void perform_nodes(const Fields& fields, Scope& scope, ExpectedLatency& latency)
   }
 }
 
-void finish_latency(const Fields& fields, Scope&, ExpectedLatency& latency) {
+void finish_latency(const Fields& fields, LaunchContext&, ExpectedLatency& latency) {
   // The analysis keeps these shares of the times of chains.
   constexpr std::array kKept = {50.0, 90.0, 99.0, 99.9, 99.99, 100.0};
   if (fields.has("nodes") && std::find(kKept.begin(), kKept.end(), latency.time.percentile) == kKept.end()) {
@@ -250,27 +217,19 @@ ExpectationType callback_type() {
       check_bounds);
 }
 
-void check_timer(const Fields& fields) {
-  milliseconds(fields, "period_ms");
-  milliseconds(fields, "jitter_ms");
-}
-
 ExpectationType timer_type() {
   return expectation_of<ExpectedTimer>(
       "timer_period", "how regularly a timer fires",
       {name_row("node", true, "its node", &ExpectedTimer::node),
-       {.attribute = own_attribute("period_ms", AttributeType::kFloat, true, "", "its period in milliseconds"),
-        .perform = [](const Fields& fields, Scope& scope,
-                      ExpectedTimer& timer) { timer.period = milliseconds(fields, "period_ms")->perform(scope); }},
-       {.attribute = own_attribute("jitter_ms", AttributeType::kFloat, false, "any",
-                                   "milliseconds by which an interval may differ from the period"),
-        .perform = [](const Fields& fields, Scope& scope,
-                      ExpectedTimer& timer) { timer.jitter = milliseconds(fields, "jitter_ms")->perform(scope); }},
+       time_row(own_attribute("period_ms", AttributeType::kFloat, true, "", "its period in milliseconds"),
+                &ExpectedTimer::period, kMillisecond),
+       time_row(own_attribute("jitter_ms", AttributeType::kFloat, false, "any",
+                              "milliseconds by which an interval may differ from the period"),
+                &ExpectedTimer::jitter, kMillisecond),
        {.attribute = percentile_attribute(),
         .perform = [](const Fields& fields, Scope& scope,
                       ExpectedTimer& timer) { timer.percentile = perform_percentile(fields, scope); }},
-       count_row("max_missed", "0", "how many periods may pass without a run", &ExpectedTimer::most_missed)},
-      check_timer);
+       count_row("max_missed", "0", "how many periods may pass without a run", &ExpectedTimer::most_missed)});
 }
 
 const std::vector<std::string> kCountedStates = {"active", "unconfigured", "inactive", "finalized", "any"};
@@ -285,7 +244,7 @@ ExpectationType allocations_type() {
             "of a node without a life cycle")},
        count_row("max", "0", "how often at most", &ExpectedAllocations::most)},
       [](const Fields& fields) { choice(fields, "state", kCountedStates); },
-      [](const Fields& fields, Scope&, ExpectedAllocations& allocations) {
+      [](const Fields& fields, LaunchContext&, ExpectedAllocations& allocations) {
         const std::string& state = kCountedStates[choice(fields, "state", kCountedStates)];
         allocations.state = state == "any" ? "" : state;
       });

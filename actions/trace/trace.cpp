@@ -1,19 +1,130 @@
 // SPDX-License-Identifier: Apache-2.0
 // <trace session-name="…"/>: records the run. Takes effect before any process starts, wherever it stands in the file.
 #include <fmt/format.h>
+#include <fnmatch.h>
+#include <lttng/domain.h>
 
-#include "actions/trace/trace_chain.hpp"
-#include "actions/trace/trace_findings.hpp"
+#include <algorithm>
+#include <cmath>
+
 #include "actions/trace/trace_scope.hpp"
 #include "actions/trace/trace_settings.hpp"
 #include "base/diagnostics/diagnostic.hpp"
 #include "base/environment/test_run_variables.hpp"
 #include "launcher/visit/launch_context.hpp"
+#include "tracing/model/chains/chain_definition.hpp"
+#include "tracing/record/plan/context_fields.hpp"
+#include "tracing/record/plan/event_rule.hpp"
+#include "tracing/record/plan/ros_events.hpp"
+#include "tracing/record/plan/trace_error.hpp"
 #include "tracing/record/session/tracer.hpp"
 
 namespace launch {
 
 namespace {
+
+using Chain = tracing::ChainDefinition;
+
+void perform_chain_name(const Fields& fields, Scope& scope, Chain& chain) {
+  chain.name = fields.text("name").perform(scope);
+  if (chain.name.empty()) {
+    throw LaunchError("the name of the chain is empty", fields.where("name"),
+                      "launch report shows the chain by its name");
+  }
+}
+
+void perform_chain_nodes(const Fields& fields, Scope& scope, Chain& chain) {
+  chain.nodes = perform_names(fields, "nodes", scope);
+  if (chain.nodes.size() < 2) {
+    throw LaunchError(fmt::format("chain '{}' needs two nodes at least", chain.name), fields.where("nodes"),
+                      "name the node where it begins, and the node where it ends");
+  }
+  for (std::string& node : chain.nodes) {
+    if (node.front() != '/' && node.front() != '*') {
+      node.insert(node.begin(), '/');
+    }
+  }
+}
+
+void perform_budget(const Fields& fields, Scope& scope, Chain& chain) {
+  const double milliseconds = fields.number("budget")->perform(scope);
+  if (!(milliseconds > 0)) {
+    throw LaunchError(fmt::format("the budget of chain '{}' is not above 0", chain.name), fields.where("budget"),
+                      "write milliseconds, such as 50, or leave out the budget");
+  }
+  chain.budget_ns = std::llround(milliseconds * 1e6);
+}
+
+const std::vector<Setting<Chain>>& chain_settings() {
+  static const std::vector<Setting<Chain>> settings = {
+      {.attribute = {"name", AttributeType::kText, true, "", "its name"}, .perform = perform_chain_name},
+      {.attribute = {"nodes", AttributeType::kWords, true, "",
+                     "the nodes that it passes, from the first to the last; * matches any text, and other nodes "
+                     "may lie between"},
+       .perform = perform_chain_nodes},
+      {.attribute = {"budget", AttributeType::kFloat, false, "none",
+                     "milliseconds that it may take from an input to the first output that it causes"},
+       .perform = perform_budget}};
+  return settings;
+}
+
+std::vector<Chain> perform_chains(const std::vector<const Fields*>& items, Scope& scope) {
+  std::vector<Chain> chains;
+  for (const Fields* const item : items) {
+    Chain chain;
+    perform_settings(chain_settings(), *item, scope, chain);
+    const bool is_twice =
+        std::any_of(chains.begin(), chains.end(), [&](const Chain& other) { return other.name == chain.name; });
+    if (is_twice) {
+      throw LaunchError(fmt::format("there are two chains '{}'", chain.name), item->where(),
+                        "give each chain a name of its own");
+    }
+    chains.push_back(std::move(chain));
+  }
+  return chains;
+}
+
+// A session does not begin with an unknown context field.
+void find_unknown_context_fields(const std::vector<std::string>& fields, lttng_domain_type domain,
+                                 const SourceRange& where, LaunchContext& context) {
+  if (!context.exploration().is_on()) {
+    return;
+  }
+  for (const std::string& name : fields) {
+    try {
+      tracing::ContextField(name, domain);
+    } catch (const tracing::TraceError& error) {
+      context.exploration().remark(
+          {Severity::kError, error.what(), where, error.remedy(), Finding::kUnknownContextField});
+    }
+  }
+}
+
+// An event of ROS 2 that does not exist is never recorded.
+void find_unknown_events(const std::vector<std::string>& rules, const SourceRange& where, LaunchContext& context) {
+  if (!context.exploration().is_on()) {
+    return;
+  }
+  std::vector<std::string> names;
+  for (const tracing::RosEvent& event : tracing::all_ros_events()) {
+    names.push_back(event.name);
+  }
+  for (const std::string& pattern : tracing::event_patterns(rules)) {
+    const bool known = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+      return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+    });
+    const std::string help = did_you_mean(pattern.find(':') == std::string::npos ? "ros2:" + pattern : pattern, names);
+    const bool lacks_provider = std::find(names.begin(), names.end(), "ros2:" + pattern) != names.end();
+    if (lacks_provider) {
+      context.exploration().remark({Severity::kWarning, fmt::format("event '{}' has no provider", pattern), where,
+                                    fmt::format("did you mean 'ros2:{}'?", pattern), Finding::kUnknownEvent});
+    } else if (pattern.starts_with("ros2:") && !known) {
+      context.exploration().remark({Severity::kWarning, fmt::format("ROS 2 has no event '{}'", pattern), where,
+                                    help.empty() ? "launch trace --help tells how to list them" : help,
+                                    Finding::kUnknownEvent});
+    }
+  }
+}
 
 class Trace : public Action {
  public:
@@ -21,9 +132,6 @@ class Trace : public Action {
     check_settings(trace_settings(), fields_);
     for (const Fields* channel : fields_.items("channel")) {
       check_settings(channel_settings(), *channel);
-    }
-    for (const Fields* chain : fields_.items("chain")) {
-      chains_.emplace_back(*chain);
     }
   }
 
@@ -66,11 +174,12 @@ class Trace : public Action {
       throw LaunchError("report needs the trace on this machine, but url sends it to a relay daemon",
                         fields_.text("url").where(), "leave out report, and use launch report where the trace is");
     }
-    choices.chains = perform_chains(chains_, context.scope());
-    for (std::size_t i = 0; i < chains_.size(); ++i) {
+    const std::vector<const Fields*> chains = fields_.items("chain");
+    choices.chains = perform_chains(chains, context.scope());
+    for (std::size_t i = 0; i < chains.size(); ++i) {
       const tracing::ChainDefinition& chain = choices.chains[i];
       for (const std::string& node : chain.nodes) {
-        choices.chain_nodes.push_back({node, fmt::format("chain '{}'", chain.name), chains_[i].nodes_where()});
+        choices.chain_nodes.push_back({node, fmt::format("chain '{}'", chain.name), chains[i]->where("nodes")});
       }
     }
     if (!choices.chains.empty() && fields_.has("url")) {
@@ -105,7 +214,6 @@ class Trace : public Action {
   }
 
   Fields fields_;
-  std::vector<ChainFields> chains_;
 };
 
 }  // namespace
@@ -118,9 +226,11 @@ ActionType trace_action() {
       .items = {{.tag = "channel",
                  .help = "a further channel of one domain, whose events have buffers of their own",
                  .attributes = declared_attributes(channel_settings()),
-                 .items = {},
                  .extension = true},
-                ChainFields::item()},
+                {.tag = "chain",
+                 .help = "a chain of callbacks that cause one another, which launch report shows by this name",
+                 .attributes = declared_attributes(chain_settings()),
+                 .extension = true}},
       .make = [](const Fields& fields) { return std::make_shared<Trace>(fields); },
   };
 }

@@ -2,12 +2,13 @@
 #include "actions/trace/trace_settings.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <signal.h>
 
 #include <algorithm>
+#include <charconv>
 #include <functional>
 
-#include "actions/trace/trace_overhead.hpp"
 #include "base/diagnostics/diagnostic.hpp"
 #include "tracing/record/plan/event_classes.hpp"
 #include "tracing/record/plan/event_rule.hpp"
@@ -106,6 +107,31 @@ SettingPlace snapshot_signal(TraceRequest& request) {
       {"SIGUSR1", "SIGUSR2"}, request.choices.snapshot_on_signal == SIGUSR2 ? 1U : 0U, [&request](std::size_t word) {
         request.choices.snapshot_on_signal = word == 0 ? SIGUSR1 : SIGUSR2;
       }};
+}
+
+// Reads "2%" as 0.02.
+double perform_percentage(const Template& text, Scope& scope) {
+  const std::string given = text.perform(scope);
+  double percent = 0;
+  const char* const end = given.data() + given.size();
+  const auto read = std::from_chars(given.data(), end, percent);
+  if (read.ec != std::errc() || std::string_view(read.ptr, end) != "%" || !(percent > 0)) {
+    throw LaunchError(
+        fmt::format("max-overhead is expected to be a percentage of a processor like 2%, got '{}'", given),
+        text.where());
+  }
+  return percent / 100;
+}
+
+// An entry is a class of events, or a pattern with its provider.
+void check_drop_order(const std::vector<std::string>& order, const SourceRange& where) {
+  const std::vector<std::string>& known = tracing::droppable_classes();
+  for (const std::string& name : order) {
+    if (name.find(':') == std::string::npos && std::find(known.begin(), known.end(), name) == known.end()) {
+      throw LaunchError(fmt::format("there is no class of events '{}'", name), where,
+                        fmt::format("drop-order takes {}, or events as PROVIDER:NAME", fmt::join(known, ", ")));
+    }
+  }
 }
 
 template <typename Named>

@@ -13,7 +13,11 @@ namespace launch {
 
 // The text of an attribute with its places. With a substitution or an escape the text is not in the file as it is, so
 // that it has none of its own.
-LocatedText located(const std::string& text, const SourceRange& where);
+inline LocatedText located(const std::string& text, const SourceRange& where) {
+  const bool verbatim = where && where.end <= where.file->text().size() &&
+                        where.file->text().compare(where.begin, where.end - where.begin, text) == 0;
+  return verbatim ? LocatedText(text, where) : LocatedText(text);
+}
 
 // Gives the errors of `act` that have no place this one.
 template <typename Act>

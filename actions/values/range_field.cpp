@@ -10,51 +10,51 @@
 
 namespace launch {
 
-std::optional<RangeField> RangeField::of(const Fields& fields, const std::string& attribute, bool whole,
-                                         bool may_be_negative) {
-  std::optional<Template> text = fields.optional_text(attribute);
-  if (!text) {
-    return std::nullopt;
-  }
-  RangeField field(attribute, *std::move(text), whole, may_be_negative);
-  if (field.text_.is_literal()) {
-    Scope nothing;
-    field.perform(nothing);
-  }
-  return field;
-}
+namespace {
 
-NumberRange RangeField::parse(const std::string& text) const {
-  const std::string_view all = text;
-  const std::size_t dots = all.find("..");
-  if (dots == std::string_view::npos) {
-    const double value = number(all);
-    return {value, value};
-  }
-  const NumberRange range{number(all.substr(0, dots)), number(all.substr(dots + 2))};
-  if (range.to < range.from) {
-    throw LaunchError(fmt::format("the range of {} begins behind its end: '{}'", attribute_, text), where(), {},
-                      Finding::kWrongType);
-  }
-  return range;
-}
-
-double RangeField::number(std::string_view text) const {
+double number_of(const std::string& attribute, std::string_view text, RangeOf numbers, const SourceRange& where) {
   const std::string_view digits = trim(text);
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   const bool is_number = error == std::errc() && end == digits.data() + digits.size() && std::isfinite(value);
   constexpr double kMost = 1e9;
-  const double least = whole_ ? 1 : may_be_negative_ ? -kMost : 0;
-  if (!is_number || value < least || value > kMost || (whole_ && value != std::floor(value))) {
-    throw LaunchError(fmt::format("{} takes {}, got '{}'", attribute_,
-                                  whole_             ? "a whole number from 1"
-                                  : may_be_negative_ ? "a number"
-                                                     : "a number that is not negative",
+  const bool whole = numbers == RangeOf::kWholeNumbersFromOne;
+  const double least = whole ? 1 : numbers == RangeOf::kNumbers ? -kMost : 0;
+  if (!is_number || value < least || value > kMost || (whole && value != std::floor(value))) {
+    throw LaunchError(fmt::format("{} takes {}, got '{}'", attribute,
+                                  whole                          ? "a whole number from 1"
+                                  : numbers == RangeOf::kNumbers ? "a number"
+                                                                 : "a number that is not negative",
                                   text),
-                      where(), "or a range of them, such as 1..5", Finding::kWrongType);
+                      where, "or a range of them, such as 1..5", Finding::kWrongType);
   }
   return value;
+}
+
+}  // namespace
+
+NumberRange perform_range(const Fields& fields, const std::string& attribute, Scope& scope, RangeOf numbers) {
+  const SourceRange& where = fields.text(attribute).where();
+  const std::string text = fields.text(attribute).perform(scope);
+  const std::string_view all = text;
+  const std::size_t dots = all.find("..");
+  if (dots == std::string_view::npos) {
+    const double value = number_of(attribute, all, numbers, where);
+    return {value, value};
+  }
+  const double from = number_of(attribute, all.substr(0, dots), numbers, where);
+  const double to = number_of(attribute, all.substr(dots + 2), numbers, where);
+  if (to < from) {
+    throw LaunchError(fmt::format("the range of {} begins behind its end: '{}'", attribute, text), where, {},
+                      Finding::kWrongType);
+  }
+  return {from, to};
+}
+
+void check_range(const Fields& fields, const std::string& attribute, RangeOf numbers) {
+  if (Scope nothing; fields.has(attribute) && fields.text(attribute).is_literal()) {
+    perform_range(fields, attribute, nothing, numbers);
+  }
 }
 
 }  // namespace launch

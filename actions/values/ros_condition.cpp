@@ -13,14 +13,54 @@ namespace launch {
 
 namespace {
 
-const std::vector<std::string> kSubjects = {"node", "topic", "service"};
-const std::vector<std::string> kStates = {"unconfigured", "inactive", "active", "finalized"};
+enum class ConditionKind { kNode, kState, kParameter, kTopic, kMessage, kService };
 
-void require_state(const std::string& name, const SourceRange& where) {
-  if (std::find(kStates.begin(), kStates.end(), name) == kStates.end()) {
-    throw LaunchError(fmt::format("state can be unconfigured, inactive, active or finalized, got '{}'", name), where,
-                      did_you_mean(name, kStates));
+const std::vector<std::string> kSubjects = {"node", "topic", "service"};
+const std::vector<std::string> kLastingStates = {"unconfigured", "inactive", "active", "finalized"};
+
+std::string perform_state(const Fields& fields, Scope& scope) {
+  const Template& given = fields.text("state");
+  std::string name = given.perform(scope);
+  if (std::find(kLastingStates.begin(), kLastingStates.end(), name) == kLastingStates.end()) {
+    throw LaunchError(fmt::format("state can be unconfigured, inactive, active or finalized, got '{}'", name),
+                      given.where(), did_you_mean(name, kLastingStates));
   }
+  return name;
+}
+
+ConditionKind kind_of(const Fields& fields, const std::string& subject) {
+  if (subject == "topic") {
+    return choice(fields, "condition", {"present", "message"}) == 0 ? ConditionKind::kTopic : ConditionKind::kMessage;
+  }
+  choice(fields, "condition", {"present"});
+  if (subject == "service") {
+    return ConditionKind::kService;
+  }
+  return fields.has("state")       ? ConditionKind::kState
+         : fields.has("parameter") ? ConditionKind::kParameter
+                                   : ConditionKind::kNode;
+}
+
+RosRequest request_of(const Fields& fields, const std::string& subject, Scope& scope) {
+  const std::string name = resolve_name(fields.text(subject), scope);
+  switch (kind_of(fields, subject)) {
+    case ConditionKind::kNode:
+      return NodePresent{name};
+    case ConditionKind::kTopic:
+      return TopicPresent{name};
+    case ConditionKind::kMessage:
+      return MessagePublished{name};
+    case ConditionKind::kService:
+      return ServicePresent{name};
+    case ConditionKind::kParameter: {
+      const Template& value = fields.text("value");
+      return ParameterReached{
+          name, {fields.text("parameter").perform(scope), typed_parameter(value.perform(scope), value.where())}};
+    }
+    case ConditionKind::kState:
+      break;
+  }
+  return StateReached{name, perform_state(fields, scope)};
 }
 
 }  // namespace
@@ -40,7 +80,7 @@ std::size_t choice(const Fields& fields, const std::string& attribute, const std
                     did_you_mean(given, names));
 }
 
-std::vector<AttributeSpec> RosCondition::attributes() {
+std::vector<AttributeSpec> ros_condition_attributes() {
   return {{"node", AttributeType::kText, false, "", "a node of the ROS graph, of this launch or not", true},
           {"topic", AttributeType::kText, false, "", "instead of a node: a topic", true},
           {"service", AttributeType::kText, false, "", "instead of a node: a service", true},
@@ -50,7 +90,7 @@ std::vector<AttributeSpec> RosCondition::attributes() {
           {"value", AttributeType::kText, false, "", "with parameter: the value as YAML", true}};
 }
 
-std::string RosCondition::subject_of(const Fields& fields, const std::vector<std::string>& others) {
+std::string ros_subject_of(const Fields& fields, const std::vector<std::string>& others) {
   std::vector<std::string> names = others;
   names.insert(names.end(), kSubjects.begin(), kSubjects.end());
   std::vector<std::string> given;
@@ -68,72 +108,37 @@ std::string RosCondition::subject_of(const Fields& fields, const std::vector<std
   return given.front();
 }
 
-RosCondition::Kind RosCondition::kind_of(const Fields& fields, const std::string& subject) {
-  if (subject == "topic") {
-    return choice(fields, "condition", {"present", "message"}) == 0 ? Kind::kTopic : Kind::kMessage;
-  }
-  choice(fields, "condition", {"present"});
-  if (subject == "service") {
-    return Kind::kService;
-  }
-  return fields.has("state") ? Kind::kState : fields.has("parameter") ? Kind::kParameter : Kind::kNode;
-}
-
-RosCondition::RosCondition(const Fields& fields, const std::string& subject)
-    : kind_(kind_of(fields, subject)),
-      name_(fields.text(subject)),
-      state_(fields.optional_text("state")),
-      parameter_(fields.optional_text("parameter")),
-      value_(fields.optional_text("value")) {
-  if (parameter_ && subject != "node") {
+void check_ros_condition(const Fields& fields, const std::string& subject) {
+  const ConditionKind kind = kind_of(fields, subject);
+  const bool has_state = fields.has("state");
+  const bool has_parameter = fields.has("parameter");
+  if (has_parameter && subject != "node") {
     throw LaunchError("parameter goes with a node only", fields.where("parameter"), {}, Finding::kExclusive);
   }
-  if (parameter_ && state_) {
+  if (has_parameter && has_state) {
     throw LaunchError("either a state or a parameter is waited for", fields.where("parameter"), "write one for each",
                       Finding::kExclusive);
   }
-  if (value_ && !parameter_) {
+  if (fields.has("value") && !has_parameter) {
     throw LaunchError("value goes with a parameter only", fields.where("value"), "give parameter=\"…\", its name",
                       Finding::kExclusive);
   }
-  if (parameter_ && !value_) {
+  if (has_parameter && !fields.has("value")) {
     throw LaunchError("the parameter has no value that is waited for", fields.where("parameter"), "give value=\"…\"",
                       Finding::kMissingAttribute);
   }
-  if (state_ && kind_ != Kind::kState) {
+  if (has_state && kind != ConditionKind::kState) {
     throw LaunchError("state goes with a node only", fields.where("state"), {}, Finding::kExclusive);
   }
-  if (state_ && state_->is_literal()) {
-    Scope nothing;
-    require_state(state_->perform(nothing), state_->where());
+  if (Scope nothing; has_state && fields.text("state").is_literal()) {
+    perform_state(fields, nothing);
   }
 }
 
-std::shared_ptr<ReadinessCondition> RosCondition::perform(LaunchContext& context) const {
+std::shared_ptr<ReadinessCondition> perform_ros_condition(const Fields& fields, const std::string& subject,
+                                                          LaunchContext& context) {
   Scope& scope = context.scope();
-  return std::make_shared<RosReadiness>(context.ros_client(), request(scope), scope.environment);
-}
-
-RosRequest RosCondition::request(Scope& scope) const {
-  const std::string name = resolve_name(name_, scope);
-  switch (kind_) {
-    case Kind::kNode:
-      return NodePresent{name};
-    case Kind::kTopic:
-      return TopicPresent{name};
-    case Kind::kMessage:
-      return MessagePublished{name};
-    case Kind::kService:
-      return ServicePresent{name};
-    case Kind::kParameter:
-      return ParameterReached{name,
-                              {parameter_->perform(scope), typed_parameter(value_->perform(scope), value_->where())}};
-    case Kind::kState:
-      break;
-  }
-  const std::string state = state_->perform(scope);
-  require_state(state, state_->where());
-  return StateReached{name, state};
+  return std::make_shared<RosReadiness>(context.ros_client(), request_of(fields, subject, scope), scope.environment);
 }
 
 }  // namespace launch

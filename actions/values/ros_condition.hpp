@@ -3,13 +3,11 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "launcher/language/fields.hpp"
 #include "launcher/language/readiness_condition.hpp"
-#include "launcher/ros/ros_client.hpp"
 #include "launcher/visit/launch_context.hpp"
 
 namespace launch {
@@ -18,31 +16,16 @@ namespace launch {
 // Throws LaunchError.
 std::size_t choice(const Fields& fields, const std::string& attribute, const std::vector<std::string>& names);
 
-class RosCondition {
- public:
-  // The attributes node, topic, service, state, parameter and value. The tag itself declares `condition`.
-  static std::vector<AttributeSpec> attributes();
+// The attributes node, topic, service, state, parameter and value. The tag itself declares `condition`.
+std::vector<AttributeSpec> ros_condition_attributes();
 
-  // The name of the attribute that gives the subject: one of these, or one of `others`. Throws LaunchError at `fields`
-  // when none is given, at the second when there are two.
-  static std::string subject_of(const Fields& fields, const std::vector<std::string>& others);
+// The name of the attribute that gives the subject: one of node, topic and service, or one of `others`. Throws
+// LaunchError at `fields` when none is given, at the second when there are two.
+std::string ros_subject_of(const Fields& fields, const std::vector<std::string>& others = {});
 
-  // Makes a condition for a subject of the graph. Throws LaunchError when attributes don't go together.
-  RosCondition(const Fields& fields, const std::string& subject);
-
-  std::shared_ptr<ReadinessCondition> perform(LaunchContext& context) const;
-
- private:
-  enum class Kind { kNode, kState, kParameter, kTopic, kMessage, kService };
-
-  static Kind kind_of(const Fields& fields, const std::string& subject);
-  RosRequest request(Scope& scope) const;
-
-  Kind kind_;
-  Template name_;
-  std::optional<Template> state_;
-  std::optional<Template> parameter_;
-  std::optional<Template> value_;
-};
+// Throws LaunchError when attributes of a condition for a subject of the graph don't go together.
+void check_ros_condition(const Fields& fields, const std::string& subject);
+std::shared_ptr<ReadinessCondition> perform_ros_condition(const Fields& fields, const std::string& subject,
+                                                          LaunchContext& context);
 
 }  // namespace launch

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
+#include <vector>
 
 namespace launch {
 
@@ -103,6 +105,15 @@ std::string resolve_name(const Template& given, Scope& scope) {
 
 std::string qualified_name(const std::string& name_space, const std::string& name) {
   return (name_space == "/" ? "" : name_space) + "/" + name;
+}
+
+void require_transition(const std::string& name, const SourceRange& where) {
+  static const std::vector<std::string> transitions = {"configure", "activate", "deactivate", "cleanup", "shutdown"};
+  if (std::find(transitions.begin(), transitions.end(), name) == transitions.end()) {
+    throw LaunchError(
+        fmt::format("there is no transition '{}', expected configure, activate, deactivate, cleanup or shutdown", name),
+        where, did_you_mean(name, transitions));
+  }
 }
 
 }  // namespace launch

@@ -32,4 +32,7 @@ std::string resolve_name(const Template& given, Scope& scope);
 // "/left" and "talker" are "/left/talker".
 std::string qualified_name(const std::string& name_space, const std::string& name);
 
+// Throws LaunchError at `where` unless the life cycle of a managed node has a transition of this name.
+void require_transition(const std::string& name, const SourceRange& where);
+
 }  // namespace launch

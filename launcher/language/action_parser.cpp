@@ -195,7 +195,7 @@ ActionPtr ActionParser::parse_action(const Entity& entity) {
 
   ActionPtr action;
   if (errors_.size() == errors_before) {
-    collect([&] { action = type->make(fields); });
+    collect([&] { action = type->make(std::move(fields)); });
   }
   return action;
 }

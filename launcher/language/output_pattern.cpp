@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/diagnostics/diagnostic.hpp"
+#include "launcher/language/fields.hpp"
 
 namespace launch {
 
@@ -40,6 +41,14 @@ std::string_view OutputPattern::stream() const {
 std::string OutputPattern::describe() const {
   return fmt::format("{}{}", expression_ == nullptr ? "any line" : fmt::format("a line that matches '{}'", text_),
                      out_ && err_ ? "" : fmt::format(" on {}", stream()));
+}
+
+OutputPattern perform_output_pattern(const Fields& fields, Scope& scope) {
+  const auto text = [&](const char* attribute, const char* otherwise) {
+    return fields.has(attribute) ? fields.text(attribute).perform(scope) : std::string(otherwise);
+  };
+  const std::string pattern = text("pattern", "");
+  return {pattern, fields.where("pattern"), text("stream", "both"), fields.where("stream")};
 }
 
 }  // namespace launch

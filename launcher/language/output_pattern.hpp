@@ -13,6 +13,9 @@
 
 namespace launch {
 
+class Fields;
+struct Scope;
+
 class OutputPattern {
  public:
   // Only this part of a line is searched, because the time and the memory of a search grow with the line.
@@ -39,5 +42,8 @@ class OutputPattern {
   bool out_ = true;
   bool err_ = true;
 };
+
+// What the attributes `pattern` and `stream` of an action give, which may be missing. Throws LaunchError.
+OutputPattern perform_output_pattern(const Fields& fields, Scope& scope);
 
 }  // namespace launch

@@ -66,7 +66,7 @@ struct ActionType {
   bool extension = false;      // as for an attribute
   // Makes the action from fields that agree with this declaration. May throw LaunchError for rules that the declaration
   // doesn't hold.
-  std::function<ActionPtr(const Fields&)> make;
+  std::function<ActionPtr(Fields)> make;
 };
 
 // Makes the actions of a launch file that is a program. `scope` is the scope of the visit. Throws LaunchError.

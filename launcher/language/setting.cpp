@@ -40,7 +40,7 @@ Value to_value(double number) {
   if constexpr (std::is_same_v<Value, std::uint32_t>) {
     return static_cast<Value>(std::min<double>(number, std::numeric_limits<Value>::max()));
   } else if constexpr (std::is_same_v<Value, Duration>) {
-    return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(number));
+    return as_duration(number);
   } else {
     return static_cast<Value>(number);
   }
@@ -59,6 +59,10 @@ std::size_t read_choice(const AttributeSpec& attribute, const Fields& fields, Sc
 }
 
 }  // namespace
+
+Duration as_duration(double seconds) {
+  return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
+}
 
 void check_setting(const AttributeSpec& attribute, const Fields& fields, const SettingPlace& place) {
   std::visit(
@@ -84,7 +88,8 @@ void perform_setting(const AttributeSpec& attribute, const Fields& fields, Scope
         } else if constexpr (std::is_same_v<Read, bool>) {
           *at = fields.boolean(attribute.name, false).perform(scope);
         } else if constexpr (std::is_same_v<Read, std::string>) {
-          *at = fields.text(attribute.name).perform(scope);
+          *at = attribute.type == AttributeType::kLiteral ? fields.literal(attribute.name)
+                                                          : fields.text(attribute.name).perform(scope);
         } else if constexpr (std::is_same_v<Read, std::vector<std::string>>) {
           *at = perform_names(fields, attribute.name, scope);
         } else {

@@ -44,7 +44,10 @@ struct NumberFromZero {
 // words.
 using SettingPlace = std::variant<bool*, std::optional<bool>*, std::int64_t*, std::uint64_t*, std::uint32_t*,
                                   std::optional<std::uint64_t>*, std::optional<std::uint32_t>*, double*, NumberFromZero,
-                                  std::chrono::nanoseconds*, std::string*, std::vector<std::string>*, SettingChoice>;
+                                  std::chrono::nanoseconds*, std::optional<std::chrono::nanoseconds>*, std::string*,
+                                  std::vector<std::string>*, SettingChoice>;
+
+std::chrono::nanoseconds as_duration(double seconds);
 
 // The place of a member of the struct, or of a member of one of its parts.
 template <typename Struct, typename Member>

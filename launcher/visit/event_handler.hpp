@@ -27,7 +27,7 @@ struct OnProcessIo {
 };
 // Processes that the handler starts run before the others are asked to end.
 struct OnShutdown {
-  Duration timeout{0};  // the longest time that they may take
+  Duration timeout = std::chrono::seconds(5);  // the longest time that they may take
 };
 // A node with a managed life cycle has gone from one state to another; empty: any.
 struct OnStateTransition {

@@ -44,7 +44,7 @@ struct TimerRequest {
 };
 
 struct ShutdownRequest {
-  std::string reason;
+  std::string reason = "reason not given";
 };
 
 // The ROS node that a process will be; a part is empty when the launch file leaves it to the program.

@@ -252,7 +252,8 @@ TEST_F(PythonLaunch, ArgumentsAreShownAndChecked) {
 }
 
 TEST_F(PythonLaunch, ThePackagesThatALoadAsksForAreLookedUpForTestsToo) {
-  const std::string path = write("asks.launch.py", R"(from ament_index_python.packages import get_package_share_directory
+  const std::string path =
+      write("asks.launch.py", R"(from ament_index_python.packages import get_package_share_directory
 from launch import LaunchDescription
 from launch.actions import LogInfo
 
