@@ -28,8 +28,7 @@ std::uint32_t RandomFields::number_alignment(std::uint32_t size) const {
 RandomField RandomFields::random_integer() {
   if (below(6) == 0) {  // a bit field
     const auto size = static_cast<std::uint32_t>(1 + below(40));
-    return {integer(size, 1, below(2) == 0) + " @;", 1,
-            [this, size](BitWriter& out) { out.number(random_(), size); }};
+    return {integer(size, 1, below(2) == 0) + " @;", 1, [this, size](BitWriter& out) { out.number(random_(), size); }};
   }
   const std::uint32_t size = 8U << below(4);
   const std::uint32_t alignment = number_alignment(size);
@@ -81,8 +80,7 @@ RandomField RandomFields::random_text_sequence() {
 
 RandomField RandomFields::random_text_array() {
   const std::uint64_t length = 1 + below(17);
-  return {integer(8, 8, true, "encoding = UTF8;") + fmt::format(" @[{}];", length), 8,
-          [this, length](BitWriter& out) {
+  return {integer(8, 8, true, "encoding = UTF8;") + fmt::format(" @[{}];", length), 8, [this, length](BitWriter& out) {
             out.align(8);
             const std::uint64_t used = below(length + 1);
             for (std::uint64_t i = 0; i < length; ++i) {
@@ -153,8 +151,8 @@ RandomField RandomFields::random_variant(int depth) {
     declarations += declaration;
   }
   const std::size_t tag = lengths_++;
-  return {fmt::format("enum : {} {{ {} }} _tag{};\nvariant <_tag{}> {{ {} }} @;", integer_text(size), labels, tag,
-                      tag, declarations),
+  return {fmt::format("enum : {} {{ {} }} _tag{};\nvariant <_tag{}> {{ {} }} @;", integer_text(size), labels, tag, tag,
+                      declarations),
           8, [this, options](BitWriter& out) {
             const std::size_t chosen = below(options.size());
             out.align(8);

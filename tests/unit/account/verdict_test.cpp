@@ -63,10 +63,10 @@ TEST_F(Verdict, NamesTheRunsOfLossesAndTheBuffersThatWouldHaveHeld) {
 
 TEST_F(Verdict, ARunOfLossesDoesNotBeginAnewWhereATotalGoesBack) {
   LossAccount losses = account(301);
-  tracing::explain_losses(losses, {stream("0", {{1000, 2000, 32000, 0},
-                                                {2000, 3000, 32000, 300},
-                                                {3000, 4000, 32000, 0},
-                                                {4000, 5000, 32000, 301}})});
+  tracing::explain_losses(
+      losses,
+      {stream("0",
+              {{1000, 2000, 32000, 0}, {2000, 3000, 32000, 300}, {3000, 4000, 32000, 0}, {4000, 5000, 32000, 301}})});
   const ChannelLoss& channel = losses.channels.at(0);
   ASSERT_EQ(channel.ranges.size(), 2u);
   EXPECT_EQ(channel.ranges[0].events, 300u);

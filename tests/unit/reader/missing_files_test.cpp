@@ -35,9 +35,7 @@ std::string big_endian(std::uint64_t number, int bytes) {
 // Two streams of two packets, each with one event, and their index as LTTng writes it.
 class MissingFiles : public ::testing::Test {
  protected:
-  MissingFiles() {
-    write_trace(trace_);
-  }
+  MissingFiles() { write_trace(trace_); }
 
   static void write_trace(const fs::path& trace) {
     TraceWriter writer(trace);

@@ -90,7 +90,7 @@ class StreamCursor {
   std::vector<Packet> packets_;
   std::size_t next_packet_ = 0;
   std::uint64_t discarded_ = 0;  // the highest total of discarded events in the packets so far
-  std::vector<Loss> losses_;  // to be reported before the events of the packet, the last one first
+  std::vector<Loss> losses_;     // to be reported before the events of the packet, the last one first
 
   // A window of the open packet's content. Bits count from the beginning of the window.
   std::vector<std::uint8_t> window_;

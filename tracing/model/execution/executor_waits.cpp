@@ -30,9 +30,8 @@ std::int64_t ThreadWaits::waited_ns(std::int64_t begin_ns, std::int64_t end_ns) 
     return waited_ns;
   }
   const auto first = first_after(newest, begin_ns);
-  const auto last = std::prev(std::upper_bound(first, newest.end(), end_ns, [](std::int64_t time, const Wait& wait) {
-    return time < wait.begin_ns;
-  }));
+  const auto last = std::prev(std::upper_bound(
+      first, newest.end(), end_ns, [](std::int64_t time, const Wait& wait) { return time < wait.begin_ns; }));
   if (last < first) {
     return waited_ns;
   }
