@@ -12,6 +12,8 @@
 #include <mutex>
 #include <string_view>
 
+#include "tracing/record/lttng/answer_limit.hpp"
+
 namespace tracing {
 
 // The address of a function of the library, for any thread. Throws TraceError.
@@ -36,7 +38,8 @@ constexpr bool has_own_connection(std::string_view name) {
 template <LttngName name, typename Function>
 struct LttngFunction;
 
-// A call is for any thread. It waits while another thread is in a call. Converts to the pointer to the function, for an
+// A call is for any thread. It waits while another thread is in a call, and fails if the session daemon does not answer
+// (answer_limit.hpp). Converts to the pointer to the function, for an
 // owner that destroys an object. Both throw TraceError if the library can't be loaded.
 template <LttngName name, typename Result, typename... Arguments>
 struct LttngFunction<name, Result(Arguments...)> {
@@ -44,11 +47,13 @@ struct LttngFunction<name, Result(Arguments...)> {
 
   Result operator()(Arguments... arguments) const {
     const Pointer function = *this;
-    std::unique_lock<std::mutex> lock;
-    if constexpr (!has_own_connection(name.text)) {
-      lock = lttng_lock();
+    if constexpr (has_own_connection(name.text)) {
+      return function(arguments...);
+    } else {
+      const std::unique_lock<std::mutex> lock = lttng_lock();
+      const AnswerLimit limit;
+      return function(arguments...);
     }
-    return function(arguments...);
   }
 
   operator Pointer() const {  // NOLINT: it stands for the function

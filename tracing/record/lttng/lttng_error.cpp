@@ -4,8 +4,10 @@
 #include <fmt/core.h>
 #include <lttng/lttng-error.h>
 
+#include <chrono>
 #include <cstdlib>
 
+#include "tracing/record/lttng/answer_limit.hpp"
 #include "tracing/record/lttng/lttng_ctl.hpp"
 #include "tracing/record/lttng/session_daemon.hpp"
 #include "tracing/record/plan/trace_error.hpp"
@@ -48,6 +50,13 @@ std::string remedy_for(int code) {
 }  // namespace
 
 TraceError lttng_error(int code, const std::string& doing) {
+  if (AnswerLimit::was_unanswered()) {
+    return TraceError(fmt::format("cannot {}: LTTng does not answer, it was waited for {} s", doing,
+                                  std::chrono::seconds(kLongestSilence).count()),
+                      fmt::format("`kill -9 {}` ends LTTng's session daemon with all its sessions; the next trace "
+                                  "starts a new one",
+                                  session_daemon_pid()));
+  }
   const int positive = std::abs(code);
   return TraceError(fmt::format("cannot {}: {}", doing, lttng_strerror(-positive)), remedy_for(positive));
 }
@@ -56,7 +65,11 @@ int check_lttng(int result, const std::string& doing) {
   if (result >= 0) {
     return result;
   }
+  const bool unanswered = AnswerLimit::was_unanswered();
   const TraceError error = lttng_error(result, doing);
+  if (unanswered) {
+    throw TraceError(error);
+  }
   if (result == -LTTNG_ERR_FATAL || result == -LTTNG_ERR_NO_USTCONSUMERD) {
     throw ConsumerEnded(error.what(), error.remedy());
   }

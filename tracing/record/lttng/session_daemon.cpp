@@ -22,6 +22,7 @@
 #include "base/processes/process_mark.hpp"
 #include "base/processes/process_stat.hpp"
 #include "base/processes/spawn.hpp"
+#include "tracing/record/lttng/consumer_priority.hpp"
 #include "tracing/record/lttng/lttng_ctl.hpp"
 #include "tracing/record/plan/trace_error.hpp"
 
@@ -203,6 +204,27 @@ void check_daemon_not_stopped() {
   if (const pid_t pid = session_daemon_pid(); pid != 0) {
     check_not_stopped(pid, launch::read_process_stat(pid));
   }
+}
+
+void check_daemons_not_stopped() {
+  check_daemon_not_stopped();
+  for (const pid_t consumer : consumers_of(session_daemon_pid())) {
+    if (launch::read_process_stat(consumer).state == 'T') {
+      throw TraceError(fmt::format("LTTng's consumer (process {}) is stopped and does not answer", consumer),
+                       fmt::format("continue it with `kill -CONT {}`", consumer));
+    }
+  }
+}
+
+std::vector<std::string> continue_stopped_consumers() {
+  std::vector<std::string> continued;
+  for (const pid_t consumer : consumers_of(session_daemon_pid())) {
+    if (launch::read_process_stat(consumer).state == 'T' && kill(consumer, SIGCONT) == 0) {
+      continued.push_back(fmt::format(
+          "LTTng's consumer (process {}) was stopped; it was continued, so that the session could end", consumer));
+    }
+  }
+  return continued;
 }
 
 bool session_daemon_is_ours() {

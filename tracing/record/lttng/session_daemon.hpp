@@ -5,6 +5,7 @@
 #include <sys/types.h>
 
 #include <string>
+#include <vector>
 
 namespace tracing {
 
@@ -34,7 +35,13 @@ pid_t session_daemon_pid();
 // False when the daemon is known to be stopped (SIGSTOP). A traced program would wait for it at its start.
 bool session_daemon_can_answer();
 
-// Throws when the daemon is stopped: it would block every call for ever.
+// Throws when the daemon is stopped: it would block every call.
 void check_daemon_not_stopped();
+
+// Throws also when a consumer of the daemon is stopped: the daemon waits for it in most calls.
+void check_daemons_not_stopped();
+
+// Continues the consumers that are stopped, as far as this user may. Returns a sentence for each.
+std::vector<std::string> continue_stopped_consumers();
 
 }  // namespace tracing
