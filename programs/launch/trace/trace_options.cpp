@@ -40,6 +40,10 @@ void add_names(CLI::App& command, const std::string& option, std::vector<std::st
       ->option_text(fmt::format("[{}…]", kind));
 }
 
+std::string is_name(const std::string& name) {
+  return name.empty() ? "the name of a session is not empty" : "";
+}
+
 std::string not_negative(const std::string& number) {
   return number.starts_with('-') ? fmt::format("expected a number that is not negative, got '{}'", number) : "";
 }
@@ -108,7 +112,10 @@ void add_dual_session(CLI::App& command, SessionArguments& arguments) {
 // The options of the verbs.
 
 void take_session(CLI::App& verb, SessionArguments& arguments, TraceOptions& /*options*/) {
-  verb.add_option("session_name", arguments.session_name, "name of the session")->required()->option_text("NAME");
+  verb.add_option("session_name", arguments.session_name, "name of the session")
+      ->required()
+      ->check(is_name)
+      ->option_text("NAME");
   add_dual_session(verb, arguments);
 }
 
@@ -128,7 +135,10 @@ void take_stop(CLI::App& verb, SessionArguments& arguments, TraceOptions& option
 }
 
 void take_stored(CLI::App& verb, SessionArguments& arguments, TraceOptions& options) {
-  verb.add_option("session_name", arguments.session_name, "name of the session")->required()->option_text("NAME");
+  verb.add_option("session_name", arguments.session_name, "name of the session")
+      ->required()
+      ->check(is_name)
+      ->option_text("NAME");
   verb.add_option("-p,--path", options.directory, "directory of the file NAME.lttng (default: LTTng's own)")
       ->option_text("DIR");
 }
@@ -196,6 +206,7 @@ std::variant<TraceOptions, ParserMessage> parse_trace_options(const std::vector<
   command.require_subcommand(0, 1);
   command
       .add_option("-s,--session-name", session.session_name, "name of the session (default: session-YYYYMMDDHHMMSS)")
+      ->check(is_name)
       ->option_text("NAME");
   add_session_options(command, session, options);
   add_dual_session(command, session);

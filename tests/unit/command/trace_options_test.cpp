@@ -137,6 +137,8 @@ TEST(TraceOptions, DualSessionActsOnTheRuntimeHalfOrTheSnapshotHalf) {
 
 TEST(TraceOptions, WrongUsageIsExitCodeTwo) {
   EXPECT_EQ(message_of({"start"}).exit_code, 2);
+  EXPECT_EQ(message_of({"--session-name", ""}).exit_code, 2);
+  EXPECT_THAT(message_of({"start", ""}).text, testing::HasSubstr("the name of a session is not empty"));
   EXPECT_EQ(message_of({"start"}).text,
             "launch trace start: error: session_name is required\n"
             "      = help: see 'launch trace start --help'\n");
