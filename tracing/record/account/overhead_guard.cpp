@@ -50,6 +50,16 @@ std::uint64_t total(const Counts& counts) {
                          [](std::uint64_t sum, const auto& entry) { return sum + entry.second; });
 }
 
+// How many events of the class came, of those that are counted.
+std::uint64_t events_of(const DroppableClass& drop, const Counts& came) {
+  std::uint64_t sum = 0;
+  for (const DroppableRule& rule : drop.rules) {
+    const auto found = came.find(rule.event);
+    sum += found != came.end() ? found->second : 0;
+  }
+  return sum;
+}
+
 // False for a class whose events are counted, and did not come: nothing would be gained.
 bool is_worth_a_cut(const DroppableClass& drop, const Counts& came) {
   return std::any_of(drop.rules.begin(), drop.rules.end(), [&came](const DroppableRule& rule) {
@@ -98,17 +108,25 @@ void OverheadGuard::watch() {
     const Counts came = difference(runtime_events(counters.read()), before);
     const double seconds = std::chrono::duration<double>(Clock::now() - began).count();
     const auto rate = static_cast<std::uint64_t>(static_cast<double>(total(came)) / seconds);
-    if (is_over_budget(config_, ns_per_event_, rate)) {
+    // As many classes at once as the estimate asks for: each further window would be recorded beyond the budget.
+    std::uint64_t remaining = rate;
+    bool is_known = true;
+    while (is_known && is_over_budget(config_, ns_per_event_, remaining)) {
       const auto next = std::find_if(left_.begin(), left_.end(),
                                      [&came](const DroppableClass& drop) { return is_worth_a_cut(drop, came); });
-      if (next != left_.end()) {
-        const DroppableClass drop = *next;
-        left_.erase(next);
-        cut(drop, rate);
-      } else if (!told_of_excess) {
-        told_of_excess = true;
-        told_({.rate = rate, .share = static_cast<double>(rate) * ns_per_event_ / 1e9});
+      if (next == left_.end()) {
+        if (!told_of_excess) {
+          told_of_excess = true;
+          told_({.rate = remaining, .share = static_cast<double>(remaining) * ns_per_event_ / 1e9});
+        }
+        break;
       }
+      const DroppableClass drop = *next;
+      left_.erase(next);
+      cut(drop, remaining);
+      const std::uint64_t saved = static_cast<std::uint64_t>(static_cast<double>(events_of(drop, came)) / seconds);
+      is_known = saved != 0;  // or its events are not counted, and the next window tells
+      remaining -= std::min(remaining, saved);
     }
     // The count starts anew, because events that fired while LTTng was switching events off tell nothing about the new
     // rate.
