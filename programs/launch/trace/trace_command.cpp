@@ -99,9 +99,12 @@ void print_account(const TraceOptions& options, const LossAccount& losses) {
   if (!losses.directory.empty()) {
     print_line("trace written to: " + losses.directory);
   }
-  print_line(fmt::format("trace is {}: {}", losses.complete() ? "complete" : "incomplete", describe_losses(losses)));
+  print_line(fmt::format("trace is {}: {}", describe_completeness(losses), describe_losses(losses)));
   if (const std::string cost = describe_cost(losses); !cost.empty()) {
     print_line(cost);
+  }
+  for (const std::string& note : losses.notes) {
+    fmt::print(stderr, "{}: note: {}\n", options.command, note);
   }
   if (!losses.unwritten_verdict.empty()) {
     fmt::print(stderr, "{}: warning: {}\n", options.command, losses.unwritten_verdict);

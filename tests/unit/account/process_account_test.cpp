@@ -206,6 +206,28 @@ TEST(ProcessAccount, CostIsWhatTheEventsTake) {
   EXPECT_EQ(losses.processes[1].own_share(100), 0);
 }
 
+TEST(ProcessAccount, AProcessOfAMillisecondCostsLittle) {
+  LossAccount losses = account(0);
+  losses.cost = {.ns_per_event = 100, .cpu = "some processor", .lttng = "2.13.5", .context_fields = {}, .measured = ""};
+  losses.seconds = 4;
+  losses.processes.push_back({.name = "true", .pid = 15, .seconds = 0.001, .events = 700, .counts = false});
+  EXPECT_DOUBLE_EQ(losses.processes[2].processor_share(100), 0.07);
+  const std::string text = tracing::describe_cost(losses);
+  // 3000 events of 100 ns in 4 s.
+  EXPECT_EQ(text.substr(0, text.find(',', text.find("most"))),
+            "estimated cost of tracing: 0.000 s of processor time, 0.01 % of a processor; most in talker [12]");
+}
+
+TEST(ProcessAccount, WhatWasDroppedIsNotLost) {
+  LossAccount losses;
+  EXPECT_EQ(tracing::describe_completeness(losses), "complete");
+  losses.cuts = {{.event_class = "executor"}, {.event_class = "layers"}};
+  EXPECT_EQ(tracing::describe_completeness(losses), "complete but for what was asked to be dropped");
+  EXPECT_EQ(tracing::describe_losses(losses), "dropped to keep to max-overhead: executor, layers");
+  losses.cut_short = true;
+  EXPECT_EQ(tracing::describe_completeness(losses), "incomplete");
+}
+
 TEST(ProcessAccount, EventsThatNobodyCountsCostAsWell) {
   LossAccount losses = account(0);
   RecordedProcesses with_malloc = recorded();

@@ -39,12 +39,21 @@ TEST_F(StreamPackets, OfArchivesBelongToOneStream) {
   write(run / "archives/a-0/ust/uid/0/64-bit", 0, 2);
   const std::vector<Stream> streams = tracing::read_streams(run);
   ASSERT_EQ(streams.size(), 1u);
-  EXPECT_TRUE(streams[0].in_archives);
   EXPECT_EQ(streams[0].cpu, "0");
   ASSERT_EQ(streams[0].packets.size(), 3u);
   EXPECT_EQ(streams[0].packets[0].sequence_number, 0u);
   EXPECT_EQ(streams[0].packets[2].sequence_number, 2u);
   EXPECT_EQ(tracing::first_time(streams), 100u);
+}
+
+// A rotation never ends where a process has died within an event.
+TEST_F(StreamPackets, OfARotationThatHasNotEndedBelongToOneStream) {
+  write(run / ".tmp_old_chunk/ust/uid/0/64-bit", 0, 2);
+  write(run / "20261122T190204+0000-1/ust/uid/0/64-bit", 2, 1);
+  write(run / "appended-1/ust/uid/0/64-bit", 0, 7);
+  const std::vector<Stream> streams = tracing::read_streams(run);
+  ASSERT_EQ(streams.size(), 1u);
+  EXPECT_EQ(streams[0].packets.size(), 3u);
 }
 
 TEST_F(StreamPackets, OfNumberedFilesBelongToOneStream) {
@@ -100,6 +109,30 @@ TEST_F(StreamPackets, AreReadUntilTheUserGivesUp) {
   int asked = 0;
   const std::vector<Stream> streams = tracing::read_streams(run, {}, [&asked] { return ++asked > 3; });
   EXPECT_EQ(streams.at(0).packets.size(), 3u);
+}
+
+// An index of LTTng: big endian, a header of 16 bytes, then entries with the end of a packet as fifth number.
+void write_index(const fs::path& file, const std::vector<unsigned char>& ends) {
+  std::string index("\xC1\xF1\xDC\xC1\0\0\0\1\0\0\0\1\0\0\0\x48", 16);
+  for (const unsigned char end : ends) {
+    std::string entry(72, '\0');
+    entry[39] = static_cast<char>(end);
+    index += entry;
+  }
+  fs::create_directories(file.parent_path());
+  test_support::write_file(file, index);
+}
+
+TEST_F(StreamPackets, HaveTheirLastTimesInIndexFiles) {
+  write_index(run / "ust/uid/0/64-bit/index/ros2_0.idx", {3, 9});
+  write_index(run / "ust/uid/0/64-bit/index/ros2_1.idx", {});
+  write_index(run / "ust/pid/talker-47-20261122-190204/index/ros2_0.idx", {1});
+  EXPECT_EQ(tracing::last_times(run, {}), (std::vector<std::uint64_t>{9, 0}));
+  write_index(run / "ust/uid/0/64-bit/index/ros2_1_0.idx", {4});
+  write_index(run / "ust/uid/0/64-bit/index/ros2_1_1.idx", {7, 8});
+  fs::remove(run / "ust/uid/0/64-bit/index/ros2_1.idx");
+  fs::remove(run / "ust/uid/0/64-bit/index/ros2_0.idx");
+  EXPECT_EQ(tracing::last_times(run, {"ros2"}), std::vector<std::uint64_t>{8});
 }
 
 TEST_F(StreamPackets, ThatAreThereInPartAreLeftOut) {

@@ -14,6 +14,7 @@
 #include "tracing/record/account/loss_account.hpp"
 #include "tracing/record/account/loss_text.hpp"
 #include "tracing/record/account/stream_packets.hpp"
+#include "tracing/record/account/unwritten_data.hpp"
 #include "tracing/record/plan/trace_error.hpp"
 
 namespace {
@@ -204,6 +205,23 @@ TEST_F(Verdict, IsCompleteWithoutLossesAndWrittenAsJson) {
 )json");
 }
 
+TEST_F(Verdict, OfTheFirstRecordingTellsOfThoseThatWereAppended) {
+  const std::filesystem::path run = sandbox.directory() / "run";
+  std::filesystem::create_directories(run / "appended-1");
+  tracing::note_appended(run / "appended-1", true);
+  EXPECT_FALSE(std::filesystem::exists(run / "verdict.json")) << "the first one has none";
+  tracing::write_verdict(account(0), "run", run);
+  const auto says = [&run](const std::string& text) {
+    return test_support::read_file(run / "verdict.json").find(text) != std::string::npos;
+  };
+  tracing::note_appended(run / "appended-1", true);
+  EXPECT_TRUE(says("\"complete\": true"));
+  tracing::note_appended(run / "appended-2", false);
+  EXPECT_TRUE(says("\"complete\": false"));
+  EXPECT_TRUE(says("\"appended-1\": true"));
+  EXPECT_TRUE(says("\"appended-2\": false"));
+}
+
 TEST_F(Verdict, ThatCannotBeWrittenIsAnError) {
   const std::string path = sandbox.directory() / "nowhere" / "verdict.json";
   try {
@@ -221,7 +239,7 @@ TEST_F(Verdict, ReplacesAPlantedLinkAndLeavesItsTargetAsItWas) {
     std::filesystem::create_symlink("../target", sandbox.directory() / recording / "verdict.json");
   }
   tracing::write_verdict(account(0), "run", sandbox.directory() / "run");
-  tracing::write_snapshot_verdict(sandbox.directory() / "snapshot-1", "run", {}, {}, {});
+  tracing::write_snapshot_verdict(sandbox.directory() / "snapshot-1", "run", {}, {});
   for (const char* recording : {"run", "snapshot-1"}) {
     const std::filesystem::path verdict = sandbox.directory() / recording / "verdict.json";
     EXPECT_FALSE(std::filesystem::is_symlink(verdict));
@@ -241,8 +259,13 @@ TEST_F(Verdict, OfASnapshotSaysWhyItWasTakenAndWhatIsMissingInIt) {
   writer.write(0, 2000, thread, tracing::ros2::RclTake{1});
   writer.write(1, 500, thread, tracing::ros2::RclTake{1});
   writer.finish();
-  tracing::write_snapshot_verdict(snapshot, "run", {"c-1 died of SIGSEGV", "SIGUSR1"}, tracing::read_streams(snapshot),
-                                  {{"b [2] had ended"}});
+  const std::vector<Stream> streams = tracing::read_streams(snapshot);
+  tracing::write_snapshot_verdict(snapshot, "run",
+                                  {.reasons = {"c-1 died of SIGSEGV", "SIGUSR1"},
+                                   .absences = {{"b [2] had ended"}},
+                                   .unwritten = tracing::unfinished_streams(streams, 1500),
+                                   .damage = "unfinished"},
+                                  streams);
   EXPECT_EQ(test_support::read_file(snapshot / "verdict.json"),
             "{\n"
             "  \"session\": \"run\",\n"
@@ -251,13 +274,22 @@ TEST_F(Verdict, OfASnapshotSaysWhyItWasTakenAndWhatIsMissingInIt) {
             "    \"SIGUSR1\"\n"
             "  ],\n"
             "  \"complete\": false,\n"
+            "  \"damage\": \"unfinished\",\n"
             "  \"absent\": [\n"
             "    \"b [2] had ended\"\n"
             "  ],\n"
             "  \"discarded_events\": 12,\n"
             "  \"lost_packets\": 3,\n"
             "  \"begin_ns\": 500,\n"
-            "  \"end_ns\": 2000\n"
+            "  \"end_ns\": 2000,\n"
+            "  \"unwritten\": [\n"
+            "    {\n"
+            "      \"channel\": \"ros2\",\n"
+            "      \"cpu\": \"1\",\n"
+            "      \"begin_ns\": 0,\n"
+            "      \"end_ns\": 1000\n"
+            "    }\n"
+            "  ]\n"
             "}\n");
 }
 

@@ -208,6 +208,30 @@ TEST_F(RobustControl, WhatARecordingNeedsIsWatched) {
               HasSubstr("\"complete\": false"));
 }
 
+TEST_F(RobustControl, AStoppedConsumerIsAnErrorAndIsContinuedAtTheEnd) {
+  if (geteuid() != 0) {
+    GTEST_SKIP() << "skipped, because without root the consumers of the machine can't be told apart";
+  }
+  tracer->start(config());
+  TracedApp app(10, 10);
+  const std::string consumer = std::to_string(processes("lttng-consumerd").at(0));
+  for (const pid_t process : processes("lttng-consumerd")) {
+    kill(process, SIGSTOP);
+  }
+  const std::string stopped = "LTTng's consumer (process " + consumer + ") is stopped and does not answer\n" +
+                              "continue it with `kill -CONT " + consumer + "`";
+  EXPECT_EQ(error_of([this] { tracer->status("run"); }), stopped);
+  EXPECT_EQ(error_of([this] { tracer->pause("run"); }), stopped);
+  EXPECT_EQ(error_of([this] { tracer->resume("run"); }), stopped);
+  const LossAccount losses = tracer->finish(config(), never);
+  EXPECT_TRUE(losses.complete()) << losses.damage;
+  EXPECT_THAT(losses.notes, testing::Contains("LTTng's consumer (process " + consumer +
+                                              ") was stopped; it was continued, so that the session could end"));
+  EXPECT_EQ(listed_sessions(), "");
+  app.end();
+  EXPECT_EQ(read_trace(config().trace_directory()).events.at("ros2:rclcpp_callback_register"), 10);
+}
+
 TEST_F(RobustControl, ADaemonThatIsStoppedInMidRunIsAnErrorAndDoesNotBlock) {
   tracer->start(config());
   TracedApp app(10, 10);

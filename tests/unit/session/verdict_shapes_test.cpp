@@ -141,11 +141,11 @@ struct VerdictShapes : trace_test::LttngTracer, testing::WithParamInterface<unsi
     }
     between_bursts();
     if (chosen.shape == Shape::kSnapshot) {
-      tracing::record_snapshot("run");
+      const std::uint64_t asked = tracing::record_snapshot("run");
       const auto snapshots = tracing::snapshots_in(chosen.config.trace_directory());
       ASSERT_FALSE(snapshots.empty());
       recording = snapshots.back();
-      tracing::judge_snapshot(recording, "run", {}, {});
+      tracing::judge_snapshot(recording, "run", {}, {}, asked);
     }
     const bool ends_before = GetParam() % 2 == 0;
     if (ends_before) {

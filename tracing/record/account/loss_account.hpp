@@ -43,11 +43,14 @@ struct LossRange {
   std::uint64_t events = 0;
 };
 
-// From begin_ns on the events of a processor could not be written. Times count as in LossRange.
+// From begin_ns on the events of a processor were not written. Times count as in LossRange.
 struct UnwrittenRange {
   std::string cpu;
   std::uint64_t begin_ns = 0;
   std::uint64_t end_ns = 0;  // when the session was stopped
+  std::string channel = {};
+  std::optional<std::int64_t> pid = {};  // of the process that owns the buffers, where each process has its own
+  bool after_losses = false;             // events were discarded before
 };
 
 // What a channel recorded before the first packet that its trace still has.
@@ -116,12 +119,15 @@ struct LossAccount {
   bool has_losses() const;
 
   std::vector<ChannelLoss> channels;
+  double seconds = 0;                          // from the first packet to the end of the last; 0: unknown
   std::vector<ProcessAccount> processes = {};  // by the time of their beginning
   LossAttribution attribution = LossAttribution::kUnknown;
-  std::uint64_t unattributed = 0;      // lost userspace events of no process in the list
-  std::optional<EventCost> cost = {};  // of an event, on this machine
-  std::vector<EventCut> cuts = {};     // dropped on purpose: no losses
-  bool cut_short = false;              // the wait for the last data was given up
+  std::uint64_t unattributed = 0;       // lost userspace events of no process in the list
+  std::optional<EventCost> cost = {};   // of an event, on this machine
+  std::vector<EventCut> cuts = {};      // dropped on purpose: no losses
+  bool cut_short = false;               // the wait for the last data was given up
+  bool stuck = false;                   // LTTng had data left and wrote nothing any more
+  std::vector<std::string> notes = {};  // on the end of the session; nothing that the trace lacks
   std::vector<Absence> absences = {};
   std::string damage = {};              // a sentence on data that is missing and was not counted, or ""
   std::string directory = {};           // of the recording or of the snapshots; "" if it is not on this machine

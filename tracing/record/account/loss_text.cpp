@@ -116,17 +116,21 @@ std::string describe_losses(const LossAccount& losses) {
   if (losses.cut_short) {
     text += fmt::format("{}the last events were not waited for", text.empty() ? "" : "\n");
   }
-  if (text.empty()) {
-    text = "no events lost";
-  }
   std::vector<std::string> dropped;
   for (const EventCut& cut : losses.cuts) {
     dropped.push_back(cut.event_class);
   }
   if (!dropped.empty()) {
-    text += fmt::format("; dropped to keep to max-overhead: {}", fmt::join(dropped, ", "));
+    text += fmt::format("{}dropped to keep to max-overhead: {}", text.empty() ? "" : "; ", fmt::join(dropped, ", "));
   }
-  return text;
+  return text.empty() ? "no events lost" : text;
+}
+
+std::string describe_completeness(const LossAccount& losses) {
+  if (!losses.complete()) {
+    return "incomplete";
+  }
+  return losses.cuts.empty() ? "complete" : "complete but for what was asked to be dropped";
 }
 
 std::string describe_cost(const LossAccount& losses) {
@@ -135,15 +139,17 @@ std::string describe_cost(const LossAccount& losses) {
   }
   const double ns = losses.cost->ns_per_event;
   double seconds = 0;
-  double processors = 0;
+  double lasted = losses.seconds;
   const ProcessAccount* most = nullptr;
   for (const ProcessAccount& process : losses.processes) {
     if (process.events == 0) {
       continue;
     }
     seconds += process.tracing_seconds(ns);
-    processors += process.processor_share(ns);
-    if (most == nullptr || process.processor_share(ns) > most->processor_share(ns)) {
+    // Without packets the longest process tells how long the recording was.
+    lasted = losses.seconds != 0 ? lasted : std::max(lasted, process.seconds);
+    // The share of a process that lived for milliseconds is large and tells nothing.
+    if (most == nullptr || process.events > most->events) {
       most = &process;
     }
   }
@@ -151,7 +157,7 @@ std::string describe_cost(const LossAccount& losses) {
     return {};
   }
   std::string text = fmt::format("estimated cost of tracing: {:.3f} s of processor time, {:.2f} % of a processor",
-                                 seconds, 100 * processors);
+                                 seconds, lasted > 0 ? 100 * seconds / lasted : 0);
   text += fmt::format("; most in {} [{}]", most->name, most->pid);
   if (most->cpu_seconds > 0) {
     text += fmt::format(", {:.1f} % of its own processor time", 100 * most->own_share(ns));

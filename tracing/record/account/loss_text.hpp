@@ -11,6 +11,9 @@ namespace tracing {
 // One line per channel with losses ("12 events lost in ust channel ros2"), or "no events lost".
 std::string describe_losses(const LossAccount& losses);
 
+// "complete", "incomplete", or "complete but for what was asked to be dropped".
+std::string describe_completeness(const LossAccount& losses);
+
 // As one line: the estimated cost of tracing for all processes together, and for the process that it has cost most. ""
 // if the cost of an event is unknown or no event was counted.
 std::string describe_cost(const LossAccount& losses);

@@ -10,6 +10,7 @@
 #include "tracing/record/account/loss_attribution.hpp"
 #include "tracing/record/account/recorded_events.hpp"
 #include "tracing/record/account/stream_packets.hpp"
+#include "tracing/record/account/unwritten_data.hpp"
 #include "tracing/record/plan/trace_config.hpp"
 
 namespace tracing {
@@ -20,6 +21,9 @@ namespace tracing {
 class LossesByProcess {
  public:
   LossesByProcess(const TraceConfig& config, LossAccount& losses);
+
+  // Processes that did not end properly (unwritten_data.hpp).
+  std::vector<std::string> killed() const { return killed_processes(counts_); }
 
   // When the session has gone: which of its rules no program had an event for, by the metadata of the recording.
   void look_for_absent_events(const std::string& recording);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/record/account/stream_packets.hpp"
 
+#include <endian.h>
+
 #include <algorithm>
 #include <charconv>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <string_view>
@@ -109,11 +112,32 @@ void add_packets(const ctf::TraceClass& trace, const fs::path& file, const std::
   }
 }
 
-// The parts of one stream.
-struct Found {
-  bool in_archives = false;
-  std::vector<Packet> packets = {};
-};
+// The end of the last packet in an index file of LTTng, whose numbers are big endian; 0 when it has none.
+std::uint64_t last_time_in(const fs::path& index) {
+  constexpr std::size_t kLength = 12;  // behind magic number and version: the length of an entry
+  constexpr std::size_t kHeader = 16;
+  constexpr std::size_t kTimeEnd = 32;  // in an entry, behind offset, two sizes and the time of its begin
+  std::ifstream file(index, std::ios::binary);
+  const auto read_at = [&file](std::size_t at, auto number) {
+    file.seekg(static_cast<std::streamoff>(at));
+    file.read(reinterpret_cast<char*>(&number), sizeof number);
+    return file ? number : 0;
+  };
+  const std::size_t length = be32toh(read_at(kLength, std::uint32_t{0}));
+  file.seekg(0, std::ios::end);
+  const std::streamoff size = file.tellg();
+  if (length < kTimeEnd + sizeof(std::uint64_t) || size < static_cast<std::streamoff>(kHeader + length)) {
+    return 0;
+  }
+  const std::size_t entries = (static_cast<std::size_t>(size) - kHeader) / length;
+  return be64toh(read_at(kHeader + (entries - 1) * length + kTimeEnd, std::uint64_t{0}));
+}
+
+// "20261122T190204+0000-1" of what was recorded since the last rotation, which becomes an archive at the end of the
+// session, and what a rotation that has not ended has left.
+bool is_chunk(const std::string& name) {
+  return name == ".tmp_old_chunk" || (name.size() > 9 && is_number(name.substr(0, 8)) && name[8] == 'T');
+}
 
 // The session's directory and those of its archives.
 std::vector<fs::path> chunks_of(const fs::path& directory) {
@@ -124,6 +148,13 @@ std::vector<fs::path> chunks_of(const fs::path& directory) {
   for (; !error && archive != fs::directory_iterator(); archive.increment(error)) {
     chunks.push_back(archive->path());
   }
+  error.clear();
+  fs::directory_iterator entry(directory, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    if (is_chunk(entry->path().filename())) {
+      chunks.push_back(entry->path());
+    }
+  }
   return chunks;
 }
 
@@ -132,7 +163,7 @@ std::vector<fs::path> chunks_of(const fs::path& directory) {
 std::vector<Stream> read_streams(const fs::path& directory, const std::set<std::string>& channels_in_files,
                                  const std::function<bool()>& give_up) {
   // Domain, path of the trace below it, channel, processor.
-  std::map<std::tuple<std::string, fs::path, std::string, std::string>, Found> found;
+  std::map<std::tuple<std::string, fs::path, std::string, std::string>, std::vector<Packet>> found;
   Traces traces;
   for (const fs::path& chunk : chunks_of(directory)) {
     for (const char* domain : {"ust", "kernel"}) {
@@ -149,34 +180,53 @@ std::vector<Stream> read_streams(const fs::path& directory, const std::set<std::
           continue;
         }
         const fs::path trace = entry.path().parent_path();
-        Found& stream = found[{domain, trace.lexically_relative(chunk / domain), name->channel, name->cpu}];
-        if (chunk != directory) {
-          stream.in_archives = true;
-        }
+        std::vector<Packet>& packets =
+            found[{domain, trace.lexically_relative(chunk / domain), name->channel, name->cpu}];
         if (const ctf::TraceClass* const metadata = traces.in(trace)) {
-          add_packets(*metadata, entry.path(), give_up, stream.packets);
+          add_packets(*metadata, entry.path(), give_up, packets);
         }
       }
     }
   }
   std::vector<Stream> streams;
-  for (auto& [key, parts] : found) {
-    std::vector<Packet>& packets = parts.packets;
+  for (auto& [key, packets] : found) {
     std::stable_sort(packets.begin(), packets.end(), [](const Packet& a, const Packet& b) {
       return std::tie(a.sequence_number, a.begin) < std::tie(b.sequence_number, b.begin);
     });
     const auto& [domain, trace, channel, cpu] = key;
-    streams.push_back({.domain = domain,
-                       .channel = channel,
-                       .cpu = cpu,
-                       .pid = owner_of(trace),
-                       .in_archives = parts.in_archives,
-                       .packets = std::move(packets)});
+    streams.push_back(
+        {.domain = domain, .channel = channel, .cpu = cpu, .pid = owner_of(trace), .packets = std::move(packets)});
   }
   std::stable_sort(streams.begin(), streams.end(), [](const Stream& a, const Stream& b) {
     return std::tie(a.domain, a.channel, a.cpu) < std::tie(b.domain, b.channel, b.cpu);
   });
   return streams;
+}
+
+std::vector<std::uint64_t> last_times(const fs::path& directory, const std::set<std::string>& channels_in_files) {
+  std::map<std::tuple<fs::path, std::string, std::string>, std::uint64_t> ends;  // by folder, channel and processor
+  std::error_code error;
+  for (const fs::path& chunk : chunks_of(directory)) {
+    const fs::path traces = chunk / "ust" / "uid";
+    fs::recursive_directory_iterator entry(traces, error);
+    for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+      if (entry->path().extension() != ".idx") {
+        continue;
+      }
+      const fs::path folder = entry->path().parent_path().parent_path();
+      const std::optional<FileName> name = stream_of(folder / entry->path().stem(), channels_in_files);
+      if (name) {
+        std::uint64_t& end = ends[{folder.lexically_relative(traces), name->channel, name->cpu}];
+        end = std::max(end, last_time_in(entry->path()));
+      }
+    }
+    error.clear();
+  }
+  std::vector<std::uint64_t> times;
+  for (const auto& [stream, end] : ends) {
+    times.push_back(end);
+  }
+  return times;
 }
 
 std::uint64_t first_time(const std::vector<Stream>& streams) {

@@ -27,7 +27,6 @@ struct Stream {
   std::string channel;                   // "ros2"
   std::string cpu;                       // "0"
   std::optional<std::int64_t> pid = {};  // of the process that owns the buffers, where each process has its own
-  bool in_archives = false;              // a part of it is: the session was rotated
   std::vector<Packet> packets = {};      // in their order
 };
 
@@ -38,6 +37,11 @@ struct Stream {
 std::vector<Stream> read_streams(const std::filesystem::path& directory,
                                  const std::set<std::string>& channels_in_files = {},
                                  const std::function<bool()>& give_up = {});
+
+// When the last packet of each stream ends that all processes of a user share, as LTTng's index files tell: 0 for a
+// stream without a packet. Costs little even for a long trace.
+std::vector<std::uint64_t> last_times(const std::filesystem::path& directory,
+                                      const std::set<std::string>& channels_in_files);
 
 // When the first packet of all streams begins; the greatest number when there is none.
 std::uint64_t first_time(const std::vector<Stream>& streams);

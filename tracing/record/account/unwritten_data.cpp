@@ -3,16 +3,22 @@
 
 #include <fcntl.h>
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <map>
+#include <set>
+#include <thread>
 
+#include "base/processes/process_stat.hpp"
 #include "tracing/record/account/loss_account.hpp"
 #include "tracing/record/account/packet_losses.hpp"
 #include "tracing/record/account/stream_packets.hpp"
@@ -23,16 +29,54 @@ namespace {
 constexpr std::size_t kRoomLeftByAWorkingConsumer = 65536;  // bytes; it fills a file system to the last block
 constexpr const char* kRemedy = "make room there, or choose another base-path";
 
-// The daemon counts more lost events than the last packets know of.
-bool ends_with_losses(const ChannelLoss& channel, const std::vector<Stream>& streams) {
-  std::uint64_t known = 0;
+// What one process may leave between the ends of its streams, which LTTng's consumer ends one after the other.
+constexpr std::uint64_t kBetweenEnds = 1'000'000'000;  // ns
+constexpr std::chrono::milliseconds kLongestCommit{1000};
+constexpr std::chrono::milliseconds kBetweenLooks{2};
+constexpr std::size_t kMostUnfinished = 4;  // streams, processes
+
+std::uint64_t end_of(const Stream& stream) {
+  return stream.packets.empty() ? 0 : stream.packets.back().end;
+}
+
+// When the streams of each process were ended that has buffers of its own.
+std::map<std::int64_t, std::uint64_t> ends_of_processes(const std::vector<Stream>& streams) {
+  std::map<std::int64_t, std::uint64_t> ends;
   for (const Stream& stream : streams) {
-    if (stream.domain != channel.domain || stream.channel != channel.channel || stream.packets.empty()) {
-      continue;
+    if (stream.pid) {
+      std::uint64_t& end = ends[*stream.pid];
+      end = std::max(end, end_of(stream));
     }
-    known += discarded_in(stream);
   }
-  return channel.discarded_events + channel.before_first.discarded_events > known;
+  return ends;
+}
+
+// A clock of the user's own has other times.
+bool has_own_clock() {
+  return std::getenv("LTTNG_UST_CLOCK_PLUGIN") != nullptr;
+}
+
+bool all_end_after(const std::filesystem::path& directory, const std::set<std::string>& channels_in_files,
+                   std::uint64_t stopped) {
+  const std::vector<std::uint64_t> ends = last_times(directory, channels_in_files);
+  return std::all_of(ends.begin(), ends.end(), [stopped](std::uint64_t end) { return end >= stopped; });
+}
+
+std::string why_unfinished(const UnwrittenRange& range, std::vector<std::string> killed) {
+  if (range.pid) {
+    const std::string pid = fmt::format("[{}]", *range.pid);
+    std::erase_if(killed, [&pid](const std::string& process) { return !process.ends_with(pid); });
+    if (killed.empty()) {
+      killed.push_back(fmt::format("process {}", *range.pid));
+    }
+  }
+  if (killed.size() > kMostUnfinished) {
+    return fmt::format("one of {} killed processes died within an event", killed.size());
+  }
+  if (!killed.empty()) {
+    return fmt::format("{} died within an event", fmt::join(killed, " or "));
+  }
+  return range.after_losses ? "the buffers were full to the end" : "a thread did not complete its event";
 }
 
 // The error of writing so many bytes into a new file there; 0 when they fit, or no file can be made.
@@ -61,31 +105,78 @@ int error_of_writing(const std::filesystem::path& directory) {
 
 }  // namespace
 
-void find_unwritten(LossAccount& account, const std::vector<Stream>& streams, std::uint64_t stopped, bool no_room) {
-  // A clock of the user's own has other times.
-  if (stopped == 0 || account.cut_short || std::getenv("LTTNG_UST_CLOCK_PLUGIN") != nullptr) {
-    return;
+std::vector<UnwrittenRange> unfinished_streams(const std::vector<Stream>& streams, std::uint64_t stopped) {
+  std::vector<UnwrittenRange> found;
+  if (stopped == 0) {
+    for (const Stream& stream : streams) {
+      stopped = stream.domain != "ust" || stream.pid ? stopped : std::max(stopped, end_of(stream));
+    }
+    stopped -= std::min(stopped, kBetweenEnds);
+  }
+  if (stopped == 0 || has_own_clock()) {
+    return found;
   }
   const std::uint64_t first = first_time(streams);
   const std::uint64_t origin = first < stopped ? first : stopped;  // without a packet no time is known
-  for (ChannelLoss& channel : account.channels) {
-    if (channel.domain != "ust" || (!no_room && ends_with_losses(channel, streams))) {
+  const std::map<std::int64_t, std::uint64_t> ends = ends_of_processes(streams);
+  for (const Stream& stream : streams) {
+    if (stream.domain != "ust") {
       continue;
     }
-    for (const Stream& stream : streams) {
-      if (stream.domain != channel.domain || stream.channel != channel.channel) {
-        continue;
+    std::uint64_t expected = stopped;
+    if (stream.pid) {
+      const std::uint64_t end = ends.at(*stream.pid);
+      expected = std::min(stopped, end - std::min(end, kBetweenEnds));
+    }
+    const std::uint64_t end = stream.packets.empty() ? origin : end_of(stream);
+    if (end >= expected && !stream.packets.empty()) {
+      continue;
+    }
+    found.push_back({.cpu = stream.cpu,
+                     .begin_ns = end - origin,
+                     .end_ns = std::max(end, expected) - origin,
+                     .channel = stream.channel,
+                     .pid = stream.pid,
+                     .after_losses = discarded_in(stream) != 0});
+  }
+  return found;
+}
+
+void find_unwritten(LossAccount& account, const std::vector<Stream>& streams, std::uint64_t stopped) {
+  if (account.cut_short) {
+    return;
+  }
+  for (const UnwrittenRange& range : unfinished_streams(streams, stopped)) {
+    for (ChannelLoss& channel : account.channels) {
+      if (channel.domain == "ust" && channel.channel == range.channel) {
+        channel.unwritten.push_back(range);
       }
-      if (stream.pid || stream.in_archives) {
-        continue;
-      }
-      const std::uint64_t end = stream.packets.empty() ? origin : stream.packets.back().end;
-      if (end >= stopped && !stream.packets.empty()) {
-        continue;
-      }
-      channel.unwritten.push_back({.cpu = stream.cpu, .begin_ns = end - origin, .end_ns = stopped - origin});
     }
   }
+}
+
+std::vector<std::string> killed_processes(const std::vector<EventCounts>& counts) {
+  std::vector<std::string> killed;
+  for (const EventCounts& process : counts) {
+    const launch::ProcessStat stat = launch::read_process_stat(static_cast<pid_t>(process.pid));
+    if (process.end == 0 && (stat.name.empty() || stat.state == 'Z')) {
+      killed.push_back(fmt::format("{} [{}]", process.process, process.pid));
+    }
+  }
+  return killed;
+}
+
+bool wait_for_last_packets(const std::filesystem::path& directory, const std::set<std::string>& channels_in_files,
+                           std::uint64_t stopped, const std::function<bool()>& give_up) {
+  const auto latest = std::chrono::steady_clock::now() + kLongestCommit;
+  // LTTng tells nobody of a packet that it has written.
+  while (stopped != 0 && !has_own_clock() && !all_end_after(directory, channels_in_files, stopped)) {
+    if ((give_up && give_up()) || std::chrono::steady_clock::now() > latest) {
+      return false;
+    }
+    std::this_thread::sleep_for(kBetweenLooks);
+  }
+  return true;
 }
 
 std::string why_no_room(const std::filesystem::path& directory) {
@@ -102,32 +193,48 @@ std::string why_no_room(const std::filesystem::path& directory) {
   return error == 0 ? "" : fmt::format("{} cannot be written: {}", directory.string(), std::strerror(error));
 }
 
-std::string describe_damage(const LossAccount& account, const std::string& no_room,
-                            const std::filesystem::path& directory) {
+std::string describe_unfinished(const std::vector<UnwrittenRange>& unfinished, const std::vector<std::string>& killed) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(unfinished.size(), kMostUnfinished); ++i) {
+    const UnwrittenRange& range = unfinished[i];
+    text += fmt::format("{}unfinished: {}, processor {}, since {:.3f} s of {:.3f} s (channel {})", i == 0 ? "" : "; ",
+                        why_unfinished(range, killed), range.cpu, to_seconds(range.begin_ns), to_seconds(range.end_ns),
+                        range.channel);
+  }
+  if (unfinished.size() > kMostUnfinished) {
+    text += fmt::format("; {} streams more", unfinished.size() - kMostUnfinished);
+  }
+  return text;
+}
+
+std::string describe_damage(const LossAccount& account, const EndOfStreams& known) {
+  std::vector<UnwrittenRange> unwritten;
+  for (const ChannelLoss& channel : account.channels) {
+    unwritten.insert(unwritten.end(), channel.unwritten.begin(), channel.unwritten.end());
+  }
+  if (known.no_room.empty()) {
+    const std::string unfinished = describe_unfinished(unwritten, known.killed);
+    if (!account.stuck) {
+      return unfinished;
+    }
+    return fmt::format("LTTng had data left and wrote nothing any more{}{}", unfinished.empty() ? "" : "; ",
+                       unfinished);
+  }
+  if (unwritten.empty()) {
+    // As of a session that was paused: when it should have been written to is not known.
+    return fmt::format("{}: events are missing, their number is unknown; {}", known.no_room, kRemedy);
+  }
   std::uint64_t begin = std::numeric_limits<std::uint64_t>::max();
   std::uint64_t end = 0;
-  bool found = false;
-  for (const ChannelLoss& channel : account.channels) {
-    for (const UnwrittenRange& range : channel.unwritten) {
-      begin = std::min(begin, range.begin_ns);
-      end = std::max(end, range.end_ns);
-      found = true;
-    }
+  for (const UnwrittenRange& range : unwritten) {
+    begin = std::min(begin, range.begin_ns);
+    end = std::max(end, range.end_ns);
   }
-  if (found) {
-    const std::string why =
-        no_room.empty() ? fmt::format("data could not be written to {}", directory.string()) : no_room;
-    if (end == 0) {
-      return fmt::format("{}: no event could be written; {}", why, kRemedy);
-    }
-    return fmt::format("{}: events after {:.3f} s of {:.3f} s are missing; {}", why, to_seconds(begin), to_seconds(end),
-                       kRemedy);
+  if (end == 0) {
+    return fmt::format("{}: no event could be written; {}", known.no_room, kRemedy);
   }
-  // As of a session that was paused: when it should have been written to is not known.
-  if (no_room.empty()) {
-    return {};
-  }
-  return fmt::format("{}: events are missing, their number is unknown; {}", no_room, kRemedy);
+  return fmt::format("{}: events after {:.3f} s of {:.3f} s are missing; {}", known.no_room, to_seconds(begin),
+                     to_seconds(end), kRemedy);
 }
 
 }  // namespace tracing

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -161,6 +162,11 @@ void write_file(const std::filesystem::path& directory, const std::string& text)
 
 void explain_losses(LossAccount& account, const std::vector<Stream>& streams) {
   const std::uint64_t origin = first_time(streams);
+  std::uint64_t end = 0;
+  for (const Stream& stream : streams) {
+    end = std::max(end, stream.packets.empty() ? 0 : stream.packets.back().end);
+  }
+  account.seconds = end > origin ? to_seconds(end - origin) : 0;
   for (ChannelLoss& channel : account.channels) {
     std::uint64_t longest = 0;
     for (const Stream& stream : streams) {
@@ -221,9 +227,21 @@ void write_verdict(const LossAccount& account, const std::string& session_name,
   write_file(directory, verdict_as_json(account, session_name));
 }
 
+void note_appended(const std::filesystem::path& appended, bool complete) {
+  const std::filesystem::path trace = appended.parent_path();
+  std::ifstream file(trace / kVerdictFile);
+  nlohmann::ordered_json verdict = nlohmann::ordered_json::parse(file, nullptr, false);
+  if (!verdict.is_object()) {
+    return;  // the first recording has none
+  }
+  nlohmann::ordered_json& recordings = verdict["appended"];
+  recordings[appended.filename().string()] = complete;
+  verdict["complete"] = verdict.value("complete", false) && complete;
+  write_file(trace, verdict.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
 void write_snapshot_verdict(const std::filesystem::path& directory, const std::string& session_name,
-                            const std::vector<std::string>& reasons, const std::vector<Stream>& streams,
-                            const std::vector<Absence>& absences) {
+                            const SnapshotAccount& account, const std::vector<Stream>& streams) {
   std::uint64_t discarded = 0;
   std::uint64_t lost = 0;
   std::uint64_t begin = std::numeric_limits<std::uint64_t>::max();
@@ -237,16 +255,22 @@ void write_snapshot_verdict(const std::filesystem::path& directory, const std::s
       end = std::max(end, packet.end);
     }
   }
+  const bool complete = discarded == 0 && lost == 0 && account.absences.empty() && account.unwritten.empty();
   nlohmann::ordered_json json = {{"session", session_name},
-                                 {"reasons", reasons},
-                                 {"complete", discarded == 0 && lost == 0 && absences.empty()},
+                                 {"reasons", account.reasons},
+                                 {"complete", complete},
+                                 {"damage", account.damage},
                                  {"absent", nlohmann::ordered_json::array()},
                                  {"discarded_events", discarded},
                                  {"lost_packets", lost},
                                  {"begin_ns", std::min(begin, end)},
                                  {"end_ns", end}};
-  for (const Absence& absence : absences) {
+  for (const Absence& absence : account.absences) {
     json["absent"].push_back(absence.text);
+  }
+  for (const UnwrittenRange& range : account.unwritten) {
+    json["unwritten"].push_back(
+        {{"channel", range.channel}, {"cpu", range.cpu}, {"begin_ns", range.begin_ns}, {"end_ns", range.end_ns}});
   }
   write_file(directory, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }

@@ -33,11 +33,20 @@ std::string verdict_as_json(const LossAccount& account, const std::string& sessi
 // Writes kVerdictFile as a whole; a link at its place is replaced and not followed. Throws TraceError.
 void write_verdict(const LossAccount& account, const std::string& session_name, const std::filesystem::path& directory);
 
-// The same for a snapshot: session, reasons, complete, absent, discarded_events, lost_packets, begin_ns and end_ns of
-// the trace clock. Complete is a snapshot in which nothing is missing between its first event and its last. Throws
-// TraceError.
+// Tells in the verdict of a trace's first recording that another one was appended, and whether it is complete: the
+// field `appended`, and `complete` of all of them. Throws TraceError.
+void note_appended(const std::filesystem::path& appended, bool complete);
+
+// The same for a snapshot: session, reasons, complete, damage, absent, discarded_events, lost_packets, unwritten,
+// begin_ns and end_ns of the trace clock. Complete is a snapshot in which nothing is missing between its first event
+// and the moment at which it was asked for. Throws TraceError.
+struct SnapshotAccount {
+  std::vector<std::string> reasons = {};
+  std::vector<Absence> absences = {};
+  std::vector<UnwrittenRange> unwritten = {};  // streams that end before that moment
+  std::string damage = {};                     // a sentence on them
+};
 void write_snapshot_verdict(const std::filesystem::path& directory, const std::string& session_name,
-                            const std::vector<std::string>& reasons, const std::vector<Stream>& streams,
-                            const std::vector<Absence>& absences);
+                            const SnapshotAccount& account, const std::vector<Stream>& streams);
 
 }  // namespace tracing

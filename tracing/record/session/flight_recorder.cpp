@@ -52,9 +52,9 @@ void FlightRecorder::work() {
 }
 
 TakenSnapshot FlightRecorder::take(std::vector<std::string> reasons) {
-  TakenSnapshot taken{.reasons = std::move(reasons), .directory = {}, .error = {}};
+  TakenSnapshot taken{.reasons = std::move(reasons), .directory = {}, .damage = {}, .error = {}};
   try {
-    record_snapshot(config_.lttng_session_name());
+    const std::uint64_t asked = record_snapshot(config_.lttng_session_name());
     if (config_.over_network()) {
       return taken;
     }
@@ -63,7 +63,8 @@ TakenSnapshot FlightRecorder::take(std::vector<std::string> reasons) {
       throw TraceError("LTTng has written no snapshot");
     }
     taken.directory = snapshots.back();
-    judge_snapshot(taken.directory, config_.lttng_session_name(), config_.event_counters, taken.reasons);
+    taken.damage =
+        judge_snapshot(taken.directory, config_.lttng_session_name(), config_.event_counters, taken.reasons, asked);
     for (std::size_t oldest = 0; snapshots.size() - oldest > config_.snapshot_limit; ++oldest) {
       fs::remove_all(snapshots[oldest]);
     }

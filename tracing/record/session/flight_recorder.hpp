@@ -18,6 +18,7 @@ namespace tracing {
 struct TakenSnapshot {
   std::vector<std::string> reasons;  // several, when they came while the snapshot before was being taken
   std::filesystem::path directory;   // empty when `error` is not, and over a network
+  std::string damage;                // a sentence on events that are missing at its end, or ""
   std::string error;
 };
 

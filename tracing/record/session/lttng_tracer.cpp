@@ -16,6 +16,7 @@
 #include "tracing/record/account/loss_counters.hpp"
 #include "tracing/record/account/losses_by_process.hpp"
 #include "tracing/record/account/packet_losses.hpp"
+#include "tracing/record/account/readable_traces.hpp"
 #include "tracing/record/account/session_pauses.hpp"
 #include "tracing/record/account/stream_packets.hpp"
 #include "tracing/record/account/unwritten_data.hpp"
@@ -48,9 +49,11 @@ namespace {
 void judge(LossAccount& losses, LossesByProcess& by_process, const std::vector<Stream>& streams,
            const std::string& directory, std::uint64_t stopped) {
   explain_losses(losses, streams);
-  const std::string no_room = why_no_room(directory);
-  find_unwritten(losses, streams, stopped, !no_room.empty());
-  losses.damage = describe_damage(losses, no_room, directory);
+  find_unwritten(losses, streams, stopped);
+  losses.damage = describe_damage(losses, {.no_room = why_no_room(directory), .killed = by_process.killed()});
+  if (const std::string unreadable = describe_unreadable(directory); !unreadable.empty()) {
+    losses.damage += (losses.damage.empty() ? "" : "; ") + unreadable;
+  }
   by_process.look_for_absent_events(directory);
   by_process.look_into(directory, streams);
 }
@@ -59,6 +62,9 @@ void judge(LossAccount& losses, LossesByProcess& by_process, const std::vector<S
 void write(LossAccount& losses, const std::string& session_name, const std::string& directory) {
   try {
     write_verdict(losses, session_name, directory);
+    if (std::filesystem::path(directory).filename().string().starts_with(kAppended)) {
+      note_appended(directory, losses.complete());
+    }
   } catch (const TraceError& error) {
     losses.unwritten_verdict = error.what();
   }
@@ -79,7 +85,8 @@ void write_failed_verdict(const std::string& session_name, const std::string& di
     return;
   }
   LossAccount losses;
-  losses.damage = failure;
+  const std::string unreadable = describe_unreadable(directory);
+  losses.damage = failure + (unreadable.empty() ? "" : "; " + unreadable);
   try {
     write_verdict(losses, session_name, directory);
   } catch (const TraceError&) {
@@ -99,16 +106,15 @@ void end_kernel_recorder(const std::string& directory) {
   }
 }
 
-// The streams of a recording that has been written.
-std::vector<Stream> streams_of(const LossAccount& losses, const std::string& directory,
-                               const std::function<bool()>& give_up) {
+// The channels that are recorded into files of a limited size.
+std::set<std::string> channels_in_files(const LossAccount& losses) {
   std::set<std::string> in_files;
   for (const ChannelLoss& channel : losses.channels) {
     if (channel.tracefile_size != 0) {
       in_files.insert(channel.channel);
     }
   }
-  return read_streams(directory, in_files, give_up);
+  return in_files;
 }
 
 // Whether the relay daemon has gone that gets the trace of the session. Throws TraceError if it is stopped: LTTng's
@@ -158,7 +164,16 @@ class LttngTracer : public Tracer {
 
 LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<bool()>& give_up) {
   const std::string name = config.lttng_session_name();
-  check_daemon_not_stopped();
+  try {
+    check_daemon_not_stopped();
+  } catch (const TraceError& error) {
+    // When the daemon goes on, the session can be ended, and gets another verdict.
+    if (!config.records_snapshots() && !config.over_network()) {
+      write_failed_verdict(name, config.trace_directory(), error.what());
+    }
+    throw;
+  }
+  const std::vector<std::string> notes = continue_stopped_consumers();
   std::vector<SessionStep> steps;
   StepTimer timer(steps);
   const std::optional<SessionSummary> session = find_session(name);
@@ -167,7 +182,7 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
   const std::optional<Absence> relay_daemon_gone = session ? look_for_relay_daemon(*session) : std::nullopt;
   LossAccount losses;
   try {
-    losses = stop_and_account(name, give_up, timer);
+    losses = stop_and_account(name, session ? session->path : "", give_up, timer);
   } catch (const TraceError& error) {
     const bool is_known = session && !session->path.empty();
     const std::string directory = is_known ? session->path : config.over_network() ? "" : config.trace_directory();
@@ -177,11 +192,17 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
     }
     throw;
   }
+  losses.notes = notes;
+  const bool local = session && session->path.starts_with('/');  // else it went to a relay daemon
   LossesByProcess by_process(with_counters(config), losses);
   if (relay_daemon_gone) {
     losses.absences.push_back(*relay_daemon_gone);
   }
   timer.finished("losses");
+  if (local && !session->snapshot && !losses.cut_short) {
+    wait_for_last_packets(session->path, channels_in_files(losses), stopped, give_up);
+  }
+  timer.finished("last packets");
   std::optional<std::uint64_t> lost_by_kernel;
   std::string kernel_failure;
   if (session) {
@@ -199,16 +220,23 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
   if (!losses.directory.starts_with('/')) {
     losses.directory.clear();
   }
-  const bool local = session && session->path.starts_with('/');  // else it went to a relay daemon
   std::error_code unreadable;
   const bool rotated = local && std::filesystem::exists(session->path + "/archives", unreadable);
-  rotated ? destroy_rotated_session(name, give_up) : destroy_session(name, give_up);
+  std::optional<TraceError> failure;
+  try {
+    rotated ? static_cast<void>(destroy_rotated_session(name, give_up)) : destroy_session(name, give_up);
+  } catch (const TraceError& error) {
+    failure = error;  // what has been written is judged all the same
+  }
   timer.finished("destroy");
   EventWatch::clean_up(name);  // of a launcher that was killed
   const bool readable = local && !session->snapshot;
   std::vector<Stream> streams;
   if (readable) {
-    streams = streams_of(losses, session->path, give_up);
+    for (Absence& absence : put_unreadable_aside(session->path)) {
+      losses.absences.push_back(std::move(absence));
+    }
+    streams = read_streams(session->path, channels_in_files(losses), give_up);
     if (give_up && give_up()) {
       // A part of the packets would give wrong sums and damage that is none.
       streams.clear();
@@ -239,6 +267,9 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
   }
   timer.finished("verdict");
   losses.steps = std::move(steps);
+  if (failure) {
+    throw TraceError(*failure);
+  }
   if (!kernel_failure.empty()) {
     throw TraceError(kernel_failure);
   }
@@ -246,7 +277,7 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
 }
 
 std::optional<LossAccount> LttngTracer::pause(const std::string& name) {
-  check_daemon_not_stopped();
+  check_daemons_not_stopped();
   const std::optional<SessionSummary> session = find_session(name);
   if (session) {
     look_for_relay_daemon(*session);
@@ -255,7 +286,7 @@ std::optional<LossAccount> LttngTracer::pause(const std::string& name) {
   // Waits for the data, because a user who pauses wants to look at the trace.
   note_pause(CounterDirectory::of_session(name), name);
   check_lttng(lttng_stop_tracing_no_wait(name.c_str()), fmt::format("pause trace session '{}'", name));
-  wait_for_data(name, {});
+  const DataEnd end = wait_for_data(name, session ? session->path : "", {});
   pause_kernel_recorder(recorder_directory(name));
   if (!session || !session->active || session->snapshot || !session->path.starts_with('/')) {
     return std::nullopt;
@@ -266,8 +297,10 @@ std::optional<LossAccount> LttngTracer::pause(const std::string& name) {
     config.session_name = name;
     LossAccount losses = read_losses(name);
     losses.directory = session->path;
+    losses.stuck = end == DataEnd::kStuck;
     LossesByProcess by_process(with_counters(config), losses);
-    const std::vector<Stream> streams = streams_of(losses, session->path, {});
+    wait_for_last_packets(session->path, channels_in_files(losses), stopped, {});
+    const std::vector<Stream> streams = read_streams(session->path, channels_in_files(losses), {});
     count_in_packets(losses, streams);
     judge(losses, by_process, streams, session->path, stopped);
     if (!losses.processes.empty()) {
@@ -281,7 +314,7 @@ std::optional<LossAccount> LttngTracer::pause(const std::string& name) {
 }
 
 void LttngTracer::resume(const std::string& name) {
-  check_daemon_not_stopped();
+  check_daemons_not_stopped();
   check_lttng(lttng_start_tracing(name.c_str()), fmt::format("resume trace session '{}'", name));
   note_resume(CounterDirectory::of_session(name), name);
   resume_kernel_recorder(recorder_directory(name));
@@ -289,7 +322,7 @@ void LttngTracer::resume(const std::string& name) {
 
 std::string LttngTracer::record_snapshot(const std::string& name) {
   check_daemon_not_stopped();
-  record_and_clear(name);
+  const std::uint64_t asked = record_and_clear(name);
   const std::optional<std::filesystem::path> directory = snapshot_directory(name);
   if (!directory) {
     return {};
@@ -298,7 +331,7 @@ std::string LttngTracer::record_snapshot(const std::string& name) {
   if (snapshots.empty()) {
     return {};
   }
-  judge_snapshot(snapshots.back(), name, CounterDirectory::of_session(name), {"launch trace record_snapshot"});
+  judge_snapshot(snapshots.back(), name, CounterDirectory::of_session(name), {"launch trace record_snapshot"}, asked);
   return snapshots.back().string();
 }
 

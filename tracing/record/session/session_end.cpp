@@ -6,10 +6,15 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <filesystem>
 #include <memory>
+#include <system_error>
 #include <thread>
+#include <utility>
 
 #include "tracing/record/account/loss_counters.hpp"
+#include "tracing/record/lttng/answer_limit.hpp"
 #include "tracing/record/lttng/lttng_ctl.hpp"
 #include "tracing/record/lttng/lttng_error.hpp"
 #include "tracing/record/plan/trace_error.hpp"
@@ -37,8 +42,50 @@ class Polling {
   steady_clock::time_point begin_ = steady_clock::now();
 };
 
-// How often a wait for LTTng asks whether to give up.
+// How often a wait for LTTng asks whether to give up, and whether LTTng still writes.
 constexpr milliseconds kGiveUpInterval{50};
+constexpr milliseconds kProgressInterval{500};
+
+// The bytes of all files in the directory; 0 when they are on another machine.
+std::uint64_t size_of(const std::string& directory) {
+  std::uint64_t size = 0;
+  std::error_code error;
+  if (!directory.starts_with('/')) {
+    return size;
+  }
+  std::filesystem::recursive_directory_iterator entry(directory, error);
+  for (; !error && entry != std::filesystem::recursive_directory_iterator(); entry.increment(error)) {
+    std::error_code gone;
+    if (const std::uintmax_t bytes = entry->file_size(gone); !gone) {
+      size += bytes;
+    }
+  }
+  return size;
+}
+
+// Ends when LTTng has written nothing for kLongestSilence.
+class Patience {
+ public:
+  explicit Patience(std::string directory) : directory_(std::move(directory)) {}
+
+  bool is_over() {
+    const steady_clock::time_point now = steady_clock::now();
+    if (now - looked_ >= kProgressInterval) {
+      looked_ = now;
+      if (const std::uint64_t size = size_of(directory_); size != size_) {
+        size_ = size;
+        silent_since_ = now;
+      }
+    }
+    return now - silent_since_ >= longest_silence();
+  }
+
+ private:
+  std::string directory_;
+  std::uint64_t size_ = 0;
+  steady_clock::time_point looked_ = steady_clock::now();
+  steady_clock::time_point silent_since_ = looked_;
+};
 
 void stop(const std::string& name) {
   // Takes 200 ms when applications have registered since the last stop: the consumer daemon then waits in steps of this
@@ -51,24 +98,30 @@ void stop(const std::string& name) {
 
 }  // namespace
 
-bool wait_for_data(const std::string& name, const std::function<bool()>& give_up) {
+DataEnd wait_for_data(const std::string& name, const std::string& directory, const std::function<bool()>& give_up) {
   const std::string doing = fmt::format("write the data of trace session '{}'", name);
+  Patience patience(directory);
   for (Polling data; check_lttng(lttng_data_pending(name.c_str()), doing) > 0; data.pause()) {
     if (give_up && give_up()) {
-      return false;
+      return DataEnd::kGivenUp;
+    }
+    if (patience.is_over()) {
+      return DataEnd::kStuck;
     }
   }
-  return true;
+  return DataEnd::kWritten;
 }
 
-LossAccount stop_and_account(const std::string& name, const std::function<bool()>& give_up, StepTimer& timer) {
+LossAccount stop_and_account(const std::string& name, const std::string& directory,
+                             const std::function<bool()>& give_up, StepTimer& timer) {
   try {
     stop(name);
     timer.finished("stop");
-    const bool complete = wait_for_data(name, give_up);
+    const DataEnd end = wait_for_data(name, directory, give_up);
     timer.finished("last data");
     LossAccount losses = read_losses(name);
-    losses.cut_short = !complete;
+    losses.cut_short = end == DataEnd::kGivenUp;
+    losses.stuck = end == DataEnd::kStuck;
     return losses;
   } catch (const TraceError&) {
     lttng_destroy_session_no_wait(name.c_str());
@@ -78,14 +131,15 @@ LossAccount stop_and_account(const std::string& name, const std::function<bool()
 
 void destroy_session(const std::string& name, const std::function<bool()>& give_up) {
   check_lttng(lttng_destroy_session_no_wait(name.c_str()), fmt::format("destroy trace session '{}'", name));
+  Patience patience("");
   for (Polling gone; find_session(name).has_value(); gone.pause()) {
-    if (give_up && give_up()) {
+    if ((give_up && give_up()) || patience.is_over()) {
       break;
     }
   }
 }
 
-void destroy_rotated_session(const std::string& name, const std::function<bool()>& give_up) {
+bool destroy_rotated_session(const std::string& name, const std::function<bool()>& give_up) {
   const std::string doing = fmt::format("destroy trace session '{}'", name);
   lttng_destruction_handle* destruction = nullptr;
   lttng_error_code result = lttng_destroy_session_ext(name.c_str(), &destruction);
@@ -95,11 +149,12 @@ void destroy_rotated_session(const std::string& name, const std::function<bool()
   const std::unique_ptr<lttng_destruction_handle, void (*)(lttng_destruction_handle*)> owner(
       destruction, lttng_destruction_handle_destroy);
   lttng_destruction_handle_status status = LTTNG_DESTRUCTION_HANDLE_STATUS_TIMEOUT;
-  while (status == LTTNG_DESTRUCTION_HANDLE_STATUS_TIMEOUT && !(give_up && give_up())) {
+  Patience patience("");
+  while (status == LTTNG_DESTRUCTION_HANDLE_STATUS_TIMEOUT && !(give_up && give_up()) && !patience.is_over()) {
     status = lttng_destruction_handle_wait_for_completion(destruction, kGiveUpInterval.count());
   }
   if (status == LTTNG_DESTRUCTION_HANDLE_STATUS_TIMEOUT) {
-    return;
+    return false;
   }
   result = LTTNG_ERR_NO_SESSIOND;  // the connection broke
   if (status == LTTNG_DESTRUCTION_HANDLE_STATUS_COMPLETED) {
@@ -108,6 +163,7 @@ void destroy_rotated_session(const std::string& name, const std::function<bool()
   if (result != LTTNG_OK) {
     throw lttng_error(result, doing);
   }
+  return true;
 }
 
 }  // namespace tracing

@@ -10,20 +10,26 @@
 
 namespace tracing {
 
-// Waits until the consumer daemon has written all that a stopped session has recorded. False if give_up said so first.
-// Throws TraceError.
-bool wait_for_data(const std::string& lttng_session_name, const std::function<bool()>& give_up);
+// How the wait for the last data ended. Stuck: LTTng says that there is data, and has written nothing for
+// kLongestSilence (answer_limit.hpp), as when a rotation cannot end because a process died within an event.
+enum class DataEnd { kWritten, kGivenUp, kStuck };
 
-// Stops the session and reads its losses once they are final, or as they are when give_up says so. A session that fails
+// Waits until the consumer daemon has written all that a stopped session has recorded into `directory`; another
+// machine's is not looked at. Throws TraceError.
+DataEnd wait_for_data(const std::string& lttng_session_name, const std::string& directory,
+                      const std::function<bool()>& give_up);
+
+// Stops the session and reads its losses once they are final, or as they are when the wait ends. A session that fails
 // in this can't be used any more and is destroyed. Throws TraceError.
-LossAccount stop_and_account(const std::string& lttng_session_name, const std::function<bool()>& give_up,
-                             StepTimer& timer);
+LossAccount stop_and_account(const std::string& lttng_session_name, const std::string& directory,
+                             const std::function<bool()>& give_up, StepTimer& timer);
 
-// Returns when nothing is left of the session, or give_up says so. Throws TraceError.
+// Returns when nothing is left of the session, give_up says so, or it takes kLongestSilence. Throws TraceError.
 void destroy_session(const std::string& lttng_session_name, const std::function<bool()>& give_up);
 
 // The same for a session that was rotated: LTTng moves its last files to the archive half a second after the session
-// has gone from the list. Returns when the files are there, or give_up says so. Throws TraceError.
-void destroy_rotated_session(const std::string& lttng_session_name, const std::function<bool()>& give_up);
+// has gone from the list. Returns when the files are there, give_up says so, or it takes kLongestSilence; false if they
+// are not there. Throws TraceError.
+bool destroy_rotated_session(const std::string& lttng_session_name, const std::function<bool()>& give_up);
 
 }  // namespace tracing

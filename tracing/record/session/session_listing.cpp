@@ -117,6 +117,7 @@ std::optional<SessionSummary> find_session(const std::string& name) {
 }
 
 SessionDetails describe_session(const std::string& name) {
+  check_daemons_not_stopped();
   const std::optional<SessionSummary> found = find_session(name);
   if (!found) {
     throw TraceError(fmt::format("there is no trace session '{}'", name),

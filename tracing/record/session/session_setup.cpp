@@ -49,7 +49,7 @@ std::string recording_directory(const TraceConfig& config) {
     return directory.string();
   }
   for (int number = 1;; ++number) {
-    const std::filesystem::path appended = directory / fmt::format("appended-{}", number);
+    const std::filesystem::path appended = directory / fmt::format("{}{}", kAppended, number);
     if (!std::filesystem::exists(appended)) {
       return appended.string();
     }
@@ -233,6 +233,7 @@ SetupReport start_session(const TraceConfig& config) {
   timer.finished("checks");
 
   report.started_daemon = ensure_session_daemon();
+  check_daemons_not_stopped();
   timer.finished("session daemon");
   for (std::string& warning : context_warnings(channels)) {
     report.warnings.push_back(std::move(warning));

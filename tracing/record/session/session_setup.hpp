@@ -7,6 +7,9 @@
 
 namespace tracing {
 
+// What the directories of further recordings in the directory of a trace begin with.
+inline constexpr const char* kAppended = "appended-";
+
 // Starts the session daemon if none runs. A daemon whose consumer was killed is started again if a launch has started
 // it and nobody has a session there. Throws TraceError with nothing left behind.
 SetupReport start_session(const TraceConfig& config);

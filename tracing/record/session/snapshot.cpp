@@ -7,15 +7,21 @@
 #include <algorithm>
 #include <charconv>
 #include <memory>
+#include <utility>
 
+#include "base/monotonic_clock.hpp"
 #include "tracing/record/account/absence.hpp"
 #include "tracing/record/account/event_counters.hpp"
+#include "tracing/record/account/readable_traces.hpp"
 #include "tracing/record/account/stream_packets.hpp"
+#include "tracing/record/account/unwritten_data.hpp"
 #include "tracing/record/account/verdict.hpp"
 #include "tracing/record/kernel/kernel_recorder.hpp"
+#include "tracing/record/lttng/answer_limit.hpp"
 #include "tracing/record/lttng/lttng_ctl.hpp"
 #include "tracing/record/lttng/lttng_error.hpp"
 #include "tracing/record/lttng/lttng_list.hpp"
+#include "tracing/record/lttng/session_daemon.hpp"
 #include "tracing/record/session/session_listing.hpp"
 
 namespace tracing {
@@ -29,8 +35,6 @@ std::uint64_t largest_snapshot(const TraceConfig& config) {
   return std::max<std::uint64_t>(10, static_cast<std::uint64_t>(get_nprocs_conf()) * config.ust.subbuffer_count);
 }
 
-constexpr int kWaitForever = -1;
-
 // LTTng numbers the snapshots of a session in their names: snapshot-20261121-190000-17.
 long number_of(const fs::path& snapshot) {
   const std::string name = snapshot.filename();
@@ -42,16 +46,19 @@ long number_of(const fs::path& snapshot) {
 
 // Takes a snapshot with LTTng, then adds the buffers of the kernel recorder to it. Both parts hold the events before
 // the reason for the snapshot.
-void record(const std::string& name, bool clear) {
+std::uint64_t record(const std::string& name, bool clear) {
+  check_daemons_not_stopped();
+  const auto asked = static_cast<std::uint64_t>(launch::monotonic_time());
   check_lttng(lttng_snapshot_record(name.c_str(), nullptr, 0), fmt::format("record a snapshot of session '{}'", name));
   const std::optional<fs::path> directory = snapshot_directory(name);
   if (!directory) {
-    return;
+    return asked;
   }
   const std::vector<fs::path> snapshots = snapshots_in(*directory);
   if (!snapshots.empty()) {
     take_kernel_snapshot(*directory, snapshots.back(), clear);
   }
+  return asked;
 }
 
 bool has_buffers_of_processes(const std::string& name) {
@@ -124,26 +131,34 @@ std::string recorder_directory(const std::string& name) {
   return session ? session->path : "";
 }
 
-void judge_snapshot(const fs::path& snapshot, const std::string& name, const std::string& counters,
-                    const std::vector<std::string>& reasons) {
+std::string judge_snapshot(const fs::path& snapshot, const std::string& name, const std::string& counters,
+                           const std::vector<std::string>& reasons, std::uint64_t asked) {
+  SnapshotAccount account{.reasons = reasons, .absences = put_unreadable_aside(snapshot)};
   const std::vector<Stream> streams = read_streams(snapshot);
-  std::vector<Absence> absences;
+  const std::vector<EventCounts> counts =
+      counters.empty() ? std::vector<EventCounts>() : EventCounters(counters).read();
   if (has_buffers_of_processes(name)) {
     if (counters.empty()) {
-      absences.push_back({"each process has buffers of its own: programs that had ended are not in the snapshot"});
+      account.absences.push_back(
+          {"each process has buffers of its own: programs that had ended are not in the snapshot"});
     } else {
-      absences = absent_from_snapshot(EventCounters(counters).read(), streams);
+      for (Absence& absence : absent_from_snapshot(counts, streams)) {
+        account.absences.push_back(std::move(absence));
+      }
     }
   }
-  write_snapshot_verdict(snapshot, name, reasons, streams, absences);
+  account.unwritten = unfinished_streams(streams, asked);
+  account.damage = describe_unfinished(account.unwritten, killed_processes(counts));
+  write_snapshot_verdict(snapshot, name, account, streams);
+  return account.damage;
 }
 
-void record_snapshot(const std::string& name) {
-  record(name, false);
+std::uint64_t record_snapshot(const std::string& name) {
+  return record(name, false);
 }
 
-void record_and_clear(const std::string& name) {
-  record(name, true);
+std::uint64_t record_and_clear(const std::string& name) {
+  const std::uint64_t asked = record(name, true);
 
   const std::string doing = fmt::format("clear session '{}' after its snapshot", name);
   lttng_clear_handle* started = nullptr;
@@ -152,10 +167,12 @@ void record_and_clear(const std::string& name) {
   }
   const LttngOwned<lttng_clear_handle> handle(started, lttng_clear_handle_destroy);
   lttng_error_code result = LTTNG_ERR_UNK;
-  if (lttng_clear_handle_wait_for_completion(handle.get(), kWaitForever) != LTTNG_CLEAR_HANDLE_STATUS_COMPLETED ||
+  const auto longest = static_cast<int>(longest_silence().count());
+  if (lttng_clear_handle_wait_for_completion(handle.get(), longest) != LTTNG_CLEAR_HANDLE_STATUS_COMPLETED ||
       lttng_clear_handle_get_result(handle.get(), &result) != LTTNG_CLEAR_HANDLE_STATUS_OK || result != LTTNG_OK) {
     throw lttng_error(result, doing);
   }
+  return asked;
 }
 
 }  // namespace tracing

@@ -2,6 +2,7 @@
 // The output of snapshot sessions, and recording one.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -27,13 +28,15 @@ std::vector<std::filesystem::path> snapshots_in(const std::filesystem::path& dir
 std::string recorder_directory(const std::string& lttng_session_name);
 
 // Writes the verdict of a snapshot into its directory. `counters` is where the processes of the session count their
-// events, or "". Throws TraceError.
-void judge_snapshot(const std::filesystem::path& snapshot, const std::string& lttng_session_name,
-                    const std::string& counters, const std::vector<std::string>& reasons);
+// events, or ""; `asked` is the result of record_snapshot(). Returns a sentence on what was not written, or "". Throws
+// TraceError.
+std::string judge_snapshot(const std::filesystem::path& snapshot, const std::string& lttng_session_name,
+                           const std::string& counters, const std::vector<std::string>& reasons, std::uint64_t asked);
 
-// Writes what the buffers of the session hold, and those of its kernel recorder. Throws TraceError.
-void record_snapshot(const std::string& lttng_session_name);
+// Writes what the buffers of the session hold, and those of its kernel recorder. Returns when it was asked for
+// (CLOCK_MONOTONIC, ns): the snapshot shall hold what was before. Throws TraceError.
+std::uint64_t record_snapshot(const std::string& lttng_session_name);
 // Records a snapshot, then empties the buffers, so that the next snapshot starts after this one.
-void record_and_clear(const std::string& lttng_session_name);
+std::uint64_t record_and_clear(const std::string& lttng_session_name);
 
 }  // namespace tracing

@@ -142,7 +142,10 @@ std::string TracedRun::write_chains() const {
 }
 
 void TracedRun::look_around(const Tell& tell) {
-  program_output(prefix_ + "/lib/launch/launch-trace-probe", {});
+  // In a session with buffers for each process it would have a trace of its own, for nothing.
+  if (config_.buffers_ust != BufferOwner::kProcess) {
+    program_output(prefix_ + "/lib/launch/launch-trace-probe", {});
+  }
   for (const std::string& warning : tracer_->unreachable_processes()) {
     tell(true, warning);
   }
@@ -161,6 +164,9 @@ void TracedRun::start_flight_recorder(const Tell& tell, const SnapshotObserver& 
           observer(taken, late_events(choices, taken.reasons));
         }
         tell(false, fmt::format("snapshot written to: {} ({})", taken.directory.string(), reasons));
+        if (!taken.damage.empty()) {
+          tell(true, fmt::format("the snapshot is incomplete: {}", taken.damage));
+        }
       });
   if (const std::vector<std::string> rules = choices_.watched_events(); !rules.empty()) {
     event_watch_ = std::make_unique<EventWatch>(config_.lttng_session_name(), rules, [this](const std::string& rule) {
@@ -240,10 +246,13 @@ void TracedRun::tell_result(const Tell& tell) const {
        fmt::format("trace written to: {}{}", config_.destination(), summary_.empty() ? "" : " (" + summary_ + ")"));
   if (!config_.records_snapshots()) {
     tell(losses_.has_losses() || !losses_.absences.empty(),
-         fmt::format("trace is {}: {}", losses_.complete() ? "complete" : "incomplete", describe_losses(losses_)));
+         fmt::format("trace is {}: {}", describe_completeness(losses_), describe_losses(losses_)));
   }
   if (const std::string cost = describe_cost(losses_); !cost.empty()) {
     tell(false, cost);
+  }
+  for (const std::string& note : losses_.notes) {
+    tell(true, note);
   }
   if (!losses_.unwritten_verdict.empty()) {
     tell(true, losses_.unwritten_verdict);

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// Streams whose last packet is never completed, because a program dies, or is interrupted, within an event.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "tests/support/command.hpp"
+#include "tests/unit/session/lttng_tracer_fixture.hpp"
+#include "tests/unit/session/trace_reading.hpp"
+#include "tracing/record/account/loss_account.hpp"
+#include "tracing/record/lttng/answer_limit.hpp"
+#include "tracing/record/plan/trace_config.hpp"
+#include "tracing/record/session/snapshot.hpp"
+
+namespace {
+
+using test_support::run_command;
+using test_support::RunningCommand;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::Not;
+using trace_test::never;
+using trace_test::read_trace;
+using tracing::LossAccount;
+using tracing::TraceConfig;
+
+constexpr const char* kUnfinished =
+    "^unfinished: a thread did not complete its event, processor [0-9]+, since [0-9.]+ s of [0-9.]+ s \\(channel "
+    "ros2\\)$";
+
+struct UnfinishedStreams : trace_test::LttngTracer {
+  void SetUp() override { setenv("LTTNG_UST_REGISTER_TIMEOUT", "-1", 1); }
+  void TearDown() override { unsetenv("LTTNG_UST_REGISTER_TIMEOUT"); }
+
+  static void die_within_an_event() { EXPECT_EQ(run_command({INTERRUPTED_APP, "20", "die"}).signal, SIGKILL); }
+
+  static nlohmann::json verdict_in(const std::filesystem::path& directory) {
+    return nlohmann::json::parse(test_support::read_file(directory / "verdict.json"));
+  }
+};
+
+TEST_F(UnfinishedStreams, AreSaidWhereAProgramDiesWithinAnEvent) {
+  for (const bool overwrite : {false, true}) {
+    TraceConfig config = config_named(overwrite ? "overwrite" : "discard");
+    config.overwrite_ust = overwrite;
+    tracer->start(config);
+    die_within_an_event();
+    const LossAccount losses = tracer->finish(config, never);
+    EXPECT_FALSE(losses.complete());
+    EXPECT_TRUE(losses.has_losses());
+    EXPECT_THAT(losses.damage, ContainsRegex(kUnfinished));
+    EXPECT_EQ(verdict_in(config.trace_directory())["complete"], false);
+    EXPECT_EQ(trace_test::listed_sessions(), "");
+  }
+}
+
+TEST_F(UnfinishedStreams, OfAProcessWithBuffersOfItsOwnAreSaid) {
+  TraceConfig config = config_named("run");
+  config.buffers_ust = tracing::BufferOwner::kProcess;
+  tracer->start(config);
+  trace_test::TracedApp other(10, 10);
+  die_within_an_event();
+  other.end();
+  const LossAccount losses = tracer->finish(config, never);
+  // The streams of its other processors end with the process; they tell more only if there are some.
+  EXPECT_FALSE(losses.complete());
+}
+
+TEST_F(UnfinishedStreams, OfASnapshotAreSaid) {
+  TraceConfig config = config_named("run");
+  config.snapshot_mode = true;
+  tracer->start(config);
+  die_within_an_event();
+  const std::string directory = tracer->record_snapshot("run");
+  tracer->finish(config, never);
+  const nlohmann::json verdict = verdict_in(directory);
+  EXPECT_EQ(verdict["complete"], false);
+  EXPECT_THAT(verdict["damage"].get<std::string>(), ContainsRegex(kUnfinished));
+  EXPECT_EQ(verdict["unwritten"].size(), 1u) << verdict.dump(2);
+}
+
+TEST_F(UnfinishedStreams, OfAPausedSessionAreSaid) {
+  const TraceConfig config = config_named("run");
+  tracer->start(config);
+  die_within_an_event();
+  const auto losses = tracer->pause("run");
+  ASSERT_TRUE(losses);
+  EXPECT_THAT(losses->damage, ContainsRegex(kUnfinished));
+  EXPECT_FALSE(tracer->finish(config, never).complete());
+}
+
+// A thread that another one has pushed aside within an event goes on when it gets a processor again.
+TEST_F(UnfinishedStreams, AreWaitedForWhileTheThreadMayGoOn) {
+  const TraceConfig config = config_named("run");
+  tracer->start(config);
+  RunningCommand app({.argv = {INTERRUPTED_APP, "20", "wait"}, .environment = {}});
+  ASSERT_TRUE(app.wait_for_output("within\n"));
+  bool asked = false;
+  const LossAccount losses = tracer->finish(config, [&app, &asked] {
+    if (!std::exchange(asked, true)) {
+      app.write("\n");
+    }
+    return false;
+  });
+  EXPECT_EQ(losses.damage, "");
+  EXPECT_TRUE(losses.complete());
+  app.wait();
+  EXPECT_EQ(read_trace(config.trace_directory()).events["ros2:rclcpp_take"], 21);
+}
+
+// LTTng's rotation, and its end of a session that was rotated, wait for the packet that is never completed.
+TEST_F(UnfinishedStreams, OfARotatedSessionAreSaidAndTheSessionEnds) {
+  tracing::set_longest_silence(std::chrono::milliseconds(1000));
+  for (const bool dies_before : {true, false}) {
+    const TraceConfig config = config_named(dies_before ? "before" : "after");
+    tracer->start(config);
+    trace_test::TracedApp(10, 10).end();
+    if (dies_before) {
+      die_within_an_event();
+    }
+    run_command({"lttng", "rotate", "--no-wait", config.session_name});
+    if (!dies_before) {
+      die_within_an_event();
+    }
+    const LossAccount losses = tracer->finish(config, never);
+    EXPECT_FALSE(losses.complete());
+    EXPECT_THAT(losses.damage, HasSubstr("unfinished: a thread did not complete its event"));
+    EXPECT_EQ(losses.stuck, dies_before) << losses.damage;
+    EXPECT_EQ(verdict_in(config.trace_directory())["complete"], false);
+    EXPECT_EQ(trace_test::listed_sessions(), "");
+  }
+  tracing::set_longest_silence(tracing::kLongestSilence);
+}
+
+TEST_F(UnfinishedStreams, AreNotSaidOfIdleOnesThatWereRotated) {
+  for (int i = 0; i < 6; ++i) {
+    const TraceConfig config = config_named("run" + std::to_string(i));
+    tracer->start(config);
+    trace_test::TracedApp app(10, 10);
+    EXPECT_EQ(run_command({"lttng", "rotate", config.session_name}).exit_code, 0);
+    if (i % 2 == 0) {
+      app.fire_again();
+    }
+    const LossAccount losses = tracer->finish(config, never);
+    EXPECT_TRUE(losses.complete()) << losses.damage;
+    app.end();
+  }
+}
+
+TEST_F(UnfinishedStreams, AreNotSaidOfIdleOnes) {
+  for (int i = 0; i < 10; ++i) {
+    TraceConfig config = config_named("run" + std::to_string(i));
+    config.snapshot_mode = i % 2 == 1;
+    tracer->start(config);
+    trace_test::TracedApp app(10, 10);
+    if (i % 4 < 2) {
+      app.end();
+    }
+    if (config.snapshot_mode) {
+      const nlohmann::json verdict = verdict_in(tracer->record_snapshot(config.session_name));
+      EXPECT_EQ(verdict["complete"], true) << verdict.dump(2);
+    }
+    const LossAccount losses = tracer->finish(config, never);
+    if (!config.snapshot_mode) {
+      EXPECT_TRUE(losses.complete()) << losses.damage;
+    }
+    if (i % 4 >= 2) {
+      app.end();
+    }
+  }
+}
+
+}  // namespace
