@@ -16,7 +16,9 @@
 #include <fstream>
 #include <memory>
 #include <mutex>
+#include <thread>
 
+#include "base/processes/process_stat.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
 #include "tests/unit/session/listed_session.hpp"
@@ -217,6 +219,9 @@ TEST_F(RobustControl, AStoppedConsumerIsAnErrorAndIsContinuedAtTheEnd) {
   const std::string consumer = std::to_string(processes("lttng-consumerd").at(0));
   for (const pid_t process : processes("lttng-consumerd")) {
     kill(process, SIGSTOP);
+    while (launch::read_process_stat(process).state != 'T') {  // its threads stop one after the other
+      std::this_thread::yield();
+    }
   }
   const std::string stopped = "LTTng's consumer (process " + consumer + ") is stopped and does not answer\n" +
                               "continue it with `kill -CONT " + consumer + "`";

@@ -7,7 +7,9 @@
 #include <chrono>
 #include <cstdlib>
 
+#include "base/processes/process_stat.hpp"
 #include "tracing/record/lttng/answer_limit.hpp"
+#include "tracing/record/lttng/consumer_priority.hpp"
 #include "tracing/record/lttng/lttng_ctl.hpp"
 #include "tracing/record/lttng/session_daemon.hpp"
 #include "tracing/record/plan/trace_error.hpp"
@@ -47,15 +49,24 @@ std::string remedy_for(int code) {
   }
 }
 
+std::string remedy_for_silence() {
+  const pid_t daemon = session_daemon_pid();
+  for (const pid_t consumer : consumers_of(daemon)) {
+    if (launch::read_process_stat(consumer).state == 'T') {
+      return fmt::format("LTTng's consumer is stopped: continue it with `kill -CONT {}`", consumer);
+    }
+  }
+  return fmt::format("`kill -9 {}` ends LTTng's session daemon with all its sessions; the next trace starts a new one",
+                     daemon);
+}
+
 }  // namespace
 
 TraceError lttng_error(int code, const std::string& doing) {
   if (AnswerLimit::was_unanswered()) {
     return TraceError(fmt::format("cannot {}: LTTng does not answer, it was waited for {} s", doing,
                                   std::chrono::seconds(kLongestSilence).count()),
-                      fmt::format("`kill -9 {}` ends LTTng's session daemon with all its sessions; the next trace "
-                                  "starts a new one",
-                                  session_daemon_pid()));
+                      remedy_for_silence());
   }
   const int positive = std::abs(code);
   return TraceError(fmt::format("cannot {}: {}", doing, lttng_strerror(-positive)), remedy_for(positive));

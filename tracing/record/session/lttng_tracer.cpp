@@ -164,8 +164,14 @@ class LttngTracer : public Tracer {
 
 LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<bool()>& give_up) {
   const std::string name = config.lttng_session_name();
+  std::vector<std::string> notes;
+  std::vector<SessionStep> steps;
+  StepTimer timer(steps);
+  std::optional<SessionSummary> session;
   try {
     check_daemon_not_stopped();
+    notes = continue_stopped_consumers();
+    session = find_session(name);
   } catch (const TraceError& error) {
     // When the daemon goes on, the session can be ended, and gets another verdict.
     if (!config.records_snapshots() && !config.over_network()) {
@@ -173,10 +179,6 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
     }
     throw;
   }
-  const std::vector<std::string> notes = continue_stopped_consumers();
-  std::vector<SessionStep> steps;
-  StepTimer timer(steps);
-  const std::optional<SessionSummary> session = find_session(name);
   // One that was paused has written its last packets before.
   const std::uint64_t stopped = session && session->active ? static_cast<std::uint64_t>(launch::monotonic_time()) : 0;
   const std::optional<Absence> relay_daemon_gone = session ? look_for_relay_daemon(*session) : std::nullopt;
