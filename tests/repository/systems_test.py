@@ -5,6 +5,7 @@ The table of packages that `./dev` installs, the functions that read it, and wha
 
 import os
 import re
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -149,6 +150,31 @@ class On(unittest.TestCase):
         result = self.on('debian:12')
         self.assertEqual(result.returncode, 2)
         self.assertTrue(result.stderr.startswith('Usage: ./dev on SYSTEM COMMAND'), result.stderr)
+
+
+class Release(unittest.TestCase):
+
+    def test_goes_on_after_a_failure_and_says_what_has_failed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            Path(folder, 'packages').mkdir()
+            for name in ('dev', 'packages/systems.sh', 'packages/table.txt'):
+                shutil.copy(SOURCE / name, Path(folder, name))
+            on = Path(folder, 'packages/on')
+            on.write_text('#!/bin/sh\n'
+                          'echo "$*"\n'
+                          'case "$*" in\n'
+                          '  "debian:13 build") exit 1 ;;\n'
+                          '  "debian:testing test"*) echo "97% tests passed, 3 tests failed out of 100"; exit 8 ;;\n'
+                          'esac\n')
+            on.chmod(0o755)
+            result = subprocess.run([Path(folder, 'dev'), 'release'], capture_output=True, text=True)
+            log = Path(folder, 'build/systems/debian-testing.log').read_text()
+        self.assertEqual(result.returncode, 1)
+        cells = [re.split('  +', line) for line in result.stdout.splitlines()]
+        self.assertEqual([(system, tests, outcome) for system, tests, minutes, outcome in cells],
+                         [('debian:12', 'all tests', 'passed'), ('debian:13', 'all tests', 'build failed'),
+                          ('debian:testing', '-L unit', 'tests failed: 97% tests passed, 3 tests failed out of 100')])
+        self.assertTrue(log.startswith('debian:testing build\ndebian:testing test -L unit\n'), log)
 
 
 if __name__ == '__main__':
