@@ -36,6 +36,7 @@ TraceResults results_of(const std::filesystem::path& directory, std::uint64_t di
 TEST(TwoRecordings, OfOneSystemHaveItsProcessesAndEventsOnce) {
   const TemporaryDirectory directory;
   const TraceResults results = results_of(directory.path(), 0);
+  EXPECT_EQ(results.overview.events, testing::ping_pong_sequence().size());
   ASSERT_EQ(results.overview.processes.size(), 2u);
   EXPECT_EQ(results.overview.processes[0].vpid, 71);
   EXPECT_EQ(results.overview.processes[1].vpid, 72);

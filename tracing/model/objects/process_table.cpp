@@ -105,6 +105,7 @@ ProcessId ProcessTable::shared_with(ProcessId known, const Key& key, std::uint64
   const ProcessId shared = found->second;
   is_shared_.resize(std::max<std::size_t>(is_shared_.size(), shared + 1));
   is_shared_[shared] = true;
+  is_newly_shared_ = true;
   by_space_[key] = shared;
   if (contexts_[known].empty() && keys_[known] == key) {
     processes_[known].merged_into = shared;
@@ -179,6 +180,7 @@ void ProcessTable::learn_name(ProcessObject& process, const Event& event, bool o
 
 ProcessId ProcessTable::of(const Event& event) {
   const ClassFacts& facts = facts_of(*event.event_class);
+  is_newly_shared_ = false;
   Key key{.place = facts.space, .vpid = event.vpid};
   if (facts.pid_ns) {
     key.pid_ns = event.context(*facts.pid_ns).integer().value_or(0);

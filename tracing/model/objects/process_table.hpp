@@ -49,6 +49,9 @@ class ProcessTable {
 
   // Whether another session has recorded this event, too, and it came before. To be asked once for each event.
   bool is_copy(const Event& event, ProcessId process) {
+    if (is_newly_shared_) {
+      return true;  // the other session has this rcl_init, too
+    }
     return process < is_shared_.size() && is_shared_[process] &&
            copies_.is_copy(event, process, facts_of(*event.event_class).space);
   }
@@ -106,6 +109,7 @@ class ProcessTable {
   };
   std::map<Context, ProcessId> by_context_;
   std::vector<bool> is_shared_;  // by process: several sessions have it; may be shorter
+  bool is_newly_shared_ = false;  // by the last event
   RepeatedEvents copies_;
 
   Key last_key_;  // consecutive events often come from one process
