@@ -101,7 +101,7 @@ int print_summary(const Arguments& arguments) {
   reader.read(counter);
   const tracing::RecordedVerdict verdict = tracing::read_verdicts(arguments.paths);
   print_out(summary_line(counter.overview(), verdict) + "\n");
-  const std::string missing = reader.open_directories().empty() ? missing_events(verdict, counter.overview()) : "";
+  const std::string missing = missing_content(verdict, reader);
   if (missing.empty()) {
     return kSuccess;
   }
@@ -228,8 +228,8 @@ int print_report(const Arguments& arguments) {
     print_error(error.what(), error.remedy());
     exit_code = kFailure;
   }
-  if (report.error.empty() && report.open.empty()) {
-    report.error = missing_events(report.verdict, report.results.overview);
+  if (report.error.empty()) {
+    report.error = missing_content(report.verdict, reader);
     if (!report.error.empty()) {
       print_error(report.error);
       exit_code = kFailure;

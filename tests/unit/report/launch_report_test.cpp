@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs the program `launch-report` on traces.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -13,6 +14,7 @@
 #include "tests/support/trace_writer/ping_pong_sequence.hpp"
 #include "tests/support/trace_writer/temporary_directory.hpp"
 #include "tests/support/trace_writer/trace_writer.hpp"
+#include "tracing/decode/reader/trace_reader.hpp"
 
 namespace tracing {
 namespace {
@@ -132,26 +134,29 @@ TEST_F(LaunchReport, WhatTheVerdictMissesIsRepeated) {
   EXPECT_EQ(cost["processes"][0]["vpid"], 71);
 }
 
-// A stream file and its index are gone, or another session with the same processes was given.
-TEST_F(LaunchReport, EventsThatTheVerdictCountsAndTheTraceLacksAreDamage) {
-  TraceWriter writer(directory_.path() / "ust/uid/0/64-bit");
+// A stream file is gone together with its index.
+TEST_F(LaunchReport, WhatTheVerdictCountsAndTheTraceLacksIsDamage) {
+  const fs::path trace = directory_.path() / "ust/uid/0/64-bit";
+  TraceWriter writer(trace);
   write_ping_pong(writer);
   writer.finish();
-  const auto write_verdict = [this](std::uint64_t events) {
+  TraceReader reader(trace);
+  reader.next();
+  const std::uint64_t bytes = reader.content_bytes().value_or(0);
+  const auto write_verdict = [this](std::uint64_t recorded) {
     std::ofstream(directory_.path() / "verdict.json")
-        << R"json({"damage": "", "cut_short": false, "lost_by_process": {"method": "exact"}, "processes": [
-                   {"name": "ping", "pid": 71, "events": )json"
-        << events << R"json(, "lost": 3}]})json";
+        << R"json({"damage": "", "channels": [{"domain": "ust", "counted_by": "packets", "bytes": )json" << recorded
+        << "}]}";
   };
-  write_verdict(1003);
+  write_verdict(bytes + 1000);
   const Outcome outcome = launch_report(path_);
+  const std::string what = fmt::format("1000 bytes of the {} that the session recorded are missing", bytes + 1000);
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.out, HasSubstr("\nDamaged    971 events that the session recorded are missing: ping [71] 971 of "
-                                     "1000\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("\nDamaged    " + what + "\n"));
   EXPECT_THAT(outcome.out, HasSubstr("\nLosses     unknown, as a part of the trace is missing\n"));
-  EXPECT_THAT(outcome.err, HasSubstr("971 events that the session recorded are missing"));
+  EXPECT_THAT(outcome.err, HasSubstr(what));
   EXPECT_EQ(launch_report(path_ + " --summary").exit_code, 1);
-  write_verdict(32);
+  write_verdict(bytes);
   EXPECT_EQ(launch_report(path_).exit_code, 0);
 }
 
@@ -329,6 +334,7 @@ TEST_F(LaunchReport, SaysWhichFileCannotBeWritten) {
             "launch report: error: cannot write /dev/full: No space left on device\n");
 }
 
+// Both sessions have recorded the same system.
 TEST_F(LaunchReport, ReadsSeveralDirectoriesAsOneTrace) {
   for (const std::uint8_t identity : {1, 2}) {
     TraceWriter writer(directory_.path() / std::to_string(identity), {.identity = identity});
@@ -336,7 +342,7 @@ TEST_F(LaunchReport, ReadsSeveralDirectoriesAsOneTrace) {
     writer.finish();
   }
   const Outcome outcome = launch_report("--summary " + path_ + "/1 " + path_ + "/2 " + path_ + "/1/");
-  EXPECT_EQ(outcome.out, "114 events, 4 processes, none lost\n");
+  EXPECT_EQ(outcome.out, "57 events, 2 processes, none lost\n");
   EXPECT_EQ(launch_report("--summary " + path_).out, outcome.out);
 }
 

@@ -267,6 +267,9 @@ void DirectReader::open_trace(Trace& trace) {
   }
   for (auto& [key, stream] : found) {
     put_in_order(stream.packets);
+    for (const ctf::Packet& packet : stream.packets) {
+      content_bytes_ += packet.content_bits / 8;
+    }
     Stream description{stream.name, trace.number, trace.declarations.environment_number("vpid")};
     streams_.push_back(std::make_unique<OpenStream>(trace, *trace.stream_classes.at(std::get<0>(key)),
                                                     std::move(description), std::move(stream.packets)));

@@ -2,6 +2,7 @@
 // Reads traces with our own decoder (tracing/decode/ctf). Private to the reader.
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <memory>
@@ -28,6 +29,7 @@ class DirectReader {
   TraceItem next();
   void throw_damage() const;
   const std::vector<std::string>& damage() const { return damage_; }
+  std::uint64_t content_bytes() const { return content_bytes_; }
   bool lacks_descriptions() const { return lacks_descriptions_; }
   const std::deque<TraceDescription>& traces() const { return descriptions_; }
 
@@ -49,6 +51,7 @@ class DirectReader {
   std::vector<OpenStream*> later_;  // a heap of the others with something left; the first one has the next item
   std::vector<std::string> damage_;
   bool lacks_descriptions_ = false;
+  std::uint64_t content_bytes_ = 0;
 };
 
 }  // namespace tracing

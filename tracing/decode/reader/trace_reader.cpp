@@ -112,6 +112,10 @@ bool TraceReader::lacks_descriptions() const {
   return implementation_->direct && implementation_->direct->lacks_descriptions();
 }
 
+std::optional<std::uint64_t> TraceReader::content_bytes() const {
+  return implementation_->direct ? std::optional(implementation_->direct->content_bytes()) : std::nullopt;
+}
+
 const std::deque<TraceDescription>& TraceReader::traces() const {
   return implementation_->direct ? implementation_->direct->traces() : implementation_->babeltrace->traces();
 }

@@ -5,9 +5,11 @@
 // merged into one sequence. A decoder of our own reads what LTTng writes; libbabeltrace2 reads everything else.
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,6 +51,9 @@ class TraceReader {
   // A packet of such a trace, and with it what follows in its file, was left out because the metadata do not describe
   // its events yet. LTTng writes the descriptions when a traced program ends or the session is stopped.
   bool lacks_descriptions() const;
+  // The content of all packets, without their padding, as the tracer has counted it. Known when an item was asked for,
+  // and not with libbabeltrace2.
+  std::optional<std::uint64_t> content_bytes() const;
   // With libbabeltrace2 only the traces that have given an item so far. The addresses stay.
   const std::deque<TraceDescription>& traces() const;
 

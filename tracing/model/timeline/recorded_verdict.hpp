@@ -24,19 +24,14 @@ struct RecordedVerdict {
 
     static const Field<ProcessCost> kFields[];
   };
-  // The events of a process that the trace had when the recording ended.
-  struct RecordedEvents {
-    std::string name;
-    std::int64_t vpid = 0;
-    std::uint64_t events = 0;
-  };
   std::vector<std::string> absences = {};     // sentences: programs and events that were not there, damage
   std::vector<std::string> overwritten = {};  // "12 events overwritten, as asked"; what else the first packets lack
   std::uint64_t discarded_events = 0;         // those that no packet counts are among them
   std::uint64_t lost_packets = 0;
-  std::optional<double> ns_per_event = {};    // measured on the machine of the recording; the largest of several
-  std::vector<ProcessCost> processes = {};    // from the one with the greatest cost
-  std::vector<RecordedEvents> recorded = {};  // of processes whose events are known exactly
+  std::optional<double> ns_per_event = {};  // measured on the machine of the recording; the largest of several
+  std::vector<ProcessCost> processes = {};  // from the one with the greatest cost
+  std::optional<std::uint64_t> content_bytes =
+      {};  // of the packets that the recording had at its end, if that is known
 };
 inline constexpr Field<RecordedVerdict::ProcessCost> RecordedVerdict::ProcessCost::kFields[] = {
     {"name", &ProcessCost::name, ""},

@@ -53,8 +53,8 @@ compare::RunSummary read_run(const std::vector<fs::path>& directories) {
   if (!results.overview.losses.empty() || verdict.discarded_events > 0 || verdict.lost_packets > 0) {
     run.remark = loss_phrase(results.overview, verdict);
   }
-  if (error.empty() && reader.open_directories().empty()) {
-    error = missing_events(verdict, results.overview);
+  if (error.empty()) {
+    error = missing_content(verdict, reader);
   }
   if (!error.empty()) {
     run.remark += (run.remark.empty() ? "" : ", ") + error;

@@ -94,8 +94,8 @@ TracedSystem read(const std::vector<fs::path>& directories, const OutputFiles& f
     model->finish();
   }
   system.results = analysis.finish();
-  if (system.error.empty() && system.open.empty()) {
-    system.error = missing_events(system.verdict, system.results.overview);
+  if (system.error.empty()) {
+    system.error = missing_content(system.verdict, reader);
   }
   system.timeline = recorder.finish(analysis, system.results.overview);
   return system;

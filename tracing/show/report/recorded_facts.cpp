@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <fstream>
-#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -63,24 +63,19 @@ void add_processes(const nlohmann::json& verdict, RecordedVerdict& result) {
   }
 }
 
-// Nothing when the trace may have lost or left out events that the verdict does not count.
-void add_recorded(const nlohmann::json& verdict, RecordedVerdict& result) {
-  const bool is_whole = !verdict.contains("reasons") && text(verdict, "damage").empty() &&
-                        verdict.value("cut_short", nlohmann::json(false)) == false && result.overwritten.empty() &&
-                        result.lost_packets == 0;
-  const nlohmann::json by_process = verdict.value("lost_by_process", nlohmann::json::object());
-  if (!is_whole || !by_process.is_object() || text(by_process, "method") != "exact" || !verdict.contains("processes") ||
-      !verdict["processes"].is_array()) {
-    return;
+// Nothing when the verdict does not know all packets.
+std::optional<std::uint64_t> content_bytes(const nlohmann::json& verdict) {
+  if (verdict.contains("reasons") || !text(verdict, "damage").empty() || !verdict.contains("channels") ||
+      !verdict["channels"].is_array()) {
+    return std::nullopt;
   }
-  for (const nlohmann::json& process : verdict["processes"]) {
-    if (!process.is_object() || !process.contains("lost") || !process["lost"].is_number() ||
-        number(process, "events") < number(process, "lost")) {
-      continue;
+  std::uint64_t bytes = 0;
+  for (const nlohmann::json& channel : verdict["channels"]) {
+    if (channel.is_object() && text(channel, "counted_by") == "packets") {
+      bytes += static_cast<std::uint64_t>(number(channel, "bytes"));
     }
-    result.recorded.push_back({text(process, "name"), static_cast<std::int64_t>(number(process, "pid")),
-                               static_cast<std::uint64_t>(number(process, "events") - number(process, "lost"))});
   }
+  return bytes;
 }
 
 // What the files of limited size have overwritten, or somebody has removed.
@@ -180,9 +175,8 @@ RecordedVerdict read_verdicts(const std::vector<fs::path>& directories) {
       }
     }
     add_processes(verdict, result);
-    // Two sessions may have recorded one process.
     if (files.size() == 1) {
-      add_recorded(verdict, result);
+      result.content_bytes = content_bytes(verdict);
     }
   }
   std::stable_sort(result.processes.begin(), result.processes.end(),
@@ -190,40 +184,13 @@ RecordedVerdict read_verdicts(const std::vector<fs::path>& directories) {
   return result;
 }
 
-std::string missing_events(const RecordedVerdict& verdict, const TraceOverview& overview) {
-  std::map<std::int64_t, std::uint64_t> there;  // several processes may have one id
-  for (const ProcessResult& process : overview.processes) {
-    if (!process.vpid) {
-      return {};  // it is unknown whose events these are
-    }
-    there[*process.vpid] += process.events;
-  }
-  std::map<std::int64_t, std::uint64_t> recorded;
-  std::map<std::int64_t, std::string> names;
-  for (const RecordedVerdict::RecordedEvents& process : verdict.recorded) {
-    recorded[process.vpid] += process.events;
-    names[process.vpid] = process.name;
-  }
-  constexpr std::size_t kMostNamed = 3;
-  std::uint64_t events = 0;
-  std::size_t processes = 0;
-  std::string named;
-  for (const auto& [vpid, count] : recorded) {
-    if (there[vpid] >= count) {
-      continue;
-    }
-    const std::uint64_t missing = count - there[vpid];
-    events += missing;
-    if (++processes <= kMostNamed) {
-      named += fmt::format("{}{} [{}] {} of {}", named.empty() ? "" : ", ", names[vpid], vpid, missing, count);
-    }
-  }
-  if (processes == 0) {
+std::string missing_content(const RecordedVerdict& verdict, const TraceReader& reader) {
+  const std::optional<std::uint64_t> there = reader.content_bytes();
+  if (!verdict.content_bytes || !there || *there >= *verdict.content_bytes || !reader.open_directories().empty()) {
     return {};
   }
-  return fmt::format("{} that the session recorded {} missing: {}{}", format_count(events, "event"),
-                     events == 1 ? "is" : "are", named,
-                     processes > kMostNamed ? fmt::format(" and {} more", processes - kMostNamed) : "");
+  return fmt::format("{} of the {} that the session recorded are missing",
+                     format_count(*verdict.content_bytes - *there, "byte"), *verdict.content_bytes);
 }
 
 }  // namespace tracing

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tracing/decode/reader/event.hpp"
-#include "tracing/model/analysis/results/overview.hpp"
+#include "tracing/decode/reader/trace_reader.hpp"
 #include "tracing/model/timeline/recorded_verdict.hpp"
 
 namespace tracing {
@@ -21,7 +21,8 @@ std::vector<std::string> several_sessions(const std::deque<TraceDescription>& tr
 // nothing.
 RecordedVerdict read_verdicts(const std::vector<std::filesystem::path>& directories);
 
-// A sentence if the trace has fewer events of some processes than the verdict says; else empty.
-std::string missing_events(const RecordedVerdict& verdict, const TraceOverview& overview);
+// A sentence if the packets of a trace that was read hold less than the verdict says; else empty. Thus files are missed
+// that are gone together with their index.
+std::string missing_content(const RecordedVerdict& verdict, const TraceReader& reader);
 
 }  // namespace tracing
