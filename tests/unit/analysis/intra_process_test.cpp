@@ -89,6 +89,20 @@ TEST(IntraProcess, TheSecondCopyOfAMessageIsNotDropped) {
   EXPECT_EQ(results.subscriptions[0].dropped(), 0u);
 }
 
+// Such as what a node publishes about its parameters when it starts.
+TEST(IntraProcess, ABurstHasNoRate) {
+  Feed feed = intra_process_feed();
+  for (int i = 0; i < 3; ++i) {
+    feed.at(1'000'000'000 + i * 1'000'000)(ros2::RmwPublish{1, 9, 70 + i});
+    feed(ros2::CallbackStart{0xcb, false})(ros2::CallbackEnd{0xcb});
+  }
+  feed.at(2'000'000'000)(ros2::RclcppExecutorWaitForWork{-1});
+  const Ros2Results results = feed.results();
+  EXPECT_EQ(testing::topic(results, "/topic").rate_hz, 0);
+  EXPECT_EQ(results.callbacks.at(0).rate_hz, 0);
+  EXPECT_EQ(testing::topic(results, "/topic").interval.p50_ns, 1'000'000);
+}
+
 TEST(IntraProcess, AMessageThatGoesBothWaysCountsOnceForTheRate) {
   Feed feed = intra_process_feed();
   for (int i = 0; i < 3; ++i) {

@@ -27,7 +27,7 @@ Ros2Results Ros2Analysis::finish(std::vector<std::optional<ProcessIndex>> places
   deliveries_.finish();
   chains_.finish();
 
-  const Subjects subjects(model_, std::move(places), processes);
+  const Subjects subjects(model_, std::move(places), processes, join_.last_ns());
   Ros2Results results;
   results.callbacks = callback_results(subjects, join_.callbacks(), timing_);
   results.topics = topic_results(subjects, join_.messages().through_middleware(), deliveries_);

@@ -8,7 +8,7 @@ namespace tracing {
 namespace {
 
 // More than fit between the publication of a message and its take, unless an executor polls. That bounds the memory.
-constexpr std::size_t kWaits = 4'096;
+constexpr std::size_t kWaits = 1'024;
 
 std::int64_t overlap_ns(std::int64_t begin_ns, std::int64_t end_ns, std::int64_t other_begin_ns,
                         std::int64_t other_end_ns) {

@@ -43,6 +43,7 @@ class EventJoin {
   // At the end of the trace. Tells what has no end.
   void finish();
 
+  std::int64_t last_ns() const { return last_ns_; }  // of the events that it got
   const CallbackTracker& callbacks() const { return callbacks_; }
   const MessageJoin& messages() const { return messages_; }
   const ServiceMatcher& calls() const { return calls_; }

@@ -45,7 +45,7 @@ CallbackResult callback_result(const Subjects& subjects, ObjectId id, const Call
     return result;
   }
   const CallbackTimingRecord& timing = timings.records()[id];
-  result.rate_hz = rate(timing.begins, timing.first_begin_ns, timing.last_begin_ns);
+  result.rate_hz = subjects.rate(timing.begins, timing.first_begin_ns, timing.last_begin_ns);
   result.interval = timing.intervals.summary();
   result.jitter = timing.jitter.summary();
   result.missed = timing.missed;

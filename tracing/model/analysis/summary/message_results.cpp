@@ -31,7 +31,7 @@ TopicResult topic_result(const Subjects& subjects, ObjectId id, const MessageMat
     intervals.add(record.intervals);
     result.intra_process_published += record.intra_process;
   }
-  result.rate_hz = rate(count, first_ns, last_ns);
+  result.rate_hz = subjects.rate(count, first_ns, last_ns);
   result.interval = intervals.summary();
   for (ObjectId subscription = 0; subscription < deliveries.subscriptions().size(); ++subscription) {
     if (model.subscriptions()[subscription].topic != id) {

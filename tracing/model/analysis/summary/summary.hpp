@@ -25,10 +25,10 @@ namespace tracing {
 class Subjects {
  public:
   // `places`: where each process is in `processes`. Empty lists leave it where it is. `model` and `processes` must
-  // outlive this object.
+  // outlive this object. `end_ns`: when the trace ends; 0: unknown.
   Subjects(const ObjectModel& model, std::vector<std::optional<ProcessIndex>> places,
-           const std::vector<ProcessResult>& processes)
-      : model_(model), places_(std::move(places)), processes_(processes) {}
+           const std::vector<ProcessResult>& processes, std::int64_t end_ns = 0)
+      : model_(model), places_(std::move(places)), processes_(processes), end_ns_(end_ns) {}
 
   const ObjectModel& model() const { return model_; }
   ProcessIndex place_of(ProcessId process) const {
@@ -39,19 +39,22 @@ class Subjects {
   bool is_doubtful_node(ObjectId node) const {
     return node != kNoObject && is_doubtful(place_of(model_.nodes()[node].process));
   }
+  // In a second, from the first to the last one. 0 for a burst: the time between them is less than a tenth of that from
+  // the first one to the end of the trace.
+  double rate(std::uint64_t count, std::int64_t first_ns, std::int64_t last_ns) const {
+    constexpr std::int64_t kBurst = 10;
+    if (count < 2 || last_ns <= first_ns || (last_ns - first_ns) * kBurst < end_ns_ - first_ns) {
+      return 0;
+    }
+    return static_cast<double>(count - 1) * 1e9 / static_cast<double>(last_ns - first_ns);
+  }
 
  private:
   const ObjectModel& model_;
   std::vector<std::optional<ProcessIndex>> places_;
   const std::vector<ProcessResult>& processes_;
+  std::int64_t end_ns_;
 };
-
-// In a second, from the first to the last one.
-constexpr double rate(std::uint64_t count, std::int64_t first_ns, std::int64_t last_ns) {
-  return count < 2 || last_ns <= first_ns
-             ? 0
-             : static_cast<double>(count - 1) * 1e9 / static_cast<double>(last_ns - first_ns);
-}
 
 std::vector<CallbackResult> callback_results(const Subjects& subjects, const CallbackTracker& callbacks,
                                              const CallbackTiming& timing);

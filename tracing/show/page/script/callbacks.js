@@ -10,10 +10,10 @@ function callbacksView(data) {
     {title: 'Node', value: row => nodeName(data, row.callback.node) || processName(data, row.callback.process)},
     {title: 'Callback', value: row => row.callback.label, wide: true},
     {title: 'Count', value: row => row.count, show: row => formatCount(row.count)},
-    {title: 'Rate', value: row => row.gaps.count ? 1e9 / row.gaps.mean : NaN, show: row => row.gaps.count ? `${threeDigits(1e9 / row.gaps.mean)} Hz` : '–'},
+    {title: 'Rate', value: row => row.rate, show: row => formatRate(row.rate)},
     duration('Mean', row => row.durations.mean), duration('p50', row => row.durations.p50), duration('p99', row => row.durations.p99),
     duration('Max', row => row.durations.max), duration('Total', row => row.durations.sum),
-    duration('Interval p50', row => row.gaps.p50), duration('Interval max', row => row.gaps.max), duration('Jitter', row => row.gaps.count ? row.gaps.stddev : NaN),
+    duration('Interval p50', row => row.gaps.p50), duration('Interval max', row => row.gaps.max), duration('Jitter', row => row.jitter),
     ...memoryColumns(data),
   ], {name: 'callback', sort: 8, descending: true, isActive: row => row.id === selection.callback,
     choose: row => select({callback: row.id === selection.callback ? null : row.id})});
@@ -25,7 +25,7 @@ function callbacksView(data) {
 
   showPlots();
   const view = panel('Callbacks', table, element('p', {class: 'note'},
-    'Interval: from one start to the next. Jitter: the standard deviation of the interval.'));
+    'Interval: from one start to the next. Jitter, of a timer: how far the intervals are from its period, at p99.'));
   view.refresh = change => {
     if ('callback' in change) {
       table.update();

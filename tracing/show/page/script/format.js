@@ -23,10 +23,14 @@ function formatTime(ns, step = 1000) {
   return `${(ns / 1e9).toFixed(digits)} s`;
 }
 
-// Of `count` things between the first one and the last one, as in the report on the terminal.
-function formatRate(count, first, last) {
-  if (count < 2 || last <= first) return '–';
-  return `${threeDigits((count - 1) * 1e9 / (last - first))} Hz`;
+// Of `count` things between the first one and the last one, in a second, as in the report on the terminal. A burst has
+// none: the time between these is less than a tenth of that from the first one to the end of the trace.
+function rateOf(count, first, last, end) {
+  return count < 2 || last <= first || (last - first) * 10 < end - first ? NaN : (count - 1) * 1e9 / (last - first);
+}
+
+function formatRate(rate) {
+  return Number.isNaN(rate) ? '–' : `${threeDigits(rate)} Hz`;
 }
 
 function formatCount(count) {

@@ -127,7 +127,7 @@ function drawLine(data, line, boxes, dim) {
     path += line.isDown ? ` C${a.x} ${y} ${b.x} ${y} ${b.x} ${b.y}` : ` C${x} ${a.y} ${x} ${b.y} ${b.x} ${b.y}`;
   }
   const latency = summary(Float64Array.from(line.latencies));
-  const text = `${line.publishes ? 'published' : 'taken'} ${formatCount(line.count)}, ${formatRate(line.count, line.first, line.last)}` +
+  const text = `${line.publishes ? 'published' : 'taken'} ${formatCount(line.count)}, ${formatRate(rateOf(line.count, line.first, line.last, data.duration))}` +
     (latency.count ? `; latency p50 ${formatDuration(latency.p50)}, p99 ${formatDuration(latency.p99)}` : '');
   return svgElement('path', {d: path, class: dim ? 'dim' : null, 'marker-end': 'url(#tip)', 'stroke-dasharray': line.count === 0 ? '3 4' : null}, svgElement('title', {}, text));
 }

@@ -13,8 +13,10 @@ function callbackStatistics(data, id) {
     const times = Float64Array.from(ended, i => start[i]);
     const values = Float64Array.from(ended, i => end[i] - start[i]);
     const between = intervals(starts);
+    const {period} = data.callbacks[id];
+    const jitter = period > 0 ? summary(between.map(gap => Math.abs(gap - period))).p99 : NaN;
     computed.callbacks.set(id, {id, count: list.length, unfinished: list.length - ended.length, starts, times, values,
-      durations: summary(values), between, gaps: summary(between)});
+      durations: summary(values), between, gaps: summary(between), jitter, rate: rateOf(starts.length, starts[0], starts[starts.length - 1], data.duration)});
   }
   return computed.callbacks.get(id);
 }
@@ -44,7 +46,7 @@ function topicStatistics(data) {
   }
   for (const topic of topics) {
     topic.latency = summary(Float64Array.from(topic.values));
-    topic.rate = formatRate(topic.published, topic.publishedAt[0], topic.publishedAt[topic.published - 1]);
+    topic.rate = formatRate(rateOf(topic.published, topic.publishedAt[0], topic.publishedAt[topic.published - 1], data.duration));
     topic.between = intervals(topic.publishedAt);
     computed.topics.set(topic.id, topic);
   }
