@@ -69,6 +69,70 @@ TEST(Finding, NamesTheMachineIfThereAreSeveral) {
   EXPECT_EQ(findings[2].subject, "right: /ping, timer 100 ms");
 }
 
+// Its timer is called as it should be, its chain takes less than a millisecond, its executor waits.
+TEST(Finding, ThereIsNoneInAHealthySystem) {
+  TraceResults results;
+  results.overview.processes = {{71, "ping", 1, false, ""}};
+  results.overview.begin_ns = 0;
+  results.overview.end_ns = 10'000'000'000;
+  CallbackResult timer = late_timer_of("/ping");
+  timer.jitter.max_ns = 200'000;
+  timer.interval.count = 20;
+  timer.interval.p50_ns = timer.period_ns + 20'000;
+  timer.durations.count = 20;
+  timer.durations.mean_ns = 100'000;
+  results.ros2.callbacks = {timer};
+  ChainResult chain;
+  chain.steps.resize(2);
+  chain.response.count = 20;
+  chain.response.p99_ns = 462'000;
+  results.ros2.chains = {chain};
+  ExecutorResult executor;
+  executor.callbacks = 20;
+  executor.utilisation = 0.00018;
+  results.ros2.executors = {executor};
+  EXPECT_TRUE(find_worth_a_look(results).empty());
+}
+
+TEST(Finding, NamesATimerThatDrifts) {
+  TraceResults results;
+  CallbackResult timer = late_timer_of("/slow");
+  timer.jitter.max_ns = 4'000'000;
+  timer.interval.count = 20;
+  timer.interval.p50_ns = 103'000'000;
+  results.ros2.callbacks = {timer};
+  const std::vector<Finding> findings = find_worth_a_look(results);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].kind, Finding::Kind::kDriftingTimer);
+  EXPECT_EQ(findings[0].figures, "usually called after 103 ms, 3 % off its period");
+}
+
+TEST(Finding, NamesACallbackThatDominatesOnceAndNotItsExecutor) {
+  TraceResults results;
+  results.overview.processes = {{71, "fusion", 1, false, ""}};
+  results.overview.begin_ns = 0;
+  results.overview.end_ns = 10'000'000'000;
+  CallbackResult timer = late_timer_of("/fusion");
+  timer.id = 3;
+  timer.jitter.max_ns = 6'000'000;
+  timer.durations.count = 100;
+  timer.durations.mean_ns = 60'000'000;
+  timer.durations.p50_ns = 60'000'000;
+  timer.durations.max_ns = 65'000'000;
+  results.ros2.callbacks = {timer};
+  ExecutorResult executor;
+  executor.callbacks = 100;
+  executor.utilisation = 0.61;
+  executor.longest_busy_ns = 66'000'000;
+  executor.longest_callback = "/fusion, timer 100 ms";
+  results.ros2.executors = {executor};
+  const std::vector<Finding> findings = find_worth_a_look(results);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].kind, Finding::Kind::kDominatingCallback);
+  EXPECT_EQ(findings[0].subject, "/fusion, timer 100 ms");
+  EXPECT_EQ(findings[0].figures, "its 100 runs take 60 % of the time, usually 60.0 ms each, at most 65.0 ms");
+}
+
 TEST(Finding, ThereIsNoneInAnEmptyTrace) {
   EXPECT_TRUE(find_worth_a_look({}).empty());
 }

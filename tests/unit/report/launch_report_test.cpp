@@ -87,8 +87,7 @@ Events     57 of 2 processes
 Losses     no events lost
 
 Worth a look
-  Slowest chain     /ping -> /pong -> /ping: 3 steps take 342 us, at p99 342 us, at most 342 us
-  Busiest executor  /ping [71]: 0.025 % busy, once for 75.0 us in /ping, timer 500 ms
+  nothing stands out
 
 Chains                                   count     p50     p99     max  reaction p99  age max
   /ping -> /pong -> /ping  timer 500 ms      1  342 us  342 us  342 us             -   342 us

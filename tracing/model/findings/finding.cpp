@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 #include <utility>
 
@@ -23,6 +24,11 @@ constexpr std::int64_t kLongWait = 1'000'000;
 constexpr std::int64_t kSlowStart = 1'000'000'000;
 constexpr double kNotableJitter = 0.05;  // of a period
 constexpr std::uint64_t kFrequent = 5;   // inputs of a chain
+constexpr std::int64_t kSlowChain = 10'000'000;
+constexpr double kBusy = 0.5;           // of the time
+constexpr double kDominating = 0.3;     // of the time of a thread
+constexpr double kNotableDrift = 0.01;  // of a period
+constexpr std::int64_t kLeastDrift = 50'000;
 
 std::string duration(std::int64_t nanoseconds) {
   return format_duration(static_cast<double>(nanoseconds));
@@ -57,7 +63,7 @@ std::optional<Finding> slowest_chain(const TraceResults& results) {
     return std::pair(a.response.count >= kFrequent, a.response.p99_ns) <
            std::pair(b.response.count >= kFrequent, b.response.p99_ns);
   });
-  if (slowest == chains.end()) {
+  if (slowest == chains.end() || slowest->response.p99_ns < kSlowChain) {
     return std::nullopt;
   }
   const ChainResult& chain = *slowest;
@@ -128,7 +134,8 @@ std::optional<Finding> busiest_executor(const TraceResults& results) {
   const Hosts hosts(results.overview);
   std::optional<Finding> best;
   for (const ExecutorResult& executor : results.ros2.executors) {
-    if (executor.callbacks < 2 || executor.process >= results.overview.processes.size()) {
+    if (executor.callbacks < 2 || executor.utilisation < kBusy ||
+        executor.process >= results.overview.processes.size()) {
       continue;
     }
     std::string figures = fmt::format("{:.3g} % busy", executor.utilisation * 100);
@@ -306,19 +313,82 @@ std::optional<Finding> unfinished(const TraceResults& results) {
   return best;
 }
 
+std::optional<Finding> drifting_timer(const TraceResults& results) {
+  const Hosts hosts(results.overview);
+  std::optional<Finding> best;
+  for (const CallbackResult& callback : results.ros2.callbacks) {
+    constexpr std::uint64_t kEnough = 10;
+    if (callback.owner != CallbackResult::Owner::kTimer || callback.period_ns <= 0 || callback.missed > 0 ||
+        callback.overruns > 0 || callback.interval.count < kEnough) {
+      continue;
+    }
+    const std::int64_t drift = std::abs(callback.interval.p50_ns - callback.period_ns);
+    const double ratio = static_cast<double>(drift) / static_cast<double>(callback.period_ns);
+    if (drift < kLeastDrift || ratio < kNotableDrift) {
+      continue;
+    }
+    offer(best, {Finding::Kind::kDriftingTimer, 35 + 50 * std::min(1.0, ratio), label(hosts, callback),
+                 fmt::format("usually called after {}, {:.2g} % off its period{}", duration(callback.interval.p50_ns),
+                             100 * ratio, mark(callback.doubtful)),
+                 callback.id});
+  }
+  return best;
+}
+
+std::optional<Finding> dominating_callback(const TraceResults& results) {
+  const Hosts hosts(results.overview);
+  const TraceOverview& overview = results.overview;
+  if (!overview.begin_ns || !overview.end_ns || *overview.end_ns <= *overview.begin_ns) {
+    return std::nullopt;
+  }
+  const auto span = static_cast<double>(*overview.end_ns - *overview.begin_ns);
+  std::optional<Finding> best;
+  for (const CallbackResult& callback : results.ros2.callbacks) {
+    const double share = callback.durations.mean_ns * static_cast<double>(callback.durations.count) / span;
+    if (share < kDominating || callback.durations.count < 2) {
+      continue;
+    }
+    offer(best,
+          {Finding::Kind::kDominatingCallback, 30 + 60 * std::min(1.0, share), label(hosts, callback),
+           fmt::format("its {} take {:.2g} % of the time, usually {} each, at most {}{}",
+                       format_count(callback.durations.count, "run"), 100 * share, duration(callback.durations.p50_ns),
+                       duration(callback.durations.max_ns), mark(callback.doubtful)),
+           callback.id});
+  }
+  return best;
+}
+
+// What has the same cause as a finding before it.
+bool is_told(const Finding& finding, const std::vector<Finding>& told) {
+  return std::any_of(told.begin(), told.end(), [&finding](const Finding& before) {
+    if (finding.callback) {
+      return finding.callback == before.callback;
+    }
+    return finding.kind == Finding::Kind::kBusiestExecutor && before.kind == Finding::Kind::kDominatingCallback &&
+           finding.figures.find(" in " + before.subject) != std::string::npos;
+  });
+}
+
 }  // namespace
 
 std::vector<Finding> find_worth_a_look(const TraceResults& results) {
   std::vector<Finding> findings;
-  for (const auto find : {slowest_chain, over_budget, overrun, worst_jitter, busiest_executor, dropped_messages,
-                          longest_wait, long_tail, unanswered, unfinished, starved, slowest_start, memory_in_active}) {
+  for (const auto find :
+       {slowest_chain, over_budget, overrun, worst_jitter, busiest_executor, dropped_messages, longest_wait, long_tail,
+        unanswered, unfinished, starved, slowest_start, memory_in_active, drifting_timer, dominating_callback}) {
     if (std::optional<Finding> finding = find(results)) {
       findings.push_back(std::move(*finding));
     }
   }
   std::stable_sort(findings.begin(), findings.end(),
                    [](const Finding& a, const Finding& b) { return a.weight > b.weight; });
-  return findings;
+  std::vector<Finding> told;
+  for (Finding& finding : findings) {
+    if (!is_told(finding, told)) {
+      told.push_back(std::move(finding));
+    }
+  }
+  return told;
 }
 
 }  // namespace tracing

@@ -27,7 +27,9 @@ struct Finding {
     kUnfinished,       // callbacks that were left by an exception
     kStarvedCallback,  // it waited for a processor
     kSlowestStart,
-    kMemoryInActive,  // a lifecycle node asks for memory in its active state
+    kMemoryInActive,      // a lifecycle node asks for memory in its active state
+    kDriftingTimer,       // it is usually called too late or too early, without having missed a period
+    kDominatingCallback,  // it takes a large part of the time of its thread
   };
   Kind kind = Kind::kSlowestChain;
   double weight = 0;
@@ -62,6 +64,8 @@ inline constexpr FindingWords kFindingWords[] = {
     {"starved_callback", "No processor"},
     {"slowest_start", "Slowest start"},
     {"memory_in_active", "Memory in active"},
+    {"drifting_timer", "Drifting timer"},
+    {"dominating_callback", "Dominating"},
 };
 inline constexpr auto kFindingNames = [] {
   std::array<const char*, std::size(kFindingWords)> names{};
@@ -85,7 +89,8 @@ inline constexpr Field<Finding> Finding::kFields[] = {
     {"figures", &Finding::figures, "likewise"},
 };
 
-// At most one finding of each kind, from the one most worth a look.
+// At most one finding of each kind and of each callback, from the one most worth a look. A callback that dominates its
+// executor is not named with the executor once more. Nothing is found in a system that is as it should be.
 std::vector<Finding> find_worth_a_look(const TraceResults& results);
 
 }  // namespace tracing

@@ -89,7 +89,9 @@ std::string absence_section(const std::vector<std::string>& absences, bool color
 std::string finding_section(const Report& report, const ReportOptions& options) {
   std::vector<Finding> findings = find_worth_a_look(report.results);
   if (findings.empty()) {
-    return "";
+    return report.results.ros2.callbacks.empty()
+               ? ""
+               : "\n" + styled("Worth a look", Style::kBold, options.color) + "\n  nothing stands out\n";
   }
   if (findings.size() > kFindings) {
     findings.resize(kFindings);
