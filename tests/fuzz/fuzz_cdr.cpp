@@ -3,7 +3,6 @@
 //
 // Both must agree on what is a message and on its bytes, and neither may take more memory than a multiple of the bytes
 // there. The first byte of the input chooses the type.
-#include <fastcdr/Cdr.h>
 #include <sanitizer/allocator_interface.h>
 
 #include <array>
@@ -13,6 +12,7 @@
 #include <cstring>
 #include <vector>
 
+#include "fastcdr_versions/cdr.hpp"
 #include "rcl_interfaces/srv/set_parameters.h"
 #include "rcl_interfaces/srv/set_parameters.hpp"
 #include "rmw_dds_common/msg/participant_entities_info.h"
@@ -83,7 +83,7 @@ Result read_and_write(const Callbacks& type, std::vector<char> input) {
   Result result;
   void* message = type.create_message();
   FastBuffer buffer(input.data(), input.size());
-  Cdr cdr(buffer, Cdr::LITTLE_ENDIANNESS);
+  Cdr cdr = fastcdr_versions::plain_cdr(buffer, Cdr::LITTLE_ENDIANNESS);
   const std::size_t before = __sanitizer_get_current_allocated_bytes();
   result.is_message = type.cdr_deserialize(cdr, message);
   const std::size_t after = __sanitizer_get_current_allocated_bytes();
@@ -93,8 +93,8 @@ Result read_and_write(const Callbacks& type, std::vector<char> input) {
   if (result.is_message) {
     result.bytes.resize(type.get_serialized_size(message));
     FastBuffer output(result.bytes.data(), result.bytes.size());
-    Cdr writer(output, Cdr::LITTLE_ENDIANNESS);
-    if (!type.cdr_serialize(message, writer) || writer.getSerializedDataLength() != result.bytes.size()) {
+    Cdr writer = fastcdr_versions::plain_cdr(output, Cdr::LITTLE_ENDIANNESS);
+    if (!type.cdr_serialize(message, writer) || fastcdr_versions::written_size(writer) != result.bytes.size()) {
       finding("is read and cannot be written", type);
     }
   }

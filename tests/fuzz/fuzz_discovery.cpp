@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What other processes announce: messages on ros_discovery_info, the user data of participants and endpoints, and type
 // hashes in it. The input is a list of announcements: a byte for the kind, one for the sender, two for the length.
-#include <fastcdr/Cdr.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -10,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "fastcdr_versions/cdr.hpp"
 #include "graph/graph_cache.hpp"
 #include "participant/user_data.hpp"
 #include "rosidl_runtime_c/type_hash.h"
@@ -33,7 +32,7 @@ void told_nodes(GraphCache& graph, std::string_view bytes) {
       rosidl_typesupport_cpp::get_message_type_support_handle<GraphCache::EntitiesInfo>());
   std::vector<char> copy(bytes.begin(), bytes.end());
   eprosima::fastcdr::FastBuffer buffer(copy.data(), copy.size());
-  eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS);
+  eprosima::fastcdr::Cdr cdr = fastcdr_versions::plain_cdr(buffer, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS);
   GraphCache::EntitiesInfo info;
   if (type.cdr_deserialize(cdr, &info)) {
     graph.update_nodes(info);

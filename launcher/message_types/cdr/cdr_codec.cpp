@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/message_types/cdr/cdr_codec.hpp"
 
-#include <fastcdr/Cdr.h>
 #include <fastcdr/exceptions/Exception.h>
 
 #include <algorithm>
 #include <stdexcept>
 #include <string>
 
+#include "fastcdr_versions/cdr.hpp"
 #include "launcher/message_types/utf16.hpp"
 
 namespace launch {
@@ -104,7 +104,7 @@ class Writer {
       case FieldKind::kString: {
         const auto& text = std::get<std::string>(value.data);
         cdr_.serialize(static_cast<std::uint32_t>(text.size() + 1));
-        cdr_.serializeArray(text.c_str(), text.size() + 1);
+        fastcdr_versions::write_array(cdr_, text.c_str(), text.size() + 1);
         return;
       }
       case FieldKind::kWstring: {
@@ -168,10 +168,7 @@ class Reader {
   std::size_t length(std::size_t least_element_size) {
     std::uint32_t count = 0;
     cdr_.deserialize(count);
-    Cdr::state here = cdr_.getState();
-    const bool enough = cdr_.jump(count * least_element_size);
-    cdr_.setState(here);
-    if (!enough) {
+    if (!fastcdr_versions::has_left(cdr_, count * least_element_size)) {
       throw std::length_error("a length in the message goes beyond the message");
     }
     return count;
@@ -189,7 +186,7 @@ class Reader {
       case FieldKind::kString: {
         std::string text(length(1), '\0');
         if (!text.empty()) {
-          cdr_.deserializeArray(text.data(), text.size());
+          fastcdr_versions::read_array(cdr_, text.data(), text.size());
           if (text.back() == '\0') {  // some writers do not count the final NUL
             text.pop_back();
           }
@@ -281,7 +278,7 @@ std::size_t cdr_size(const MessageType& type, const MessageValue& value) {
 std::vector<std::uint8_t> to_cdr(const MessageType& type, const MessageValue& value) {
   std::vector<std::uint8_t> bytes(kHeaderSize + cdr_size(type, value));
   eprosima::fastcdr::FastBuffer memory(reinterpret_cast<char*>(bytes.data()), bytes.size());
-  Cdr cdr(memory, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
+  Cdr cdr = fastcdr_versions::plain_cdr(memory);
   cdr.serialize_encapsulation();
   write_cdr(type, value, cdr);
   return bytes;
@@ -290,7 +287,7 @@ std::vector<std::uint8_t> to_cdr(const MessageType& type, const MessageValue& va
 MessageValue from_cdr(const MessageType& type, const std::uint8_t* bytes, std::size_t size) try {
   // Fast CDR has one buffer type for both directions. Reading does not write to it.
   eprosima::fastcdr::FastBuffer memory(const_cast<char*>(reinterpret_cast<const char*>(bytes)), size);
-  Cdr cdr(memory, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
+  Cdr cdr = fastcdr_versions::plain_cdr(memory);
   cdr.read_encapsulation();
   return read_cdr(type, cdr);
 } catch (const eprosima::fastcdr::exception::Exception& error) {

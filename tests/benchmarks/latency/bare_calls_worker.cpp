@@ -53,8 +53,8 @@ class Side : fdds::DataWriterListener, fdds::DataReaderListener {
     fdds::SampleInfo info;
     bool taken = false;
     while (!taken) {
-      wait_set_.wait(ready, eprosima::fastrtps::c_TimeInfinite);
-      while (reader_->take_next_sample(message_.get(), &info) == ReturnCode_t::RETCODE_OK) {
+      wait_set_.wait(ready, rmw_fastrtps::kInfiniteDuration);
+      while (reader_->take_next_sample(message_.get(), &info) == rmw_fastrtps::return_code::kOk) {
         taken = taken || info.valid_data;
       }
     }

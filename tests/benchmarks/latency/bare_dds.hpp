@@ -2,23 +2,22 @@
 // What the floors on bare Fast DDS share: messages, and the quality of service that the stack's rmw asks for.
 #pragma once
 
-#include <fastcdr/Cdr.h>
-
 #include <condition_variable>
 #include <cstdlib>
 #include <cstring>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
-#include <fastdds/dds/topic/TopicDataType.hpp>
 #include <mutex>
 #include <string>
 
+#include "fastcdr_versions/cdr.hpp"
+#include "fastdds_versions/topic_type.hpp"
 #include "worker.hpp"
 
 namespace latency {
 
 namespace fdds = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
+namespace rtps = rmw_fastrtps::rtps;
 using eprosima::fastcdr::Cdr;
 using eprosima::fastcdr::FastBuffer;
 
@@ -30,39 +29,37 @@ struct Message {
 };
 
 // A type whose messages have `size` bytes.
-class MessageType final : public fdds::TopicDataType {
+class MessageType final : public rmw_fastrtps::TopicTypeOf<MessageType> {
  public:
-  explicit MessageType(std::size_t size) : length_(size - 2 * sizeof(std::int64_t)) {
-    setName(("Bytes" + std::to_string(size)).c_str());
-    m_typeSize = static_cast<std::uint32_t>(size) + kEncapsulation;
-  }
+  explicit MessageType(std::size_t size)
+      : TopicTypeOf("Bytes" + std::to_string(size), static_cast<std::uint32_t>(size) + kEncapsulation),
+        length_(size - 2 * sizeof(std::int64_t)) {}
 
-  bool serialize(void* data, rtps::SerializedPayload_t* payload) override {
+  bool write(const void* data, rtps::SerializedPayload_t& payload) const {
     const Message& message = *static_cast<const Message*>(data);
-    FastBuffer buffer(reinterpret_cast<char*>(payload->data), payload->max_size);
-    Cdr cdr(buffer, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
-    payload->encapsulation = CDR_LE;
+    FastBuffer buffer(reinterpret_cast<char*>(payload.data), payload.max_size);
+    Cdr cdr = fastcdr_versions::plain_cdr(buffer);
+    payload.encapsulation = CDR_LE;
     cdr.serialize_encapsulation();
     cdr << message.sent << message.remaining;
-    cdr.serializeArray(message.data, length_);
-    payload->length = static_cast<std::uint32_t>(cdr.getSerializedDataLength());
+    fastcdr_versions::write_array(cdr, message.data, length_);
+    payload.length = static_cast<std::uint32_t>(fastcdr_versions::written_size(cdr));
     return true;
   }
-  bool deserialize(rtps::SerializedPayload_t* payload, void* data) override {
+  bool read(const rtps::SerializedPayload_t& payload, void* data) const {
     Message& message = *static_cast<Message*>(data);
-    FastBuffer buffer(reinterpret_cast<char*>(payload->data), payload->length);
-    Cdr cdr(buffer, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
+    FastBuffer buffer(reinterpret_cast<char*>(payload.data), payload.length);
+    Cdr cdr = fastcdr_versions::plain_cdr(buffer);
     cdr.read_encapsulation();
     cdr >> message.sent >> message.remaining;
-    cdr.deserializeArray(message.data, length_);
+    fastcdr_versions::read_array(cdr, message.data, length_);
     return true;
   }
-  std::function<std::uint32_t()> getSerializedSizeProvider(void*) override {
-    return [this] { return m_typeSize; };
+  std::uint32_t size_of(const void*) const {
+    return kEncapsulation + 2 * sizeof(std::int64_t) + static_cast<std::uint32_t>(length_);
   }
-  void* createData() override { return new Message; }
-  void deleteData(void* data) override { delete static_cast<Message*>(data); }
-  bool getKey(void*, rtps::InstanceHandle_t*, bool) override { return false; }
+  void* create() { return new Message; }
+  void destroy(void* data) { delete static_cast<Message*>(data); }
   bool is_bounded() const override { return true; }
 
  private:

@@ -31,7 +31,7 @@ class Listener final : public fdds::DataWriterListener, public fdds::DataReaderL
   }
   void on_data_available(fdds::DataReader* reader) override {
     fdds::SampleInfo info;
-    while (reader->take_next_sample(message_.get(), &info) == ReturnCode_t::RETCODE_OK) {
+    while (reader->take_next_sample(message_.get(), &info) == rmw_fastrtps::return_code::kOk) {
       if (info.valid_data) {
         latency::tell({message_->sent, message_->remaining, latency::monotonic_now()});
       }

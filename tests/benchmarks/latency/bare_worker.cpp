@@ -51,7 +51,7 @@ class Receiver final : public fdds::DataReaderListener {
   void on_data_available(fdds::DataReader* reader) override { take_all(*reader); }
   void take_all(fdds::DataReader& reader) {
     fdds::SampleInfo info;
-    while (reader.take_next_sample(message_.get(), &info) == ReturnCode_t::RETCODE_OK) {
+    while (reader.take_next_sample(message_.get(), &info) == rmw_fastrtps::return_code::kOk) {
       if (info.valid_data) {
         log_.received(message_->sent, message_->remaining);
       }
@@ -107,7 +107,7 @@ void publish(fdds::DomainParticipant& participant, const Topics& topics) {
   wait_set.attach_condition(never);
   fdds::ConditionSeq ready;
   while (true) {
-    wait_set.wait(ready, eprosima::fastrtps::c_TimeInfinite);
+    wait_set.wait(ready, rmw_fastrtps::kInfiniteDuration);
     for (fdds::Condition* condition : ready) {
       if (auto* status = dynamic_cast<fdds::StatusCondition*>(condition)) {
         receiver.take_all(*static_cast<fdds::DataReader*>(status->get_entity()));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // C messages: their structures, functions and bytes, which are those of the C++ messages.
-#include <fastcdr/Cdr.h>
 #include <gtest/gtest.h>
 
 #include "cdr_bytes.hpp"
+#include "fastcdr_versions/cdr.hpp"
 #include "rosidl_runtime_c/primitives_sequence_functions.h"
 #include "rosidl_runtime_c/string_functions.h"
 #include "rosidl_runtime_c/u16string_functions.h"
@@ -30,17 +30,17 @@ std::string bytes_of_c(const rosidl_message_type_support_t* handle, const void* 
   const auto& callbacks = callbacks_of(handle);
   std::vector<char> bytes(callbacks.get_serialized_size(message));
   eprosima::fastcdr::FastBuffer buffer(bytes.data(), bytes.size());
-  eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS);
+  eprosima::fastcdr::Cdr cdr = fastcdr_versions::plain_cdr(buffer, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS);
   if (!callbacks.cdr_serialize(message, cdr)) {
     return "does not fit";
   }
-  return text_of(bytes.data(), cdr.getSerializedDataLength());
+  return text_of(bytes.data(), fastcdr_versions::written_size(cdr));
 }
 
 bool read_c(const rosidl_message_type_support_t* handle, const std::string& text, void* message) {
   std::vector<char> bytes = bytes_of(text);
   eprosima::fastcdr::FastBuffer buffer(bytes.data(), bytes.size());
-  eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS);
+  eprosima::fastcdr::Cdr cdr = fastcdr_versions::plain_cdr(buffer, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS);
   return callbacks_of(handle).cdr_deserialize(cdr, message);
 }
 

@@ -2,15 +2,13 @@
 // The bytes of messages in tests: a payload without its encapsulation header, little-endian.
 #pragma once
 
-#include <fastcdr/Cdr.h>
-#include <fastcdr/FastBuffer.h>
-
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "fastcdr_versions/cdr.hpp"
 #include "rosidl_typesupport_cpp/message_type_support.hpp"
 #include "rosidl_typesupport_fastrtps_cpp/message_type_support.h"
 
@@ -51,11 +49,11 @@ template <typename Message>
 std::optional<std::string> serialized(const Message& message, std::size_t capacity) {
   std::vector<char> bytes(capacity + 1);
   eprosima::fastcdr::FastBuffer buffer(bytes.data(), capacity);
-  eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS);
+  eprosima::fastcdr::Cdr cdr = fastcdr_versions::plain_cdr(buffer, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS);
   if (!callbacks<Message>().cdr_serialize(&message, cdr)) {
     return std::nullopt;
   }
-  return text_of(bytes.data(), cdr.getSerializedDataLength());
+  return text_of(bytes.data(), fastcdr_versions::written_size(cdr));
 }
 
 // The same in a buffer of exactly the size that get_serialized_size returns.
@@ -68,6 +66,6 @@ std::string serialized(const Message& message) {
 template <typename Message>
 bool deserialize(std::vector<char> bytes, Message& message) {
   eprosima::fastcdr::FastBuffer buffer(bytes.data(), bytes.size());
-  eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS);
+  eprosima::fastcdr::Cdr cdr = fastcdr_versions::plain_cdr(buffer, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS);
   return callbacks<Message>().cdr_deserialize(cdr, &message);
 }

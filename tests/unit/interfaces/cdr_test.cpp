@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The wire format of ROS 2, byte by byte. The expected bytes were written by hand from the CDR rules.
+#include "fastcdr_versions/cdr.hpp"
+
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -169,7 +171,7 @@ TEST(Cdr, LogMessagePadsBetweenByteAndString) {
 TEST(Cdr, BigEndianBytesAreRead) {
   std::vector<char> bytes = bytes_of("12 34 56 78");
   eprosima::fastcdr::FastBuffer buffer(bytes.data(), bytes.size());
-  eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::BIG_ENDIANNESS);
+  eprosima::fastcdr::Cdr cdr = fastcdr_versions::plain_cdr(buffer, eprosima::fastcdr::Cdr::BIG_ENDIANNESS);
   std_msgs::msg::Int32 message;
   ASSERT_TRUE(callbacks<std_msgs::msg::Int32>().cdr_deserialize(cdr, &message));
   EXPECT_EQ(message.data, 0x12345678);

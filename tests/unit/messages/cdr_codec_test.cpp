@@ -2,10 +2,9 @@
 // Values to bytes and back. The generated code of the same interfaces is the reference.
 #include "launcher/message_types/cdr/cdr_codec.hpp"
 
-#include <fastcdr/Cdr.h>
-#include <fastcdr/FastBuffer.h>
 #include <gtest/gtest.h>
 
+#include "fastcdr_versions/cdr.hpp"
 #include "rosidl_typesupport_cpp/message_type_support.hpp"
 #include "rosidl_typesupport_fastrtps_cpp/message_type_support.h"
 #include "test_interfaces/msg/awkward.hpp"
@@ -23,12 +22,11 @@ using Bytes = std::vector<std::uint8_t>;
 
 template <typename Message>
 Bytes generated_bytes(const Message& message) {
-  using eprosima::fastcdr::Cdr;
   const auto* const handle = rosidl_typesupport_cpp::get_message_type_support_handle<Message>();
   const auto& callbacks = *static_cast<const message_type_support_callbacks_t*>(handle->data);
   Bytes bytes(4 + callbacks.get_serialized_size(&message));
   eprosima::fastcdr::FastBuffer buffer(reinterpret_cast<char*>(bytes.data()), bytes.size());
-  Cdr cdr(buffer, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
+  eprosima::fastcdr::Cdr cdr = fastcdr_versions::plain_cdr(buffer);
   cdr.serialize_encapsulation();
   EXPECT_TRUE(callbacks.cdr_serialize(&message, cdr));
   return bytes;

@@ -41,12 +41,14 @@ struct AbandonedMemory : testing::Test {
 
 TEST_F(AbandonedMemory, UnlockedSegmentsAndRandomPortsGoWithTheirFiles) {
   fs::create_directory(directory);
-  for (const char* name : {"fastrtps_0123456789abcdef", "fastrtps_0123456789abcdef_el", "fastrtps_port70000",
-                           "fastrtps_port70000_el", "sem.fastrtps_port70000_mutex"}) {
+  for (const char* name :
+       {"fastrtps_0123456789abcdef", "fastrtps_0123456789abcdef_el", "fastrtps_port70000", "fastrtps_port70000_el",
+        "sem.fastrtps_port70000_mutex", "fastdds_0123456789abcdef", "fastdds_0123456789abcdef_el", "fastdds_port70000",
+        "fastdds_port70000_el", "sem.fastdds_port70000_mutex"}) {
     make(name);
   }
   remove_abandoned_memory(directory, seconds(3600));
-  EXPECT_EQ(files_in(directory).size(), 5U) << "they are too young";
+  EXPECT_EQ(files_in(directory).size(), 10U) << "they are too young";
   remove_abandoned_memory(directory, seconds(0));
   EXPECT_THAT(files_in(directory), ElementsAre());
 }
@@ -96,8 +98,9 @@ TEST_F(AbandonedMemory, WhatAKilledNodeLeavesGoesAndTheNextNodeIsNotTouched) {
   const std::set<std::string> after = files_in("/dev/shm");
   for (const std::string& name : before) {
     // The port that all participants share, in place of the multicast port of UDP, is a well-known one.
-    const bool is_well_known = std::regex_search(name, std::regex("fastrtps_port[0-9]{1,5}([^0-9]|$)"));
-    if (name.find("fastrtps_") == std::string::npos || is_well_known) {
+    const bool is_well_known = std::regex_search(name, std::regex("_port[0-9]{1,5}([^0-9]|$)"));
+    const bool is_of_dds = std::regex_search(name, std::regex("fast(rtps|dds)_"));
+    if (!is_of_dds || is_well_known) {
       continue;
     }
     EXPECT_EQ(after.contains(name), !left.contains(name)) << name;

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The additions of rmw to Fast DDS's discovery.
-#include <fastdds/rtps/transport/TransportInterface.h>
 #include <gmock/gmock.h>
 
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <memory>
 #include <set>
+#include <string>
 #include <vector>
 
+#include "fastdds_versions/transport.hpp"
 #include "participant/default_transports.hpp"
 #include "participant/shared_memory_ports.hpp"
 #include "participant/unanswered_participants.hpp"
@@ -22,7 +25,7 @@ using rmw_fastrtps::UnansweredParticipants;
 using testing::ElementsAre;
 using testing::IsEmpty;
 namespace fdds = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
+namespace rtps = rmw_fastrtps::rtps;
 namespace transports = eprosima::fastdds::rtps;
 
 using Time = UnansweredParticipants::TimePoint;
@@ -154,6 +157,33 @@ TEST(DefaultTransports, AreUdpAndSharedMemoryThatReportALargerSendBuffer) {
     transport->shutdown();
   }
   EXPECT_THAT(kinds, ElementsAre(LOCATOR_KIND_UDPv4, LOCATOR_KIND_SHM));
+}
+
+// Whether messages may be sent to the locator. Fast DDS 2.12 asks with two more arguments.
+template <typename Transport>
+bool may_reach(const Transport& transport, const rtps::Locator_t& locator) {
+  rtps::Locator_t reached;
+  if constexpr (requires { transport.transform_remote_locator(locator, reached, true, true); }) {
+    return transport.transform_remote_locator(locator, reached, true, true) && reached.port == locator.port;
+  } else {
+    return transport.transform_remote_locator(locator, reached) && reached.port == locator.port;
+  }
+}
+
+// A program with the other major version of Fast DDS on this host has its ports under other names. Version 2 takes the
+// locator for one of its own, and what it writes there is lost. Version 3 looks for the port (is_locator_reachable).
+TEST(DefaultTransports, DoNotBelieveInAPortOfSharedMemoryThatIsNotThere) {
+  fdds::DomainParticipantQos qos;
+  rmw_fastrtps::use_default_transports(0, std::make_shared<DiscoveryTraffic>(), qos);
+  const std::unique_ptr<rtps::TransportInterface> transport(qos.transport().user_transports.back()->create_transport());
+  ASSERT_TRUE(transport->init());
+  EXPECT_EQ(may_reach(*transport, rtps::Locator_t(LOCATOR_KIND_SHM, 0x7ffffff7)), RMW_FASTDDS_MAJOR >= 3);
+  const rtps::Locator_t there(LOCATOR_KIND_SHM, 0x7ffffff5);
+  const std::string file = "/dev/shm/fastrtps_port" + std::to_string(there.port);
+  std::ofstream(file).put(' ');
+  EXPECT_TRUE(may_reach(*transport, there));
+  std::filesystem::remove(file);
+  transport->shutdown();
 }
 
 TEST(DefaultTransports, TellWhetherSharedMemoryHasRoom) {

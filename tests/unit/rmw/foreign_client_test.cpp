@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // A service answers clients of other DDS programs, which do not name the reader of their responses (micro-ROS agents).
-#include <fastdds/rtps/common/WriteParams.h>
-#include <fastrtps/xmlparser/XMLProfileManager.h>
 
 #include <cstring>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
@@ -18,6 +16,8 @@
 
 #include "bytes_type.hpp"
 #include "example_interfaces/srv/add_two_ints.hpp"
+#include "fastdds_versions/delivery.hpp"
+#include "fastdds_versions/writer.hpp"
 #include "rmw_test.hpp"
 #include "rosidl_typesupport_cpp/service_type_support.hpp"
 #include "tests/support/sandbox.hpp"
@@ -25,7 +25,7 @@
 namespace {
 
 namespace fdds = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
+namespace rtps = rmw_fastrtps::rtps;
 
 using example_interfaces::srv::AddTwoInts;
 
@@ -52,9 +52,7 @@ class ForeignClient : public testing::Test {
  protected:
   ForeignClient() {
     // Serialized bytes must work between the two sides as between processes.
-    eprosima::fastrtps::LibrarySettingsAttributes settings;
-    settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
-    eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
+    rmw_fastrtps::turn_off_delivery_within_the_process();
     participant_ =
         fdds::DomainParticipantFactory::get_instance()->create_participant(kDomain, fdds::PARTICIPANT_QOS_DEFAULT);
     fdds::DataWriterQos writer_qos = fdds::DATAWRITER_QOS_DEFAULT;
@@ -118,7 +116,7 @@ TEST_F(ForeignClient, IsAnsweredWithTheIdentityOfItsRequest) {
 
   std::vector<uint8_t> request = cdr({40, 2});
   rtps::WriteParams sent;
-  ASSERT_TRUE(writer_->write(&request, sent));
+  ASSERT_TRUE(rmw_fastrtps::write_sample(*writer_, &request, sent));
   rmw_service_info_t info = take_request(service);
   AddTwoInts::Response response;
   response.sum = 42;
@@ -127,7 +125,7 @@ TEST_F(ForeignClient, IsAnsweredWithTheIdentityOfItsRequest) {
   std::vector<uint8_t> bytes;
   wait_for([&] {
     EXPECT_EQ(rmw_send_response(service, &info.request_id, &response), RMW_RET_OK) << rmw_test::take_error();
-    return reader_->take_next_sample(&bytes, &answer) == ReturnCode_t::RETCODE_OK;
+    return reader_->take_next_sample(&bytes, &answer) == rmw_fastrtps::return_code::kOk;
   });
   EXPECT_EQ(bytes, cdr({42}));
   EXPECT_EQ(answer.related_sample_identity, sent.sample_identity());
@@ -141,8 +139,7 @@ TEST_F(ForeignClient, IsAnsweredWhenItsReaderIsFoundLongAfterItsRequest) {
   fdds::DataReaderQos reader_qos = reader_->get_qos();
   fdds::DataReader* late_reader =
       participant_->create_subscriber(subscriber_qos)
-          ->create_datareader(participant_->find_topic("rr/addReply", eprosima::fastrtps::Duration_t{1, 0}),
-                              reader_qos);
+          ->create_datareader(participant_->find_topic("rr/addReply", rmw_fastrtps::DdsDuration{1, 0}), reader_qos);
   ASSERT_NE(late_reader, nullptr);
 
   rmw_test::Context context(kDomain);
@@ -157,16 +154,16 @@ TEST_F(ForeignClient, IsAnsweredWhenItsReaderIsFoundLongAfterItsRequest) {
   std::vector<uint8_t> request = cdr({40, 2});
   rtps::WriteParams sent;
   sent.related_sample_identity().writer_guid() = late_reader->guid();
-  ASSERT_TRUE(writer_->write(&request, sent));
+  ASSERT_TRUE(rmw_fastrtps::write_sample(*writer_, &request, sent));
   rmw_service_info_t info = take_request(service);
   AddTwoInts::Response response;
   response.sum = 42;
   EXPECT_EQ(rmw_send_response(service, &info.request_id, &response), RMW_RET_OK) << rmw_test::take_error();
 
-  ASSERT_EQ(late_reader->enable(), ReturnCode_t::RETCODE_OK);
+  ASSERT_EQ(late_reader->enable(), rmw_fastrtps::return_code::kOk);
   fdds::SampleInfo answer;
   std::vector<uint8_t> bytes;
-  wait_for([&] { return late_reader->take_next_sample(&bytes, &answer) == ReturnCode_t::RETCODE_OK; });
+  wait_for([&] { return late_reader->take_next_sample(&bytes, &answer) == rmw_fastrtps::return_code::kOk; });
   EXPECT_EQ(bytes, cdr({42}));
   EXPECT_EQ(answer.related_sample_identity.writer_guid(), late_reader->guid());
   EXPECT_EQ(answer.related_sample_identity.sequence_number(), sent.sample_identity().sequence_number());

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A subscription whose samples get lost on the way. They come from a writer of plain Fast DDS whose transport loses the
 // samples that the test chooses.
-#include <fastrtps/transport/test_UDPv4TransportDescriptor.h>
-#include <fastrtps/xmlparser/XMLProfileManager.h>
-
 #include <atomic>
 #include <condition_variable>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
@@ -19,6 +16,9 @@
 #include <vector>
 
 #include "bytes_type.hpp"
+#include "fastdds_versions/delivery.hpp"
+#include "fastdds_versions/lossy_transport.hpp"
+#include "fastdds_versions/writer.hpp"
 #include "rmw_test.hpp"
 #include "std_msgs/msg/string.hpp"
 #include "tests/support/sandbox.hpp"
@@ -26,7 +26,7 @@
 namespace {
 
 namespace fdds = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
+namespace rtps = rmw_fastrtps::rtps;
 
 using rmw_test::Bytes;
 using rmw_test::Context;
@@ -95,9 +95,7 @@ class Matches final : public fdds::DataWriterListener {
 class LostSample : public testing::Test {
  protected:
   LostSample() {
-    eprosima::fastrtps::LibrarySettingsAttributes settings;
-    settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
-    eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
+    rmw_fastrtps::turn_off_delivery_within_the_process();
     auto transport = std::make_shared<rtps::test_UDPv4TransportDescriptor>();
     transport->drop_data_messages_filter_ = [this](rtps::CDRMessage_t& message) { return loss_.loses(message); };
     fdds::DomainParticipantQos qos = fdds::PARTICIPANT_QOS_DEFAULT;
@@ -116,7 +114,7 @@ class LostSample : public testing::Test {
     fdds::DataWriterQos qos = fdds::DATAWRITER_QOS_DEFAULT;
     qos.reliability().kind = reliability;
     qos.history().depth = 10;
-    qos.reliable_writer_qos().times.heartbeatPeriod = eprosima::fastrtps::Duration_t(0, 10000000);
+    rmw_fastrtps::heartbeat_period(qos) = rmw_fastrtps::DdsDuration(0, 10000000);
     fdds::Publisher* publisher = participant_->create_publisher(fdds::PUBLISHER_QOS_DEFAULT);
     return publisher->create_datawriter(topic_, qos, &matches_);
   }
@@ -141,7 +139,8 @@ class LostSample : public testing::Test {
               RMW_RET_OK);
     std::vector<uint8_t> bytes(serialized.buffer, serialized.buffer + serialized.buffer_length);
     ASSERT_EQ(rmw_serialized_message_fini(&serialized), RMW_RET_OK);
-    ASSERT_TRUE(writer.write(&bytes));
+    rtps::WriteParams params;
+    ASSERT_TRUE(rmw_fastrtps::write_sample(writer, &bytes, params));
   }
 
   test_support::Sandbox sandbox_;

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks with a participant of plain Fast DDS how other DDS applications see us, and how we see them.
-#include <fastrtps/xmlparser/XMLProfileManager.h>
 
 #include <algorithm>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
-#include <fastdds/dds/domain/DomainParticipantListener.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
@@ -21,6 +19,9 @@
 #include <vector>
 
 #include "bytes_type.hpp"
+#include "fastdds_versions/delivery.hpp"
+#include "fastdds_versions/discovery_listener.hpp"
+#include "fastdds_versions/writer.hpp"
 #include "rmw_dds_common/msg/participant_entities_info.hpp"
 #include "rmw_test.hpp"
 #include "std_msgs/msg/string.hpp"
@@ -29,7 +30,7 @@
 namespace {
 
 namespace fdds = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
+namespace rtps = rmw_fastrtps::rtps;
 
 using rmw_test::Bytes;
 using rmw_test::Context;
@@ -38,20 +39,17 @@ using rmw_test::Publisher;
 using rmw_test::Subscription;
 
 // Remembers the user data of the last participant that was found, and of the endpoints by topic.
-class FoundParticipants final : public fdds::DomainParticipantListener {
+class FoundParticipants final : public rmw_fastrtps::FoundListener {
  public:
-  void on_publisher_discovery(fdds::DomainParticipant*, rtps::WriterDiscoveryInfo&& info) override {
-    remember(info.info.topicName().to_string(), info.info.m_qos.m_userData.data_vec());
+  void endpoint_changed(const rmw_fastrtps::FoundEndpoint& endpoint) override {
+    std::lock_guard lock(mutex_);
+    endpoints_[endpoint.topic].assign(endpoint.user_data.begin(), endpoint.user_data.end());
   }
-  void on_subscriber_discovery(fdds::DomainParticipant*, rtps::ReaderDiscoveryInfo&& info) override {
-    remember(info.info.topicName().to_string(), info.info.m_qos.m_userData.data_vec());
-  }
-  void on_participant_discovery(fdds::DomainParticipant*, rtps::ParticipantDiscoveryInfo&& info) override {
-    if (info.status == rtps::ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT) {
-      const auto& data = info.info.m_userData.data_vec();
+  void participant_changed(const rmw_fastrtps::FoundParticipant& participant) override {
+    if (participant.change == rmw_fastrtps::FoundParticipant::Change::kFound) {
       std::lock_guard lock(mutex_);
-      user_data_.assign(data.begin(), data.end());
-      name_ = info.info.m_participantName.c_str();
+      user_data_.assign(participant.user_data.begin(), participant.user_data.end());
+      name_ = participant.name;
     }
   }
   std::string user_data() {
@@ -70,11 +68,6 @@ class FoundParticipants final : public fdds::DomainParticipantListener {
   }
 
  private:
-  void remember(const std::string& topic, const std::vector<rtps::octet>& data) {
-    std::lock_guard lock(mutex_);
-    endpoints_[topic].assign(data.begin(), data.end());
-  }
-
   std::mutex mutex_;
   std::string user_data_;
   std::string name_;
@@ -87,9 +80,7 @@ class Wire : public testing::Test {
  protected:
   Wire() {
     // Serialized bytes must work between the two sides as between processes.
-    eprosima::fastrtps::LibrarySettingsAttributes settings;
-    settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
-    eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
+    rmw_fastrtps::turn_off_delivery_within_the_process();
     participant_ = fdds::DomainParticipantFactory::get_instance()->create_participant(
         kDomain, fdds::PARTICIPANT_QOS_DEFAULT, &found_, fdds::StatusMask::none());
   }
@@ -116,7 +107,7 @@ class Wire : public testing::Test {
   static std::vector<uint8_t> next(fdds::DataReader* reader, fdds::SampleInfo& info) {
     std::vector<uint8_t> bytes;
     EXPECT_TRUE(reader->wait_for_unread_message({10, 0}));
-    EXPECT_TRUE(reader->take_next_sample(&bytes, &info) == ReturnCode_t::RETCODE_OK);
+    EXPECT_TRUE(reader->take_next_sample(&bytes, &info) == rmw_fastrtps::return_code::kOk);
     return bytes;
   }
 
@@ -216,7 +207,7 @@ TEST_F(Wire, SourceTimestampsSurviveToTheNanosecond) {
     std::vector<uint8_t> bytes{0, 1, 0, 0, 4, 0, 0, 0, 'a', 'b', 'c', 0};
     rtps::WriteParams params;
     params.source_timestamp().from_ns(timestamp);
-    ASSERT_TRUE(writer->write(&bytes, params));
+    ASSERT_TRUE(rmw_fastrtps::write_sample(*writer, &bytes, params));
     rmw_message_info_t info;
     EXPECT_EQ(subscription.next(&info).data, "abc");
     ASSERT_EQ(info.source_timestamp, timestamp);

@@ -7,8 +7,9 @@
 #include <fastdds/dds/topic/Topic.hpp>
 #include <stdexcept>
 
+#include "fastdds_versions/names.hpp"
+#include "fastdds_versions/type_object.hpp"
 #include "process/end_of_process.hpp"
-#include "types/dds_type_object.hpp"
 
 namespace fdds = eprosima::fastdds::dds;
 
@@ -59,7 +60,7 @@ void delete_filtered_topic(fdds::ContentFilteredTopic& topic) {
 }
 
 void change_filter(fdds::ContentFilteredTopic& topic, const ContentFilter& filter) {
-  if (topic.set_filter_expression(filter.expression, filter.parameters) != ReturnCode_t::RETCODE_OK) {
+  if (topic.set_filter_expression(filter.expression, filter.parameters) != rmw_fastrtps::return_code::kOk) {
     throw invalid(filter, topic.get_type_name());
   }
 }

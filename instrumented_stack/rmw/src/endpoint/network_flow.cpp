@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "endpoint/network_flow.hpp"
 
-#include <fastrtps/utils/IPLocator.h>
-
 #include <cstring>
 #include <string>
 
+#include "fastdds_versions/guid.hpp"
 #include "rmw/error_handling.h"
 
 namespace rmw_fastrtps {
 namespace {
 
-using eprosima::fastrtps::rtps::IPLocator;
-using eprosima::fastrtps::rtps::Locator_t;
+using rtps::IPLocator;
+using rtps::Locator_t;
 
 rmw_network_flow_endpoint_t to_endpoint(const Locator_t& locator) {
   rmw_network_flow_endpoint_t endpoint{};

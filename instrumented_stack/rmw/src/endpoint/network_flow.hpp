@@ -2,8 +2,7 @@
 // Converts locators of DDS to endpoints of network flows.
 #pragma once
 
-#include <fastdds/rtps/common/Locator.h>
-
+#include "fastdds_versions/guid.hpp"
 #include "rmw/network_flow_endpoint.h"
 
 namespace rmw_fastrtps {

@@ -13,6 +13,7 @@
 #include "endpoint/endpoint.hpp"
 #include "endpoint/network_flow.hpp"
 #include "event/endpoint_events.hpp"
+#include "fastdds_versions/writer.hpp"
 #include "faults/publish_faults.hpp"
 #include "names/topic_name.hpp"
 #include "participant/participant.hpp"
@@ -24,8 +25,8 @@
 #include "types/identifier.hpp"
 #include "types/message_type.hpp"
 
-namespace fdds = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
+namespace fdds = rmw_fastrtps::fdds;
+namespace rtps = rmw_fastrtps::rtps;
 
 using rmw_fastrtps::EndpointIdentity;
 using rmw_fastrtps::kIdentifier;
@@ -74,7 +75,7 @@ Publisher& publisher_of(const rmw_publisher_t& handle) {
   }
   bool is_written = false;
   if (owner.faults == nullptr) [[likely]] {
-    is_written = owner.writer->write(data, params);
+    is_written = rmw_fastrtps::write_sample(*owner.writer, data, params);
   } else {
     is_written = owner.faults->write(*static_cast<OutgoingMessage*>(data), params);  // then nothing is on loan
   }
@@ -173,7 +174,7 @@ rmw_ret_t rmw_borrow_loaned_message(const rmw_publisher_t* publisher, const rosi
                                          publisher->topic_name);
     return RMW_RET_UNSUPPORTED;
   }
-  if (publisher_of(*publisher).writer->loan_sample(*ros_message) != ReturnCode_t::RETCODE_OK) {
+  if (publisher_of(*publisher).writer->loan_sample(*ros_message) != rmw_fastrtps::return_code::kOk) {
     RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("no message on topic '%s' can be borrowed now", publisher->topic_name);
     return RMW_RET_ERROR;
   }
@@ -183,7 +184,7 @@ rmw_ret_t rmw_borrow_loaned_message(const rmw_publisher_t* publisher, const rosi
 rmw_ret_t rmw_return_loaned_message_from_publisher(const rmw_publisher_t* publisher, void* loaned_message) {
   RMW_CHECK_HANDLE(publisher, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(loaned_message, RMW_RET_INVALID_ARGUMENT);
-  if (publisher_of(*publisher).writer->discard_loan(loaned_message) != ReturnCode_t::RETCODE_OK) {
+  if (publisher_of(*publisher).writer->discard_loan(loaned_message) != rmw_fastrtps::return_code::kOk) {
     RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("the message was not borrowed from the publisher on topic '%s'",
                                          publisher->topic_name);
     return RMW_RET_INVALID_ARGUMENT;
@@ -218,7 +219,7 @@ rmw_ret_t rmw_publisher_get_actual_qos(const rmw_publisher_t* publisher, rmw_qos
 
 rmw_ret_t rmw_publisher_assert_liveliness(const rmw_publisher_t* publisher) {
   RMW_CHECK_HANDLE(publisher, RMW_RET_INVALID_ARGUMENT);
-  if (publisher_of(*publisher).writer->assert_liveliness() != ReturnCode_t::RETCODE_OK) {
+  if (publisher_of(*publisher).writer->assert_liveliness() != rmw_fastrtps::return_code::kOk) {
     RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("the liveliness of topic '%s' cannot be asserted", publisher->topic_name);
     return RMW_RET_ERROR;
   }
@@ -228,10 +229,10 @@ rmw_ret_t rmw_publisher_assert_liveliness(const rmw_publisher_t* publisher) {
 rmw_ret_t rmw_publisher_wait_for_all_acked(const rmw_publisher_t* publisher, rmw_time_t wait_timeout) {
   RMW_CHECK_HANDLE(publisher, RMW_RET_INVALID_ARGUMENT);
   const auto result = publisher_of(*publisher).writer->wait_for_acknowledgments(rmw_fastrtps::to_dds(wait_timeout));
-  if (result == ReturnCode_t::RETCODE_OK) {
+  if (result == rmw_fastrtps::return_code::kOk) {
     return RMW_RET_OK;
   }
-  if (result == ReturnCode_t::RETCODE_TIMEOUT) {
+  if (result == rmw_fastrtps::return_code::kTimeout) {
     return RMW_RET_TIMEOUT;
   }
   RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("acknowledgments on topic '%s' cannot be waited for", publisher->topic_name);
@@ -244,7 +245,7 @@ rmw_ret_t rmw_publisher_get_network_flow_endpoints(const rmw_publisher_t* publis
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(allocator, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(network_flow_endpoint_array, RMW_RET_INVALID_ARGUMENT);
   eprosima::fastdds::rtps::LocatorList locators;
-  if (publisher_of(*publisher).writer->get_sending_locators(locators) != ReturnCode_t::RETCODE_OK) {
+  if (publisher_of(*publisher).writer->get_sending_locators(locators) != rmw_fastrtps::return_code::kOk) {
     RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("the locators of the writer on topic '%s' cannot be told",
                                          publisher->topic_name);
     return RMW_RET_ERROR;

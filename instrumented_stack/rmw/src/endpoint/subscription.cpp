@@ -266,7 +266,7 @@ rmw_ret_t rmw_return_loaned_message_from_subscription(const rmw_subscription_t* 
       owner.loans.erase(found);
     }
   }
-  if (!loan || owner.reader->return_loan(loan->samples, loan->infos) != ReturnCode_t::RETCODE_OK) {
+  if (!loan || owner.reader->return_loan(loan->samples, loan->infos) != rmw_fastrtps::return_code::kOk) {
     RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("the message was not taken from the subscription on topic '%s'",
                                          subscription->topic_name);
     return RMW_RET_INVALID_ARGUMENT;
@@ -283,7 +283,7 @@ rmw_ret_t rmw_subscription_get_network_flow_endpoints(const rmw_subscription_t* 
   Subscription& owner = subscription_of(*subscription);
   const std::shared_lock lock(owner.reader_mutex);
   eprosima::fastdds::rtps::LocatorList locators;
-  if (owner.reader->get_listening_locators(locators) != ReturnCode_t::RETCODE_OK) {
+  if (owner.reader->get_listening_locators(locators) != rmw_fastrtps::return_code::kOk) {
     RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("the locators of the reader on topic '%s' cannot be told",
                                          subscription->topic_name);
     return RMW_RET_ERROR;

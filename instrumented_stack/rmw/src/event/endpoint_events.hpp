@@ -97,7 +97,7 @@ class ReaderEvents : public DataReaderWaitable, public EndpointEvents {
     add_matched(info);
   }
   void on_liveliness_changed(eprosima::fastdds::dds::DataReader*,
-                             const eprosima::fastrtps::LivelinessChangedStatus& info) override {
+                             const eprosima::fastdds::dds::LivelinessChangedStatus& info) override {
     liveliness_changed_.update([&info](rmw_liveliness_changed_status_t& status) {
       status.alive_count = info.alive_count;
       status.not_alive_count = info.not_alive_count;
@@ -106,7 +106,7 @@ class ReaderEvents : public DataReaderWaitable, public EndpointEvents {
     });
   }
   void on_requested_deadline_missed(eprosima::fastdds::dds::DataReader*,
-                                    const eprosima::fastrtps::RequestedDeadlineMissedStatus& info) override {
+                                    const eprosima::fastdds::dds::RequestedDeadlineMissedStatus& info) override {
     add(deadline_missed_, info);
   }
   void on_requested_incompatible_qos(eprosima::fastdds::dds::DataReader*,

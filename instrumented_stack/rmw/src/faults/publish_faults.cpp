@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "faults/publish_faults.hpp"
 
-#include <fastdds/dds/publisher/DataWriter.hpp>
 #include <utility>
 
+#include "fastdds_versions/writer.hpp"
 #include "faults/delayed_calls.hpp"
 #include "types/message_type.hpp"
 
@@ -13,10 +13,10 @@ PublishFaults::~PublishFaults() {
   delayed_calls().forget(this);
 }
 
-bool PublishFaults::write(OutgoingMessage& message, eprosima::fastrtps::rtps::WriteParams& params) {
+bool PublishFaults::write(OutgoingMessage& message, rtps::WriteParams& params) {
   const MessageFate fate = faults_->next();
   if (fate.is_usual()) {
-    return writer_.write(&message, params);
+    return write_sample(writer_, &message, params);
   }
   if (fate.is_dropped) {
     return true;
@@ -41,12 +41,12 @@ bool PublishFaults::write(OutgoingMessage& message, eprosima::fastrtps::rtps::Wr
   return is_written;
 }
 
-bool PublishFaults::write(std::vector<std::uint8_t>& bytes, eprosima::fastrtps::rtps::WriteParams params) {
+bool PublishFaults::write(std::vector<std::uint8_t>& bytes, rtps::WriteParams params) {
   rmw_serialized_message_t serialized = rmw_get_zero_initialized_serialized_message();
   serialized.buffer = bytes.data();
   serialized.buffer_length = serialized.buffer_capacity = bytes.size();
   OutgoingMessage message{nullptr, &serialized};
-  return writer_.write(&message, params);
+  return write_sample(writer_, &message, params);
 }
 
 }  // namespace rmw_fastrtps

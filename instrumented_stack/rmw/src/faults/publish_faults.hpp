@@ -6,15 +6,13 @@
 #include <memory>
 #include <vector>
 
+#include "fastdds_versions/guid.hpp"
 #include "faults/message_faults.hpp"
 #include "rosidl_typesupport_fastrtps_cpp/message_type_support.h"
 
 namespace eprosima::fastdds::dds {
 class DataWriter;
 }  // namespace eprosima::fastdds::dds
-namespace eprosima::fastrtps::rtps {
-class WriteParams;
-}  // namespace eprosima::fastrtps::rtps
 
 namespace rmw_fastrtps {
 
@@ -32,10 +30,10 @@ class PublishFaults {
   PublishFaults& operator=(const PublishFaults&) = delete;
 
   // False if the message could not be written. A message that is dropped, or that is sent later, counts as written.
-  bool write(OutgoingMessage& message, eprosima::fastrtps::rtps::WriteParams& params);
+  bool write(OutgoingMessage& message, rtps::WriteParams& params);
 
  private:
-  bool write(std::vector<std::uint8_t>& bytes, eprosima::fastrtps::rtps::WriteParams params);
+  bool write(std::vector<std::uint8_t>& bytes, rtps::WriteParams params);
 
   std::unique_ptr<MessageFaults> faults_;
   eprosima::fastdds::dds::DataWriter& writer_;

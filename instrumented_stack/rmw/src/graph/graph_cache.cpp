@@ -9,7 +9,7 @@ namespace rmw_fastrtps {
 namespace {
 
 // Far more participants than can end between two messages of one of them.
-constexpr std::size_t kRemembered = 1000;
+constexpr std::size_t kRememberedParticipants = 1000;
 
 template <typename Nodes>
 auto find_node(Nodes& nodes, const std::string& namespace_, const std::string& name) {
@@ -57,7 +57,7 @@ void GraphCache::remove_participant(const Gid& gid) {
     std::lock_guard lock(mutex_);
     participants_.erase(gid);
     gone_.push_back(gid);
-    if (gone_.size() > kRemembered) {
+    if (gone_.size() > kRememberedParticipants) {
       gone_.pop_front();
     }
     std::erase_if(endpoints_, [&](const auto& entry) {

@@ -15,8 +15,9 @@
 namespace rmw_fastrtps {
 namespace {
 
-constexpr std::string_view kPrefix = "fastrtps_";
-constexpr std::string_view kPort = "fastrtps_port";
+// Of Fast DDS 2 and 3, which both may have left files on this host.
+constexpr std::string_view kPrefixes[] = {"fastrtps_", "fastdds_"};
+constexpr std::string_view kPort = "port";
 constexpr std::string_view kLock = "_el";
 constexpr std::size_t kSegmentNumber = 16;  // characters
 constexpr std::uint64_t kLastWellKnownPort = 65535;
@@ -25,26 +26,27 @@ bool consists_of(std::string_view text, std::string_view characters) {
   return !text.empty() && text.find_first_not_of(characters) == std::string_view::npos;
 }
 
+// A segment, or a port that was chosen at random. Of its name, without the prefix.
+bool is_of_one_process(std::string_view name) {
+  if (name.starts_with(kPort)) {
+    const std::string port(name.substr(kPort.size()));
+    return consists_of(port, "0123456789") && std::strtoull(port.c_str(), nullptr, 10) > kLastWellKnownPort;
+  }
+  return name.size() == kSegmentNumber && consists_of(name, "0123456789abcdefghijklmnopqrstuvwxyz");
+}
+
 // The name of the segment or port whose lock is the file `name`; "" if it is none that nobody uses again.
 std::string locked_by(std::string_view name) {
   if (!name.ends_with(kLock)) {
     return {};
   }
   name.remove_suffix(kLock.size());
-  if (name.starts_with(kPort)) {
-    const std::string port(name.substr(kPort.size()));
-    if (!consists_of(port, "0123456789") || std::strtoull(port.c_str(), nullptr, 10) <= kLastWellKnownPort) {
-      return {};
+  for (const std::string_view prefix : kPrefixes) {
+    if (name.starts_with(prefix) && is_of_one_process(name.substr(prefix.size()))) {
+      return std::string(name);
     }
-    return std::string(name);
   }
-  if (!name.starts_with(kPrefix)) {
-    return {};
-  }
-  const std::string_view number = name.substr(kPrefix.size());
-  const bool is_segment =
-      number.size() == kSegmentNumber && consists_of(number, "0123456789abcdefghijklmnopqrstuvwxyz");
-  return is_segment ? std::string(name) : std::string();
+  return {};
 }
 
 void remove_if_unlocked(int directory, const std::string& lock, const std::string& locked) {

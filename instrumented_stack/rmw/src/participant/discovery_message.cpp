@@ -8,7 +8,7 @@ namespace rmw_fastrtps {
 namespace {
 
 using Bytes = std::span<const std::uint8_t>;
-using GuidPrefix = eprosima::fastrtps::rtps::GuidPrefix_t;
+using GuidPrefix = rtps::GuidPrefix_t;
 
 constexpr std::size_t kHeader = 20;
 constexpr std::size_t kSenderInHeader = 8;

@@ -2,11 +2,11 @@
 // The messages of discovery, as RTPS has them on the wire (RTPS 2.2, 8.5 and 9.4).
 #pragma once
 
-#include <fastdds/rtps/common/Guid.h>
-
 #include <cstdint>
 #include <optional>
 #include <span>
+
+#include "fastdds_versions/guid.hpp"
 
 namespace rmw_fastrtps {
 
@@ -19,8 +19,8 @@ struct DiscoveryMessage {
   };
 
   Kind kind;
-  eprosima::fastrtps::rtps::GuidPrefix_t sender;
-  eprosima::fastrtps::rtps::GuidPrefix_t receiver;  // unknown: all
+  rtps::GuidPrefix_t sender;
+  rtps::GuidPrefix_t receiver;  // unknown: all
   // Ids of entities, as RTPS writes them.
   std::uint32_t writer;
   std::uint32_t reader;  // of a question

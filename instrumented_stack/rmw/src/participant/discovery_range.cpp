@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "participant/discovery_range.hpp"
 
-#include <fastrtps/utils/IPLocator.h>
-
 #include <stdexcept>
 #include <string>
 
+#include "fastdds_versions/guid.hpp"
 #include "participant/default_transports.hpp"
 
 namespace rmw_fastrtps {
 namespace {
-
-namespace fdds = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
 
 // A unicast announcement reaches this many participants of one host.
 constexpr std::uint32_t kLocalParticipants = 32;
@@ -45,9 +41,11 @@ void configure_discovery(const rmw_discovery_options_t& options, std::uint32_t d
                          const std::shared_ptr<DiscoveryTraffic>& traffic, fdds::DomainParticipantQos& qos) {
   auto& builtin = qos.wire_protocol().builtin;
   switch (options.automatic_discovery_range) {
-    case RMW_AUTOMATIC_DISCOVERY_RANGE_OFF:
-      builtin.discovery_config.discoveryProtocol = rtps::DiscoveryProtocol_t::NONE;
+    case RMW_AUTOMATIC_DISCOVERY_RANGE_OFF: {
+      using Protocol = decltype(builtin.discovery_config.discoveryProtocol);
+      builtin.discovery_config.discoveryProtocol = Protocol::NONE;
       return;
+    }
     case RMW_AUTOMATIC_DISCOVERY_RANGE_LOCALHOST:
       restrict_to_localhost(traffic, qos);
       break;

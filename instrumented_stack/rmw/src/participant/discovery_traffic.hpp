@@ -14,9 +14,6 @@
 // there is to answer. So they are asked less often.
 #pragma once
 
-#include <fastdds/rtps/common/Guid.h>
-#include <fastdds/rtps/common/Locator.h>
-
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -25,6 +22,7 @@
 #include <tuple>
 #include <vector>
 
+#include "fastdds_versions/guid.hpp"
 #include "participant/discovery_message.hpp"
 
 namespace rmw_fastrtps {
@@ -33,7 +31,7 @@ namespace rmw_fastrtps {
 class DiscoveryTraffic {
  public:
   using Locator = eprosima::fastdds::rtps::Locator;
-  using GuidPrefix = eprosima::fastrtps::rtps::GuidPrefix_t;
+  using GuidPrefix = rtps::GuidPrefix_t;
   using TimePoint = std::chrono::steady_clock::time_point;
   using Duration = std::chrono::steady_clock::duration;
 

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "participant/participant.hpp"
 
-#include <fastdds/rtps/reader/ReaderDiscoveryInfo.h>
-#include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
-
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
-#include <fastdds/dds/domain/DomainParticipantListener.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
@@ -22,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "fastdds_versions/discovery_listener.hpp"
 #include "participant/default_transports.hpp"
 #include "participant/discovery_range.hpp"
 #include "participant/discovery_traffic.hpp"
@@ -35,9 +32,6 @@
 
 namespace rmw_fastrtps {
 namespace {
-
-namespace fdds = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
 
 fdds::PublishModeQosPolicyKind publish_mode(fdds::PublishModeQosPolicyKind in_profile) {
   const char* value = std::getenv("RMW_FASTRTPS_PUBLICATION_MODE");
@@ -127,7 +121,7 @@ fdds::DomainParticipant* create_participant(std::uint32_t domain_id, fdds::Domai
     choose_shared_memory_ports(domain_id, participant->guid().guidPrefix, qos);
     participant->set_qos(qos);
   }
-  if (participant->enable() != ReturnCode_t::RETCODE_OK) {
+  if (participant->enable() != rmw_fastrtps::return_code::kOk) {
     fdds::DomainParticipantFactory::get_instance()->delete_participant(participant);
     return nullptr;
   }
@@ -136,51 +130,43 @@ fdds::DomainParticipant* create_participant(std::uint32_t domain_id, fdds::Domai
 
 }  // namespace
 
-class Participant::DiscoveryListener final : public fdds::DomainParticipantListener {
+class Participant::DiscoveryListener final : public FoundListener {
  public:
   DiscoveryListener(GraphCache& graph, UnansweredParticipants& unanswered, DiscoveryTraffic& traffic)
       : graph_(graph), unanswered_(unanswered), traffic_(traffic) {}
 
-  void on_participant_discovery(fdds::DomainParticipant*, rtps::ParticipantDiscoveryInfo&& info) override {
-    const Gid gid = to_gid(info.info.m_guid);
-    if (info.status == rtps::ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT) {
-      const auto& locators = info.info.metatraffic_locators.unicast;
-      traffic_.discovered(info.info.m_guid.guidPrefix, {locators.begin(), locators.end()},
-                          std::chrono::nanoseconds(info.info.m_leaseDuration.to_ns()));
-      graph_.add_participant(gid, user_data_value(info.info.m_userData.data_vec(), "enclave"));
-      unanswered_.discovered(gid, std::chrono::steady_clock::now());
-    } else if (info.status == rtps::ParticipantDiscoveryInfo::REMOVED_PARTICIPANT ||
-               info.status == rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT) {
-      traffic_.gone(info.info.m_guid.guidPrefix);
-      graph_.remove_participant(gid);
-      unanswered_.settled(gid);
+  void participant_changed(const FoundParticipant& participant) override {
+    const Gid gid = to_gid(participant.guid);
+    switch (participant.change) {
+      case FoundParticipant::Change::kFound:
+        traffic_.discovered(participant.guid.guidPrefix, participant.locators,
+                            std::chrono::nanoseconds(participant.lease.to_ns()));
+        graph_.add_participant(gid, user_data_value(participant.user_data, "enclave"));
+        unanswered_.discovered(gid, std::chrono::steady_clock::now());
+        break;
+      case FoundParticipant::Change::kGone:
+        traffic_.gone(participant.guid.guidPrefix);
+        graph_.remove_participant(gid);
+        unanswered_.settled(gid);
+        break;
+      case FoundParticipant::Change::kOther:
+        break;
     }
   }
 
-  void on_publisher_discovery(fdds::DomainParticipant*, rtps::WriterDiscoveryInfo&& info) override {
-    const bool removed = info.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER;
-    changed(GraphCache::Kind::kWriter, info.info, removed);
-  }
-
-  void on_subscriber_discovery(fdds::DomainParticipant*, rtps::ReaderDiscoveryInfo&& info) override {
-    const bool removed = info.status == rtps::ReaderDiscoveryInfo::REMOVED_READER;
-    changed(GraphCache::Kind::kReader, info.info, removed);
+  void endpoint_changed(const FoundEndpoint& endpoint) override {
+    const Gid gid = to_gid(endpoint.guid);
+    unanswered_.settled(gid);
+    if (endpoint.is_removed) {
+      graph_.remove_endpoint(gid);
+      return;
+    }
+    const auto kind = endpoint.is_writer ? GraphCache::Kind::kWriter : GraphCache::Kind::kReader;
+    graph_.add_endpoint(gid, {kind, endpoint.topic, endpoint.type, profile_of(endpoint), nullptr,
+                              user_data_value(endpoint.user_data, "typehash")});
   }
 
  private:
-  template <typename Proxy>
-  void changed(GraphCache::Kind kind, const Proxy& proxy, bool removed) {
-    const Gid gid = to_gid(proxy.guid());
-    unanswered_.settled(gid);
-    if (removed) {
-      graph_.remove_endpoint(gid);
-    } else {
-      graph_.add_endpoint(
-          gid, {kind, proxy.topicName().to_string(), proxy.typeName().to_string(), profile_of(proxy.m_qos), nullptr,
-                user_data_value(proxy.m_qos.m_userData.data_vec(), "typehash")});
-    }
-  }
-
   GraphCache& graph_;
   UnansweredParticipants& unanswered_;
   DiscoveryTraffic& traffic_;
@@ -309,7 +295,7 @@ fdds::Topic& Participant::acquire_topic(const std::string& dds_name,
   }
   if (participant_->find_type(type_name).empty()) {
     fdds::TypeSupport type(new MessageType(callbacks));
-    if (type.register_type(participant_) != ReturnCode_t::RETCODE_OK) {
+    if (type.register_type(participant_) != rmw_fastrtps::return_code::kOk) {
       throw std::runtime_error("Fast DDS cannot register type '" + type_name + "'");
     }
   }

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "participant/shared_memory_ports.hpp"
 
-#include <fastrtps/utils/IPLocator.h>
-
 #include <random>
+
+#include "fastdds_versions/guid.hpp"
 
 namespace rmw_fastrtps {
 namespace {
-
-namespace fdds = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
 
 enum class Kind : rtps::octet { kUnicast = 'U', kMulticast = 'M' };
 

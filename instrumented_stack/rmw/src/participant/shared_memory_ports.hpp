@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
 
+#include "fastdds_versions/guid.hpp"
+
 namespace rmw_fastrtps {
 
 // Gives a participant random ports in shared memory if `qos` leaves the choice to Fast DDS. Fast DDS chooses the rest
@@ -14,7 +16,7 @@ namespace rmw_fastrtps {
 // unlinks its predecessor's ports and makes new ones. But release 2.9 does not tell processes that have the old memory
 // mapped (its pull request 4728 does). They go on writing there until a watchdog finds that no process reads. This
 // delayed discovery by 3 to 5 s and lost best-effort messages.
-void choose_shared_memory_ports(std::uint32_t domain_id, const eprosima::fastrtps::rtps::GuidPrefix_t& prefix,
+void choose_shared_memory_ports(std::uint32_t domain_id, const rtps::GuidPrefix_t& prefix,
                                 eprosima::fastdds::dds::DomainParticipantQos& qos);
 
 }  // namespace rmw_fastrtps

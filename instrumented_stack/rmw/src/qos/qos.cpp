@@ -6,16 +6,15 @@
 #include <limits>
 #include <stdexcept>
 
+#include "fastdds_versions/discovery_listener.hpp"
+
 namespace rmw_fastrtps {
 namespace {
-
-namespace fdds = eprosima::fastdds::dds;
-using eprosima::fastrtps::Duration_t;
 
 constexpr rmw_time_t kUnspecified = RMW_DURATION_UNSPECIFIED;
 constexpr rmw_time_t kInfinite = RMW_DURATION_INFINITE;
 
-rmw_time_t from_dds(const Duration_t& duration) {
+rmw_time_t from_dds(const DdsDuration& duration) {
   if (duration.is_infinite()) {
     return kInfinite;
   }
@@ -140,13 +139,13 @@ rmw_qos_profile_t profile_from(const Qos& qos) {
 
 }  // namespace
 
-Duration_t to_dds(const rmw_time_t& time) {
+DdsDuration to_dds(const rmw_time_t& time) {
   const rmw_duration_t total = rmw_time_total_nsec(time);
   const rmw_time_t normal = rmw_time_from_nsec(total);
   if (total == std::numeric_limits<rmw_duration_t>::max() || normal.sec > std::numeric_limits<std::int32_t>::max()) {
-    return eprosima::fastrtps::c_TimeInfinite;
+    return kInfiniteDuration;
   }
-  return Duration_t(static_cast<std::int32_t>(normal.sec), static_cast<std::uint32_t>(normal.nsec));
+  return DdsDuration(static_cast<std::int32_t>(normal.sec), static_cast<std::uint32_t>(normal.nsec));
 }
 
 void apply_profile(const rmw_qos_profile_t& profile, fdds::DataWriterQos& qos) {
@@ -161,13 +160,13 @@ rmw_qos_profile_t profile_of(const fdds::DataWriterQos& qos) {
 rmw_qos_profile_t profile_of(const fdds::DataReaderQos& qos) {
   return profile_from(qos);
 }
-rmw_qos_profile_t profile_of(const fdds::WriterQos& qos) {
-  rmw_qos_profile_t profile = profile_from(qos.m_reliability, qos.m_durability, qos.m_liveliness, qos.m_deadline);
-  profile.lifespan = from_dds(qos.m_lifespan.duration);
+rmw_qos_profile_t profile_of(const FoundEndpoint& endpoint) {
+  rmw_qos_profile_t profile =
+      profile_from(endpoint.reliability, endpoint.durability, endpoint.liveliness, endpoint.deadline);
+  if (endpoint.lifespan != nullptr) {
+    profile.lifespan = from_dds(endpoint.lifespan->duration);
+  }
   return profile;
-}
-rmw_qos_profile_t profile_of(const fdds::ReaderQos& qos) {
-  return profile_from(qos.m_reliability, qos.m_durability, qos.m_liveliness, qos.m_deadline);
 }
 
 }  // namespace rmw_fastrtps

@@ -4,20 +4,17 @@
 
 #include <cstdint>
 
+#include "fastdds_versions/names.hpp"
 #include "rmw/types.h"
 
 namespace eprosima::fastdds::dds {
 class DataReaderQos;
 class DataWriterQos;
-class ReaderQos;
-class WriterQos;
 }  // namespace eprosima::fastdds::dds
 
-namespace eprosima::fastrtps {
-struct Time_t;
-}
-
 namespace rmw_fastrtps {
+
+struct FoundEndpoint;
 
 // Sets the policies of `qos` that the profile states; leaves it alone for SYSTEM_DEFAULT and unspecified durations.
 // Throws std::runtime_error for policies that a publisher or subscription cannot be created with.
@@ -29,11 +26,10 @@ rmw_qos_profile_t profile_of(const eprosima::fastdds::dds::DataReaderQos& qos);
 
 // The profile of a discovered endpoint. Two policies are not announced: the history is unknown, a reader's lifespan
 // infinite.
-rmw_qos_profile_t profile_of(const eprosima::fastdds::dds::WriterQos& qos);
-rmw_qos_profile_t profile_of(const eprosima::fastdds::dds::ReaderQos& qos);
+rmw_qos_profile_t profile_of(const FoundEndpoint& endpoint);
 
 // Infinite if Fast DDS cannot express the duration, beyond 68 years.
-eprosima::fastrtps::Time_t to_dds(const rmw_time_t& time);
+DdsDuration to_dds(const rmw_time_t& time);
 
 // What ros2_ext:rmw_publisher_qos and rmw_subscription_qos record of a profile.
 struct TracedQos {

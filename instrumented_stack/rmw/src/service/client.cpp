@@ -6,6 +6,7 @@
 
 #include "context/context_impl.hpp"
 #include "context/node.hpp"
+#include "fastdds_versions/writer.hpp"
 #include "participant/participant.hpp"
 #include "process/end_of_process.hpp"
 #include "rmw/error_handling.h"
@@ -15,8 +16,8 @@
 #include "types/identifier.hpp"
 #include "types/message_type.hpp"
 
-namespace fdds = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
+namespace fdds = rmw_fastrtps::fdds;
+namespace rtps = rmw_fastrtps::rtps;
 
 using rmw_fastrtps::IncomingMessage;
 using rmw_fastrtps::kIdentifier;
@@ -97,7 +98,7 @@ rmw_ret_t rmw_send_request(const rmw_client_t* client, const void* ros_request, 
   params.related_sample_identity().writer_guid() = owned.reader->guid();
   OutgoingMessage outgoing{ros_request, nullptr};
   ++owned.unanswered;
-  if (!owned.writer->write(&outgoing, params)) {
+  if (!rmw_fastrtps::write_sample(*owned.writer, &outgoing, params)) {
     --owned.unanswered;
     RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("a request to service '%s' cannot be written", client->service_name);
     return RMW_RET_ERROR;

@@ -8,6 +8,7 @@
 
 #include "context/context_impl.hpp"
 #include "context/node.hpp"
+#include "fastdds_versions/writer.hpp"
 #include "faults/publish_faults.hpp"
 #include "faults/take_faults.hpp"
 #include "process/end_of_process.hpp"
@@ -19,8 +20,8 @@
 #include "types/identifier.hpp"
 #include "types/message_type.hpp"
 
-namespace fdds = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
+namespace fdds = rmw_fastrtps::fdds;
+namespace rtps = rmw_fastrtps::rtps;
 
 using rmw_fastrtps::IncomingMessage;
 using rmw_fastrtps::kIdentifier;
@@ -88,7 +89,7 @@ bool write(Service& service, OutgoingMessage outgoing, rtps::WriteParams params)
   if (rmw_fastrtps::process_ends()) {
     return true;  // the client has been told that this participant is gone
   }
-  return service.response_faults == nullptr ? service.writer->write(&outgoing, params)
+  return service.response_faults == nullptr ? rmw_fastrtps::write_sample(*service.writer, &outgoing, params)
                                             : service.response_faults->write(outgoing, params);
 }
 

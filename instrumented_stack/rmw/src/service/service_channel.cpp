@@ -11,6 +11,7 @@
 
 #include "context/context_impl.hpp"
 #include "context/node.hpp"
+#include "fastdds_versions/writer.hpp"
 #include "names/topic_name.hpp"
 #include "participant/participant.hpp"
 #include "process/end_of_process.hpp"
@@ -24,11 +25,8 @@
 namespace rmw_fastrtps {
 namespace {
 
-namespace fdds = eprosima::fastdds::dds;
-using eprosima::fastrtps::Duration_t;
-
 // What was sent is asked about after this time, and resent if it was lost. Fast DDS would wait 3 s.
-const Duration_t kHeartbeatPeriod{0, 50'000'000};
+const DdsDuration kHeartbeatPeriod{0, 50'000'000};
 
 const service_type_support_callbacks_t& service_callbacks_of(const rosidl_service_type_support_t& type_support) {
   const auto* found = rosidl_typesupport_fastrtps_cpp::find_callbacks(&type_support);
@@ -112,8 +110,7 @@ void ServiceChannel::open_writer(const std::string& topic_name, const message_ty
                                  const rmw_qos_profile_t& profile) {
   fdds::DataWriterQos qos = participant_->writer_qos(topic_name, type);
   apply_profile(profile, qos);
-  auto& times = qos.reliable_writer_qos().times;
-  times.heartbeatPeriod = std::min(times.heartbeatPeriod, kHeartbeatPeriod);
+  heartbeat_period(qos) = std::min(heartbeat_period(qos), kHeartbeatPeriod);
   writer_type = &type;
   writer_topic_ = &participant_->acquire_topic(topic_name, type);
   writer =

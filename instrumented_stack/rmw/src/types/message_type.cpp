@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "types/message_type.hpp"
 
-#include <fastcdr/Cdr.h>
 #include <fastcdr/exceptions/Exception.h>
 
 #include <cstring>
 #include <stdexcept>
 
+#include "fastcdr_versions/cdr.hpp"
 #include "rmw/error_handling.h"
 #include "rmw/rmw.h"
 #include "rosidl_typesupport_fastrtps_cpp/find_callbacks.hpp"
@@ -16,7 +16,6 @@ namespace {
 
 using eprosima::fastcdr::Cdr;
 using eprosima::fastcdr::FastBuffer;
-using eprosima::fastrtps::rtps::SerializedPayload_t;
 
 constexpr std::uint32_t kEncapsulationSize = 4;
 
@@ -24,20 +23,20 @@ constexpr std::uint32_t kEncapsulationSize = 4;
 [[gnu::hot]] std::uint32_t to_cdr(const message_type_support_callbacks_t& callbacks, const void* message, void* buffer,
                                   std::size_t capacity) {
   FastBuffer memory(static_cast<char*>(buffer), capacity);
-  Cdr cdr(memory, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
+  Cdr cdr = fastcdr_versions::plain_cdr(memory);
   try {
     cdr.serialize_encapsulation();
   } catch (const eprosima::fastcdr::exception::Exception&) {
     return 0;
   }
-  return callbacks.cdr_serialize(message, cdr) ? static_cast<std::uint32_t>(cdr.getSerializedDataLength()) : 0;
+  return callbacks.cdr_serialize(message, cdr) ? static_cast<std::uint32_t>(fastcdr_versions::written_size(cdr)) : 0;
 }
 
 [[gnu::hot]] bool from_cdr(const message_type_support_callbacks_t& callbacks, const void* buffer, std::size_t length,
                            void* message) {
   // Fast CDR has one buffer type for both directions. Reading does not write to it.
   FastBuffer memory(static_cast<char*>(const_cast<void*>(buffer)), length);
-  Cdr cdr(memory, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
+  Cdr cdr = fastcdr_versions::plain_cdr(memory);
   try {
     cdr.read_encapsulation();
   } catch (const eprosima::fastcdr::exception::Exception&) {
@@ -57,50 +56,53 @@ bool assign(rmw_serialized_message_t& target, const void* bytes, std::size_t len
 
 }  // namespace
 
-MessageType::MessageType(const message_type_support_callbacks_t& callbacks) : callbacks_(callbacks) {
-  setName(dds_type_name(callbacks).c_str());
+MessageType::Layout::Layout(const message_type_support_callbacks_t& callbacks) {
   char bounds = 0;
   const std::size_t size = callbacks.max_serialized_size(bounds);
-  is_bounded_ = bounds != ROSIDL_TYPESUPPORT_FASTRTPS_UNBOUNDED_TYPE;
-  is_plain_ = bounds == ROSIDL_TYPESUPPORT_FASTRTPS_PLAIN_TYPE;
+  is_bounded = bounds != ROSIDL_TYPESUPPORT_FASTRTPS_UNBOUNDED_TYPE;
+  is_plain = bounds == ROSIDL_TYPESUPPORT_FASTRTPS_PLAIN_TYPE;
   // Submessages of RTPS are aligned to four bytes. A plain message in memory may end with padding.
-  const std::uint32_t alignment = is_plain_ ? 8 : 4;
+  const std::uint32_t alignment = is_plain ? 8 : 4;
   const std::uint32_t rounded = (static_cast<std::uint32_t>(size) + alignment - 1) / alignment * alignment;
-  m_typeSize = kEncapsulationSize + rounded;
+  largest_size = kEncapsulationSize + rounded;
 }
 
-[[gnu::hot]] bool MessageType::serialize(void* data, SerializedPayload_t* payload) {
+MessageType::MessageType(const message_type_support_callbacks_t& callbacks)
+    : MessageType(callbacks, Layout(callbacks)) {}
+
+MessageType::MessageType(const message_type_support_callbacks_t& callbacks, const Layout& layout)
+    : TopicTypeOf(dds_type_name(callbacks), layout.largest_size), callbacks_(callbacks), layout_(layout) {}
+
+[[gnu::hot]] bool MessageType::write(const void* data, rtps::SerializedPayload_t& payload) const {
   const auto& outgoing = *static_cast<const OutgoingMessage*>(data);
-  payload->encapsulation = CDR_LE;
+  payload.encapsulation = CDR_LE;
   if (outgoing.serialized != nullptr) {
-    if (outgoing.serialized->buffer_length > payload->max_size) {
+    if (outgoing.serialized->buffer_length > payload.max_size) {
       return false;
     }
-    payload->length = static_cast<std::uint32_t>(outgoing.serialized->buffer_length);
-    std::memcpy(payload->data, outgoing.serialized->buffer, payload->length);
+    payload.length = static_cast<std::uint32_t>(outgoing.serialized->buffer_length);
+    std::memcpy(payload.data, outgoing.serialized->buffer, payload.length);
     return true;
   }
-  payload->length = to_cdr(callbacks_, outgoing.message, payload->data, payload->max_size);
-  return payload->length != 0;
+  payload.length = to_cdr(callbacks_, outgoing.message, payload.data, payload.max_size);
+  return payload.length != 0;
 }
 
-[[gnu::hot]] bool MessageType::deserialize(SerializedPayload_t* payload, void* data) {
+[[gnu::hot]] bool MessageType::read(const rtps::SerializedPayload_t& payload, void* data) const {
   const auto& incoming = *static_cast<const IncomingMessage*>(data);
   if (incoming.serialized != nullptr) {
-    return assign(*incoming.serialized, payload->data, payload->length);
+    return assign(*incoming.serialized, payload.data, payload.length);
   }
-  return from_cdr(callbacks_, payload->data, payload->length, incoming.message);
+  return from_cdr(callbacks_, payload.data, payload.length, incoming.message);
 }
 
-[[gnu::hot]] std::function<uint32_t()> MessageType::getSerializedSizeProvider(void* data) {
-  // Two pointers fit into a std::function without allocation.
-  const auto* outgoing = static_cast<const OutgoingMessage*>(data);
-  return [this, outgoing] {
-    if (outgoing->serialized != nullptr) {
-      return static_cast<uint32_t>(outgoing->serialized->buffer_length);
-    }
-    return is_bounded_ ? m_typeSize : kEncapsulationSize + callbacks_.get_serialized_size(outgoing->message);
-  };
+[[gnu::hot]] std::uint32_t MessageType::size_of(const void* data) const {
+  const auto& outgoing = *static_cast<const OutgoingMessage*>(data);
+  if (outgoing.serialized != nullptr) {
+    return static_cast<std::uint32_t>(outgoing.serialized->buffer_length);
+  }
+  return layout_.is_bounded ? layout_.largest_size
+                            : kEncapsulationSize + callbacks_.get_serialized_size(outgoing.message);
 }
 
 std::vector<std::uint8_t> to_bytes(const message_type_support_callbacks_t& callbacks, const OutgoingMessage& message) {

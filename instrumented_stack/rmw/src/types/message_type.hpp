@@ -3,10 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <fastdds/dds/topic/TopicDataType.hpp>
 #include <string>
 #include <vector>
 
+#include "fastdds_versions/topic_type.hpp"
 #include "rmw/serialized_message.h"
 #include "rosidl_runtime_c/message_type_support_struct.h"
 #include "rosidl_typesupport_fastrtps_cpp/message_type_support.h"
@@ -25,29 +25,31 @@ struct IncomingMessage {
   rmw_serialized_message_t* serialized = nullptr;
 };
 
-class MessageType final : public eprosima::fastdds::dds::TopicDataType {
+class MessageType final : public TopicTypeOf<MessageType> {
  public:
   explicit MessageType(const message_type_support_callbacks_t& callbacks);
 
-  bool serialize(void* data, eprosima::fastrtps::rtps::SerializedPayload_t* payload) override;
-  bool deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* payload, void* data) override;
-  std::function<uint32_t()> getSerializedSizeProvider(void* data) override;
-  bool is_bounded() const override { return is_bounded_; }
-  // Whether messages can be created in the memory that they are sent from. A write may then take such a message as
-  // `data`.
-  bool is_plain() const override { return is_plain_; }
+  bool write(const void* data, rtps::SerializedPayload_t& payload) const;
+  bool read(const rtps::SerializedPayload_t& payload, void* data) const;
+  std::uint32_t size_of(const void* data) const;
 
-  // Fast DDS never creates samples: takes always bring their own memory.
-  void* createData() override { return nullptr; }
-  void deleteData(void*) override {}
-
-  // ROS topics have no keys.
-  bool getKey(void*, eprosima::fastrtps::rtps::InstanceHandle_t*, bool) override { return false; }
+  bool is_bounded() const override { return layout_.is_bounded; }
 
  private:
+  struct Layout {
+    explicit Layout(const message_type_support_callbacks_t& callbacks);
+
+    bool is_bounded = false;
+    bool is_plain = false;
+    std::uint32_t largest_size = 0;  // with the encapsulation header
+  };
+
+  MessageType(const message_type_support_callbacks_t& callbacks, const Layout& layout);
+
+  bool has_plain_memory() const override { return layout_.is_plain; }
+
   const message_type_support_callbacks_t& callbacks_;
-  bool is_bounded_ = false;
-  bool is_plain_ = false;
+  const Layout layout_;
 };
 
 // The bytes of a message, with the encapsulation header; empty if it cannot be serialized.

@@ -10,6 +10,7 @@
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <optional>
 
+#include "fastdds_versions/names.hpp"
 #include "process/end_of_process.hpp"
 #include "wait/ready_callback.hpp"
 #include "wait/waitable.hpp"
@@ -46,7 +47,7 @@ class DataReaderWaitable : public eprosima::fastdds::dds::DataReaderListener, pu
       return false;
     }
     eprosima::fastdds::dds::SampleInfo info;
-    if (reader->get_first_untaken_info(&info) == ReturnCode_t::RETCODE_OK) {
+    if (reader->get_first_untaken_info(&info) == return_code::kOk) {
       return true;
     }
     settle(arrivals);
@@ -109,13 +110,13 @@ class DataReaderWaitable : public eprosima::fastdds::dds::DataReaderListener, pu
     }
     on_new_data_.about_to_take();
     const std::uint64_t arrivals = arrivals_.load(std::memory_order_acquire);
-    const ReturnCode_t result = take_from_reader();
-    if (result == ReturnCode_t::RETCODE_NO_DATA) {
+    const ReturnCode result = take_from_reader();
+    if (result == return_code::kNoData) {
       settle(arrivals);
     } else {
       is_taken_from_.store(true, std::memory_order_release);
     }
-    return result == ReturnCode_t::RETCODE_OK;
+    return result == return_code::kOk;
   }
 
   // Nothing can be taken of what had arrived.

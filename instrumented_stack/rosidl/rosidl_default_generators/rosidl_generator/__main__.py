@@ -11,11 +11,13 @@ import argparse
 import json
 import os
 import sys
+from importlib.machinery import ModuleSpec
 
 if __package__ in (None, ''):
     # The program is run by its path, but the modules import each other as parts of a package.
     sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
     __package__ = 'rosidl_generator'
+    __spec__ = ModuleSpec('rosidl_generator.__main__', None)  # Python 3.13 warns if the two differ
 
 from . import c_headers, c_source, cpp_builder, cpp_source, cpp_struct, cpp_traits, type_hash  # noqa: E402
 from .idl_parser import parse_idl  # noqa: E402

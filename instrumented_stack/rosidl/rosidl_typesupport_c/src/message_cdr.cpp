@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "element.hpp"
+#include "fastcdr_versions/cdr.hpp"
 #include "rosidl_runtime_c/string_functions.h"
 #include "rosidl_runtime_c/u16string_functions.h"
 #include "rosidl_typesupport_c/type_support.hpp"
@@ -42,8 +43,9 @@ void write_elements(const Element& element, const void* elements, std::size_t co
     return;
   }
   if (element.is_primitive()) {
-    with_number_type(element.size,
-                     [&](auto number) { cdr.serializeArray(static_cast<const decltype(number)*>(elements), count); });
+    with_number_type(element.size, [&](auto number) {
+      fastcdr_versions::write_array(cdr, static_cast<const decltype(number)*>(elements), count);
+    });
     return;
   }
   for (std::size_t i = 0; i < count; ++i) {
@@ -54,7 +56,7 @@ void write_elements(const Element& element, const void* elements, std::size_t co
         throw std::invalid_argument("a string does not end with a NUL");
       }
       cdr.serialize(static_cast<std::uint32_t>(text.size + 1));
-      cdr.serializeArray(text.data, text.size + 1);
+      fastcdr_versions::write_array(cdr, text.data, text.size + 1);
     } else if (element.kind == Element::kWideString) {
       const auto& text = *static_cast<const rosidl_runtime_c__U16String*>(one);
       cdr.serialize(static_cast<std::uint32_t>(text.size));
@@ -109,8 +111,9 @@ void read_elements(const Element& element, Cdr& cdr, void* elements, std::size_t
     return;
   }
   if (element.is_primitive()) {
-    with_number_type(element.size,
-                     [&](auto number) { cdr.deserializeArray(static_cast<decltype(number)*>(elements), count); });
+    with_number_type(element.size, [&](auto number) {
+      fastcdr_versions::read_array(cdr, static_cast<decltype(number)*>(elements), count);
+    });
     return;
   }
   for (std::size_t i = 0; i < count; ++i) {
@@ -120,7 +123,7 @@ void read_elements(const Element& element, Cdr& cdr, void* elements, std::size_t
       const std::size_t length = read_length(cdr, 1);
       check_memory(rosidl_runtime_c__String__resize(&text, length));
       if (length != 0) {
-        cdr.deserializeArray(text.data, length);
+        fastcdr_versions::read_array(cdr, text.data, length);
         // Some writers do not count the final NUL.
         text.size -= text.data[length - 1] == '\0' ? 1 : 0;
       }

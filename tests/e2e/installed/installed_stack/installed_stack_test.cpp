@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "tests/support/command.hpp"
@@ -161,7 +162,7 @@ TEST_F(InstalledStack, FindsItsLibrariesWhereItWasMovedTo) {
 // ldd lists libraries in the order in which the dynamic linker searches them.
 TEST_F(InstalledStack, SearchesFastDdsBeforeItsOwnLibraries) {
   const std::string libraries = run({"ldd", (prefix_ / "lib/librclcpp.so").string()}).out;
-  const std::size_t fast_dds = libraries.find("libfastrtps.so");
+  const std::size_t fast_dds = std::min(libraries.find("libfastrtps.so"), libraries.find("libfastdds.so"));
   ASSERT_NE(fast_dds, std::string::npos) << libraries;
   EXPECT_LT(fast_dds, libraries.find("librcl.so")) << libraries;
   EXPECT_LT(fast_dds, libraries.find("libtype_description_interfaces.so")) << libraries;

@@ -77,8 +77,9 @@ TEST_F(Workspace, IsBuiltTestedAndSourced) {
   // The libraries of another ROS 2, with the same names and nothing in them.
   const fs::path other = sandbox_.directory() / "other_ros2/lib";
   fs::create_directories(other);
-  for (const char* name : {"libtracetools.so", "librcutils.so", "librmw.so", "librcl.so", "librclcpp.so",
-                           "libstd_msgs.so", "librcl_interfaces.so", "libfastcdr.so.1", "libfastrtps.so.2.9"}) {
+  for (const char* name :
+       {"libtracetools.so", "librcutils.so", "librmw.so", "librcl.so", "librclcpp.so", "libstd_msgs.so",
+        "librcl_interfaces.so", "libfastcdr.so.1", "libfastcdr.so.2", "libfastrtps.so.2.9", "libfastdds.so.3.1"}) {
     const CommandResult made = run_command({COMPILER, "-shared", "-x", "c++", "/dev/null", "-o",
                                             (other / name).string(), std::string("-Wl,-soname,") + name});
     ASSERT_EQ(made.exit_code, 0) << made.err;

@@ -40,7 +40,7 @@ enum class Layer { kStack, kFastDds, kRuntime };
 
 Layer layer_of(std::string_view object) {
   const std::string_view name = object.substr(object.rfind('/') + 1);
-  if (name.starts_with("libfastrtps") || name.starts_with("libfastcdr")) {
+  if (name.starts_with("libfastrtps") || name.starts_with("libfastdds") || name.starts_with("libfastcdr")) {
     return Layer::kFastDds;
   }
   if (name.starts_with("libc.") || name.starts_with("libstdc++") || name.starts_with("libm.")) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <fastcdr/Cdr.h>
-
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "fastcdr_versions/cdr.hpp"
 #include "rosidl_runtime_cpp/bounded_vector.hpp"
 #include "rosidl_typesupport_fastrtps_cpp/cdr_codec.hpp"
 
@@ -51,7 +50,7 @@ void cdr_write(eprosima::fastcdr::Cdr& cdr, const T& value) {
   } else if constexpr (std::is_same_v<T, std::string>) {
     // Fast CDR's function for strings is not used, because it stops at an embedded NUL.
     cdr.serialize(static_cast<uint32_t>(value.size() + 1));
-    cdr.serializeArray(value.c_str(), value.size() + 1);
+    fastcdr_versions::write_array(cdr, value.c_str(), value.size() + 1);
   } else if constexpr (std::is_same_v<T, std::u16string>) {
     cdr.serialize(static_cast<uint32_t>(value.size()));
     for (const char16_t unit : value) {
@@ -64,7 +63,7 @@ void cdr_write(eprosima::fastcdr::Cdr& cdr, const T& value) {
     }
     if constexpr (is_block_of_primitives<Element>) {
       if (!value.empty()) {
-        cdr.serializeArray(value.data(), value.size());
+        fastcdr_versions::write_array(cdr, value.data(), value.size());
       }
     } else {
       for (std::size_t i = 0; i < value.size(); ++i) {
@@ -81,10 +80,7 @@ void cdr_write(eprosima::fastcdr::Cdr& cdr, const T& value) {
 inline std::size_t read_length(eprosima::fastcdr::Cdr& cdr, std::size_t least_element_size) {
   uint32_t length = 0;
   cdr.deserialize(length);
-  eprosima::fastcdr::Cdr::state begin = cdr.getState();
-  const bool enough = cdr.jump(length * least_element_size);
-  cdr.setState(begin);
-  if (!enough) {
+  if (!fastcdr_versions::has_left(cdr, length * least_element_size)) {
     throw std::length_error("a length in the message goes beyond the message");
   }
   return length;
@@ -113,7 +109,7 @@ void cdr_read(eprosima::fastcdr::Cdr& cdr, T& value) {
     const std::size_t length = read_length(cdr, 1);
     value.resize(length);
     if (length != 0) {
-      cdr.deserializeArray(value.data(), length);
+      fastcdr_versions::read_array(cdr, value.data(), length);
       // Some writers do not count the final NUL.
       if (value.back() == '\0') {
         value.pop_back();
@@ -133,7 +129,7 @@ void cdr_read(eprosima::fastcdr::Cdr& cdr, T& value) {
     }
     if constexpr (is_block_of_primitives<Element>) {
       if (!value.empty()) {
-        cdr.deserializeArray(value.data(), value.size());
+        fastcdr_versions::read_array(cdr, value.data(), value.size());
       }
     } else if constexpr (std::is_same_v<Element, bool>) {
       for (std::size_t i = 0; i < value.size(); ++i) {

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "types/dds_type_object.hpp"
+#include "fastdds_versions/names.hpp"
+#include "fastdds_versions/type_object.hpp"
+
+#if RMW_FASTDDS_MAJOR < 3
 
 #include <fastrtps/types/DynamicTypeBuilder.h>
 #include <fastrtps/types/DynamicTypeBuilderFactory.h>
@@ -11,7 +14,7 @@
 #include <limits>
 #include <mutex>
 #include <stdexcept>
-#include <string_view>
+#include <string>
 
 namespace types = eprosima::fastrtps::types;
 
@@ -19,39 +22,8 @@ namespace rmw_fastrtps {
 
 namespace {
 
-// A type_id of type_description_interfaces/msg/FieldType is one of these, plus an offset for arrays and sequences.
-enum Element : unsigned {
-  kNested = 1,
-  kInt8,
-  kUint8,
-  kInt16,
-  kUint16,
-  kInt32,
-  kUint32,
-  kInt64,
-  kUint64,
-  kFloat,
-  kDouble,
-  kBoolean = 15,
-  kByte,
-  kString,
-  kWstring,
-  kBoundedString = 21,
-  kBoundedWstring,
-};
-enum Many : unsigned { kOne, kArray, kBoundedSequence, kUnboundedSequence };
-constexpr unsigned kManyFactor = 48;
-
 // 0 would mean Fast DDS's own small defaults.
 constexpr std::uint32_t kUnbounded = std::numeric_limits<std::int32_t>::max();
-
-// std_msgs/msg/Header → std_msgs::msg::dds_::Header_
-std::string dds_name(std::string_view type_name) {
-  const std::size_t first = type_name.find('/');
-  const std::size_t last = type_name.rfind('/');
-  return std::string(type_name.substr(0, first)) + "::" + std::string(type_name.substr(first + 1, last - first - 1)) +
-         "::dds_::" + std::string(type_name.substr(last + 1)) + "_";
-}
 
 types::DynamicType_ptr struct_of(const rosidl_type_description_t& description);
 
@@ -155,3 +127,5 @@ void register_type_object(const rosidl_type_description_t& description) {
 }
 
 }  // namespace rmw_fastrtps
+
+#endif
