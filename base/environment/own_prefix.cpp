@@ -17,4 +17,18 @@ std::string own_library_file(std::string_view name) {
   return own_prefix().append("/lib/launch/").append(name);
 }
 
+std::string needs_missing_file(std::string_view name) {
+  std::string text = "needs ";
+  text.append(name).append(", which is not in ").append(own_prefix()).append("/lib/launch");
+  // The parts of a build that it may be without (cmake/Parts.cmake).
+  if (name.starts_with("launch-ros-")) {
+    text += ": this installation has been built without the stack";
+  } else if (name == "launch-test") {
+    text += ": this installation has been built without tests in launch files";
+  } else if (name == "launch-trace-probe") {
+    text += ": this installation has been built without tracepoints";
+  }
+  return text;
+}
+
 }  // namespace launch

@@ -20,4 +20,8 @@ std::string own_prefix();
 // The function does not check that the file exists.
 std::string own_library_file(std::string_view name);
 
+// For an error that begins with who needs the file: "needs launch-test, which is not in /usr/lib/launch: this
+// installation has been built without tests in launch files".
+std::string needs_missing_file(std::string_view name);
+
 }  // namespace launch

@@ -21,6 +21,8 @@ namespace launch {
 
 namespace {
 
+constexpr const char* kProgram = "launch-ros-client";
+
 constexpr std::chrono::milliseconds kEndLimit{1000};
 // Time between tries to write to a client that doesn't read.
 constexpr std::chrono::milliseconds kWriteRetry{10};
@@ -114,7 +116,7 @@ RosClientProcess::Connection::Connection(EventLoop& loop, const std::string& pro
   variables["TRACETOOLS_RUNTIME_DISABLE"] = "1";  // the launcher's own messages are no part of a trace
   ChildProgram child{
       .program = program,
-      .argv = {"launch-ros-client", fmt::format("launch_ros_{}", ::getpid())},
+      .argv = {kProgram, fmt::format("launch_ros_{}", ::getpid())},
       .environment = &variables,
       .descriptors = {{STDIN_FILENO, other.get()}, {STDOUT_FILENO, kDevNull}},
       .group = ChildGroup::kOwnSession,
@@ -249,7 +251,8 @@ EventLoop::SourcePtr RosClientProcess::ask(const RosRequest& request, const Envi
   } catch (const std::system_error& error) {
     RosAnswer lost;
     lost.client_lost = true;
-    lost.error = error.what();
+    const bool is_missing = error.code() == std::errc::no_such_file_or_directory && program_ == default_program();
+    lost.error = is_missing ? "a request to a node " + needs_missing_file(kProgram) : error.what();
     return loop_.after(Duration(0), [done = std::move(done), lost = std::move(lost)] { done(lost); });
   }
   const RosRequestId id = found->second->send(request, timeout, std::move(done));
@@ -263,7 +266,7 @@ void RosClientProcess::close() {
 }
 
 std::string RosClientProcess::default_program() {
-  return own_library_file("launch-ros-client");
+  return own_library_file(kProgram);
 }
 
 }  // namespace launch

@@ -49,7 +49,9 @@ int become(const Command& command, const Words& words) {
   }
   argv.push_back(nullptr);
   ::execv(program.c_str(), argv.data());
-  fmt::print(stderr, "{}", command_error(named.front(), fmt::format("can't run {}: {}", program, ::strerror(errno))));
+  const std::string why = errno == ENOENT ? needs_missing_file(command.program)
+                                          : fmt::format("can't run {}: {}", program, ::strerror(errno));
+  fmt::print(stderr, "{}", command_error(name_with_launch(command), why));
   return 1;
 }
 
@@ -74,8 +76,10 @@ Words option_words(const Command& command, const Words& words) {
 }
 
 Words candidates(const Words& words) {
-  const Command& found = find_command({words.begin(), words.end() - 1});
-  const Command& command = found.hidden ? find_command({}) : found;
+  const Words before(words.begin(), words.end() - 1);
+  const Words none;
+  const Command& found = find_command(before);
+  const Command& command = found.hidden ? find_command(none) : found;
   if (!command.completes_options) {
     const Words of_options = option_words(command, words);
     if (!of_options.empty() || words.back().starts_with('-')) {

@@ -102,7 +102,8 @@ class Completer {
 }  // namespace
 
 Words launch_file_words(const Words& words) {
-  const Command& command = find_command({words.begin(), words.end() - 1});
+  const Words before(words.begin(), words.end() - 1);
+  const Command& command = find_command(before);
   const bool has_command = *command.name != 0 && !command.hidden;
   return Completer().candidates({words.begin() + (has_command ? 1 : 0), words.end()});
 }

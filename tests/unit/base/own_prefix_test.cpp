@@ -18,5 +18,16 @@ TEST(OwnPrefix, HasAFolderForFilesThatNobodyStartsByHand) {
   EXPECT_EQ(own_library_file("launch-guardian"), own_prefix() + "/lib/launch/launch-guardian");
 }
 
+TEST(OwnPrefix, NamesThePartThatIsMissing) {
+  EXPECT_EQ(needs_missing_file("launch-ros-client"),
+            "needs launch-ros-client, which is not in " + own_prefix() +
+                "/lib/launch: this installation has been built without the stack");
+  EXPECT_EQ(needs_missing_file("launch-test"),
+            "needs launch-test, which is not in " + own_prefix() +
+                "/lib/launch: this installation has been built without tests in launch files");
+  EXPECT_EQ(needs_missing_file("launch-report"),
+            "needs launch-report, which is not in " + own_prefix() + "/lib/launch");
+}
+
 }  // namespace
 }  // namespace launch

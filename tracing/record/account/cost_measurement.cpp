@@ -81,7 +81,9 @@ std::vector<std::string> sorted(std::vector<std::string> names) {
 EventCost calibrate(const std::vector<std::string>& context_fields) {
   const std::optional<fs::path> probe = installed_program(kProbe);
   if (!probe) {
-    throw TraceError("cannot measure the cost of events: launch-trace-probe is not installed");
+    throw TraceError(
+        "cannot measure the cost of events: launch-trace-probe is not installed, because this installation has been "
+        "built without tracepoints");
   }
   ensure_session_daemon();
   const CalibrationSession session(context_fields);

@@ -15,7 +15,8 @@
 #include <fastdds/rtps/common/Guid.h>
 #include <fastdds/rtps/common/InstanceHandle.h>
 #include <fastdds/rtps/common/Locator.h>
-#include <fastdds/rtps/common/LocatorList.hpp>
 #include <fastdds/rtps/common/WriteParams.h>
 #include <fastrtps/utils/IPLocator.h>
+
+#include <fastdds/rtps/common/LocatorList.hpp>
 #endif

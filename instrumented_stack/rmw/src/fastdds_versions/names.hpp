@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The names of Fast DDS 2 (from 2.9 on) and 3: one header for both, so that nothing else asks for the version.
 //
-// This room holds all that differs between the versions. A file here is a header of a few types, or two sources of which
-// one is empty. Whoever includes a header of Fast DDS 2 elsewhere (fastrtps/…) does not compile with 3.
+// This room holds all that differs between the versions. A file here is a header of a few types, or two sources of
+// which one is empty. Whoever includes a header of Fast DDS 2 elsewhere (fastrtps/…) does not compile with 3.
 #pragma once
 
 #if __has_include(<fastdds/config.hpp>)

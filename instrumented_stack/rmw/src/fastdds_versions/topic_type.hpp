@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A type without keys, as Fast DDS wants to know it. Version 2 passes pointers, asks for a function that tells the size,
-// and has a member with the largest size. Version 3 passes references and the representation, which is plain CDR.
+// A type without keys, as Fast DDS wants to know it. Version 2 passes pointers, asks for a function that tells the
+// size, and has a member with the largest size. Version 3 passes references and the representation, which is plain CDR.
 #pragma once
 
 #include <cstdint>
