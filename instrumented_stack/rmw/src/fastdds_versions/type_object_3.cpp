@@ -128,9 +128,17 @@ void register_type_object(const rosidl_type_description_t& description) {
   if (registered.count(name) != 0) {
     return;
   }
-  fdds::xtypes::TypeIdentifierPair identifiers;
+  namespace xtypes = fdds::xtypes;
+  xtypes::TypeIdentifierPair identifiers;
   auto& registry = fdds::DomainParticipantFactory::get_instance()->type_object_registry();
-  if (registry.register_typeobject_w_dynamic_type(struct_of(description), identifiers) != return_code::kOk) {
+  bool is_known = registry.register_typeobject_w_dynamic_type(struct_of(description), identifiers) == return_code::kOk;
+  // That registers the type without its name.
+  const bool first_is_complete = identifiers.type_identifier1()._d() == xtypes::EK_COMPLETE;
+  xtypes::TypeObject object;
+  is_known = is_known && registry.get_type_object(
+                             first_is_complete ? identifiers.type_identifier1() : identifiers.type_identifier2(),
+                             object) == return_code::kOk;
+  if (!is_known || registry.register_type_object(name, object.complete(), identifiers) != return_code::kOk) {
     throw std::runtime_error("Fast DDS cannot describe type '" + name + "'");
   }
   registered.insert(name);
