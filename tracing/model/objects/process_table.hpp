@@ -108,7 +108,7 @@ class ProcessTable {
     auto operator<=>(const Context&) const = default;
   };
   std::map<Context, ProcessId> by_context_;
-  std::vector<bool> is_shared_;  // by process: several sessions have it; may be shorter
+  std::vector<bool> is_shared_;   // by process: several sessions have it; may be shorter
   bool is_newly_shared_ = false;  // by the last event
   RepeatedEvents copies_;
 
