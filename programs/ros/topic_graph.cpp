@@ -10,6 +10,7 @@
 #include <map>
 
 #include "base/diagnostics/diagnostic.hpp"
+#include "programs/ros/graph_names.hpp"
 
 namespace launch {
 
