@@ -195,12 +195,11 @@ TEST_F(LaunchTraceRead, SaysThatTheOutputCannotBeWritten) {
     const CommandResult full = test_support::run_command({"sh", "-c", command + option + " > /dev/full"});
     EXPECT_EQ(full.exit_code, 1) << option;
     EXPECT_EQ(full.err, "launch trace read: error: cannot write the output: No space left on device\n") << option;
-    // The writer starts when the reader of the pipe has closed it.
-    const CommandResult closed =
-        test_support::run_command({.argv = {"sh", "-c",
-                                            "rm -f closed; mkfifo closed; { read line < closed; " + command + option +
-                                                "; echo $? >&2; } | { exec <&-; echo > closed; }"},
-                                   .directory = path()});
+    // The writer starts when the only reader has ended: a shell may hold the other end of a `|` for a moment longer.
+    const CommandResult closed = test_support::run_command(
+        {.argv = {"sh", "-c",
+                  "rm -f out; mkfifo out; : < out & exec 4> out; wait; " + command + option + " >&4; echo $? >&2"},
+         .directory = path()});
     EXPECT_EQ(closed.err, "1\n") << option;
     const CommandResult mute = test_support::run_command({"sh", "-c", command + option + " > /dev/full 2>&-"});
     EXPECT_EQ(mute.exit_code, 1) << option;
