@@ -76,9 +76,9 @@ int check_lttng(int result, const std::string& doing) {
   if (result >= 0) {
     return result;
   }
-  const bool unanswered = AnswerLimit::was_unanswered();
+  const bool gave_up = AnswerLimit::was_unanswered();
   const TraceError error = lttng_error(result, doing);
-  if (unanswered) {
+  if (gave_up) {
     throw TraceError(error);
   }
   if (result == -LTTNG_ERR_FATAL || result == -LTTNG_ERR_NO_USTCONSUMERD) {

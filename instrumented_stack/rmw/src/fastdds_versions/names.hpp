@@ -19,6 +19,7 @@
 #include <fastdds/dds/core/ReturnCode.hpp>
 #include <fastdds/dds/core/Time_t.hpp>
 #else
+#include <fastdds/rtps/common/Locator.h>
 #include <fastdds/rtps/common/Time_t.h>
 #include <fastrtps/types/TypesBase.h>
 #endif
@@ -49,10 +50,13 @@ inline constexpr auto kTimeout = fdds::RETCODE_TIMEOUT;
 
 #else
 
-// Types of the wire are in one namespace, those of transports in the other.
+// Types of the wire are in one namespace, those of transports in the other. Clang asks for a choice where one names a
+// class and the other an alias of it.
 namespace rtps {
 using namespace eprosima::fastdds::rtps;
 using namespace eprosima::fastrtps::rtps;
+using eprosima::fastdds::rtps::Locators;
+using eprosima::fastdds::rtps::LocatorsIterator;
 }  // namespace rtps
 
 using DdsDuration = eprosima::fastrtps::Duration_t;
