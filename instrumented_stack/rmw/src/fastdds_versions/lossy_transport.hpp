@@ -10,4 +10,8 @@
 #else
 #include <fastdds/rtps/common/CDRMessage_t.h>
 #include <fastrtps/transport/test_UDPv4TransportDescriptor.h>
+
+namespace rmw_fastrtps::rtps {
+using eprosima::fastdds::rtps::test_UDPv4TransportDescriptor;
+}  // namespace rmw_fastrtps::rtps
 #endif
