@@ -7,18 +7,15 @@
 
 #include <algorithm>
 #include <charconv>
-#include <functional>
 
+#include "actions/trace/event_rules.hpp"
 #include "base/diagnostics/diagnostic.hpp"
 #include "tracing/record/plan/event_classes.hpp"
-#include "tracing/record/plan/event_rule.hpp"
-#include "tracing/record/plan/trace_error.hpp"
 
 namespace launch {
 
 namespace {
 
-using Channel = tracing::ChannelConfig;
 using Config = tracing::TraceConfig;
 using Type = AttributeType;
 
@@ -39,42 +36,6 @@ auto at(Member tracing::ChannelBuffers::*member) {
 template <typename Member, typename Struct>
 auto of_choices(Member Struct::*member) {
   return place_of(&TraceRequest::choices, member);
-}
-
-enum class Tracepoints { kUserspace /* PROVIDER:NAME */, kKernel /* NAME */ };
-
-// Whether the text is a name, and not a word of a rule that was written wrongly.
-bool is_name(const std::string& text, Tracepoints of) {
-  return of == Tracepoints::kUserspace ? text.find(':') != std::string::npos
-                                       : text != "if" && text != "except" && text != "level";
-}
-
-// The event rules. A substitution may give a rule with blanks, or several names.
-std::vector<std::string> perform_events(const Fields& fields, const std::string& attribute, Scope& scope,
-                                        Tracepoints of) {
-  std::vector<std::string> events;
-  for (const std::string& text : perform_words(fields, attribute, scope)) {
-    try {
-      tracing::parse_event_rule(text);
-      events.push_back(text);
-    } catch (const tracing::TraceError& error) {
-      const std::vector<std::string> parts = split_names(text);
-      if (parts.size() < 2 ||
-          !std::all_of(parts.begin(), parts.end(), [of](const std::string& part) { return is_name(part, of); })) {
-        throw LaunchError(error.what(), fields.where(attribute), error.remedy());
-      }
-      events.insert(events.end(), parts.begin(), parts.end());
-    }
-  }
-  return events;
-}
-
-// Reads the events of an attribute into the list at `place`.
-template <typename Target>
-auto events(const char* attribute, Tracepoints of, std::function<SettingPlace(Target&)> place) {
-  return [attribute, of, place](const Fields& fields, Scope& scope, Target& target) {
-    *std::get<std::vector<std::string>*>(place(target)) = perform_events(fields, attribute, scope, of);
-  };
 }
 
 void perform_session_name(const Fields& fields, Scope& scope, TraceRequest& request) {
@@ -177,12 +138,12 @@ std::vector<Setting<TraceRequest>> make_trace_settings() {
                      "userspace events; * matches any text; `'ros2:* except ros2:rcl_init level INFO if vpid > 1'` in "
                      "quotes"},
        .place = at(&Config::events_ust),
-       .perform = events<TraceRequest>("events-ust", Tracepoints::kUserspace, at(&Config::events_ust)),
+       .perform = event_rules<TraceRequest>("events-ust", Tracepoints::kUserspace, at(&Config::events_ust)),
        .shown = "events-ust",
        .option = {"-u,--ust", "EVENT", "userspace events (default: all ROS 2 events)"}},
       {.attribute = {"events-kernel", Type::kWords, false, "none", "kernel tracepoints"},
        .place = at(&Config::events_kernel),
-       .perform = events<TraceRequest>("events-kernel", Tracepoints::kKernel, at(&Config::events_kernel)),
+       .perform = event_rules<TraceRequest>("events-kernel", Tracepoints::kKernel, at(&Config::events_kernel)),
        .shown = "events-kernel",
        .option = {"-k,--kernel", "EVENT", "kernel events (default: none)"}},
       {.attribute = {"syscalls", Type::kWords, false, "none", "system calls"},
@@ -312,8 +273,8 @@ std::vector<Setting<TraceRequest>> make_trace_settings() {
            extension("snapshot-on-events", Type::kWords, "none",
                      "take a snapshot when a userspace event comes; written as in events-ust; implies snapshot-mode"),
        .place = of_choices(&TraceChoices::snapshot_on_events),
-       .perform = events<TraceRequest>("snapshot-on-events", Tracepoints::kUserspace,
-                                       of_choices(&TraceChoices::snapshot_on_events)),
+       .perform = event_rules<TraceRequest>("snapshot-on-events", Tracepoints::kUserspace,
+                                            of_choices(&TraceChoices::snapshot_on_events)),
        .shown = "snapshot-on-events"},
       {.attribute = extension("snapshot-on-late-callback", Type::kFloat, "none",
                               "milliseconds: take a snapshot when a callback takes longer; implies snapshot-mode"),
@@ -363,45 +324,10 @@ std::vector<Setting<TraceRequest>> make_trace_settings() {
   };
 }
 
-std::vector<Setting<Channel>> make_channel_settings() {
-  const auto own = [](const char* name, Type type, const char* help) {
-    return AttributeSpec{name, type, false, "as the domain's own channel", help};
-  };
-  return {
-      {.attribute = {"name", Type::kText, true, "", "its name"}, .place = place_of(&Channel::name)},
-      {.attribute = {"events-ust", Type::kWords, false, "none", "userspace events"},
-       .perform = events<Channel>("events-ust", Tracepoints::kUserspace, place_of(&Channel::events_ust))},
-      {.attribute = {"events-kernel", Type::kWords, false, "none", "kernel tracepoints"},
-       .perform = events<Channel>("events-kernel", Tracepoints::kKernel, place_of(&Channel::events_kernel))},
-      {.attribute = {"syscalls", Type::kWords, false, "none", "system calls"}, .place = place_of(&Channel::syscalls)},
-      {.attribute = {"context-fields", Type::kWords, false, "those of the trace", ""},
-       .perform = [](const Fields& fields, Scope& scope,
-                     Channel& channel) { channel.context_fields = perform_names(fields, "context-fields", scope); }},
-      {.attribute = own("subbuffer-size", Type::kInteger, "bytes"), .place = place_of(&Channel::subbuffer_size)},
-      {.attribute = own("subbuffer-count", Type::kInteger, "sub-buffers for each processor"),
-       .place = place_of(&Channel::subbuffer_count)},
-      {.attribute = own("read-timer", Type::kInteger, "microseconds between two reads of the buffers"),
-       .place = place_of(&Channel::read_timer)},
-      {.attribute =
-           own("switch-timer", Type::kInteger, "microseconds until a part-full sub-buffer is written; 0: never"),
-       .place = place_of(&Channel::switch_timer)},
-      {.attribute = own("overwrite", Type::kBoolean, "lose the oldest events, not the newest"),
-       .place = place_of(&Channel::overwrite)},
-      {.attribute = {"blocking-timeout", Type::kInteger, false, "0",
-                     "microseconds that a traced thread waits for room; -1: for ever"},
-       .place = place_of(&Channel::blocking_timeout)},
-  };
-}
-
 }  // namespace
 
 const std::vector<Setting<TraceRequest>>& trace_settings() {
   static const std::vector<Setting<TraceRequest>> settings = make_trace_settings();
-  return settings;
-}
-
-const std::vector<Setting<Channel>>& channel_settings() {
-  static const std::vector<Setting<Channel>> settings = make_channel_settings();
   return settings;
 }
 

@@ -27,10 +27,12 @@ constexpr int kLevelsAbove = 2;
 
 ChainDefinition chain_of(const Json& json, const fs::path& file) {
   ChainDefinition chain;
-  if (!json.is_object() || !json.contains("name") || !json["name"].is_string() || json["name"] == "") {
+  if (json.is_object() && json.contains("name") && json["name"].is_string()) {
+    chain.name = json["name"].get<std::string>();
+  }
+  if (chain.name.empty()) {
     fail(file, "a chain has no name");
   }
-  chain.name = json["name"].get<std::string>();
   if (json.contains("nodes") && json["nodes"].is_array()) {
     for (const Json& node : json["nodes"]) {
       if (!node.is_string()) {

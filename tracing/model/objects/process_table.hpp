@@ -17,6 +17,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -105,7 +106,9 @@ class ProcessTable {
     std::uint32_t machine = 0;
     std::int64_t vpid = 0;
     std::uint64_t address = 0;
-    auto operator<=>(const Context&) const = default;
+    bool operator<(const Context& other) const {
+      return std::tie(machine, vpid, address) < std::tie(other.machine, other.vpid, other.address);
+    }
   };
   std::map<Context, ProcessId> by_context_;
   std::vector<bool> is_shared_;   // by process: several sessions have it; may be shorter

@@ -14,8 +14,9 @@ bool PageHistory::add(unsigned cpu, Page page) {
   if (has_gap) {
     processor = {.pages = {}, .bytes = 0, .next_number = processor.next_number + 1};
   }
-  processor.bytes += page.size();
-  processor.pages.push_back({.number = processor.next_number++, .size = page.size(), .bytes = std::move(page)});
+  const std::size_t size = page.size();
+  processor.bytes += size;
+  processor.pages.push_back({.number = processor.next_number++, .size = size, .bytes = std::move(page)});
   while (processor.bytes > limit_ && processor.pages.size() > 1) {
     processor.bytes -= processor.pages.front().size;
     processor.pages.pop_front();
