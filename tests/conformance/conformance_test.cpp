@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "tests/support/command.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace {
 
@@ -23,11 +24,7 @@ namespace fs = std::filesystem;
 using test_support::CommandResult;
 
 constexpr const char* kPython = "/usr/bin/python3";  // Debian's, which has python3-yaml
-#ifdef __SANITIZE_THREAD__
-constexpr std::chrono::seconds kTimeout{600};
-#else
-constexpr std::chrono::seconds kTimeout{380};
-#endif
+constexpr std::chrono::seconds kTimeout{test_support::kSanitized ? 2300 : 380};
 
 // A file and the kind of its difference.
 using Difference = std::pair<std::string, std::string>;
