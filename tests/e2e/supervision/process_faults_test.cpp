@@ -307,10 +307,14 @@ TEST_F(ProcessFaults, ASessionDaemonThatDoesNotAnswerBlocksNoEnd) {
   do {
     run.send_signal(SIGINT);
   } while (!run.wait_for_output("again, ending at once", std::chrono::milliseconds(1200)));
-  EXPECT_TRUE(run.wait_for_output(" does not answer: giving up, launch-guardian cleans up\n", kPatience))
-      << run.out() << run.err();
-  EXPECT_THAT(run.out(),
-              ContainsRegex("\\[ERROR\\] \\[launch\\]: trace \\(.*system.launch.xml:2:[0-9]+\\) does not answer"));
+  if (run.wait_for_output(" does not answer: giving up, launch-guardian cleans up\n", kPatience)) {
+    EXPECT_THAT(run.out(),
+                ContainsRegex("\\[ERROR\\] \\[launch\\]: trace \\(.*system.launch.xml:2:[0-9]+\\) does not answer"));
+  } else {  // on a machine so busy that the limit of LTTng's answers comes before the end of the patience
+    EXPECT_THAT(run.err(),
+                HasSubstr("cannot create trace session 'run': LTTng does not answer, it was waited for 10 s"))
+        << run.out();
+  }
   run.send_signal(SIGINT);
   EXPECT_EQ(run.wait(kPatience).exit_code, 1);
   daemon.send_signal(SIGKILL);

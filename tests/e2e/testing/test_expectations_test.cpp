@@ -181,15 +181,15 @@ TEST_F(TestExpectations, ParametersHaveValues) {
   </test>
   <test name="has another">
     <graph node="/add_two_ints_server" parameter="count" value="3"/>
-    <graph node="/add_two_ints_server" parameter="count" value="4" within="1.5"/>
+    <graph node="/add_two_ints_server" parameter="count" value="4" within="5"/>
   </test>)xml");
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(plain(result.out), HasSubstr("PASS  a.launch.xml: is set  T s\n")) << result.out << result.err;
   EXPECT_THAT(
       plain(result.out),
       HasSubstr(
-          R"(a.launch.xml:13:6: error: it did not happen within 1.5 s: parameter 'count' of '/add_two_ints_server' is 4
-   13 |     <graph node="/add_two_ints_server" parameter="count" value="4" within="1.5"/>
+          R"(a.launch.xml:13:6: error: it did not happen within 5 s: parameter 'count' of '/add_two_ints_server' is 4
+   13 |     <graph node="/add_two_ints_server" parameter="count" value="4" within="5"/>
       |      ^~~~~
       = expected: parameter 'count' of '/add_two_ints_server' is 4
       = seen: it is 3

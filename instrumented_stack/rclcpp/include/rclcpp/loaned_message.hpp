@@ -23,24 +23,23 @@
 namespace rclcpp {
 
 // The initial content of a borrowed message is undefined. For types that are not plain (see
-// PublisherBase::can_loan_messages()) it holds an ordinary message. The publisher must outlive it. Not thread safe.
+// PublisherBase::can_loan_messages()), and after shutdown, it holds an ordinary message. The publisher must outlive it.
+// Not thread safe.
 template <typename MessageT, typename AllocatorT = std::allocator<void>>
 class LoanedMessage {
  public:
   // Throws exceptions::RCLError.
   explicit LoanedMessage(PublisherBase& publisher, const AllocatorT& allocator = AllocatorT())
       : publisher_handle_(publisher.get_publisher_handle()) {
-    if (!publisher.can_loan_messages()) {
+    void* const memory =
+        publisher.can_loan_messages()
+            ? publisher.borrow_memory(rosidl_typesupport_cpp::get_message_type_support_handle<MessageT>())
+            : nullptr;
+    if (memory) {
+      loan_ = new (memory) MessageT(rosidl_runtime_cpp::MessageInitialization::SKIP);
+    } else {
       own_ = allocator::make_unique<MessageT>(allocator);
-      return;
     }
-    void* memory = nullptr;
-    const rcl_ret_t ret = rcl_borrow_loaned_message(
-        publisher_handle_.get(), rosidl_typesupport_cpp::get_message_type_support_handle<MessageT>(), &memory);
-    if (ret != RCL_RET_OK) {
-      exceptions::throw_from_rcl_error(ret, "failed to borrow a message");
-    }
-    loan_ = new (memory) MessageT(rosidl_runtime_cpp::MessageInitialization::SKIP);
   }
 
   LoanedMessage(LoanedMessage&& other) noexcept

@@ -74,6 +74,9 @@ class PublisherBase : public std::enable_shared_from_this<PublisherBase> {
 
   // Whether messages can be created in memory of the middleware.
   bool can_loan_messages() const { return rcl_publisher_can_loan_messages(publisher_handle_.get()); }
+  // Memory for a message of this type, for LoanedMessage and GenericPublisher; null after shutdown. Throws
+  // exceptions::RCLError.
+  void* borrow_memory(const rosidl_message_type_support_t* type_support) const;
 
   // The handlers of the callbacks in the options, and the default one.
   using EventHandlers = std::unordered_map<rcl_publisher_event_type_t, std::shared_ptr<EventHandlerBase>>;

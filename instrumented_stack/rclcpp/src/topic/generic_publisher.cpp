@@ -3,7 +3,6 @@
 
 #include <tracetools/tracetools.h>
 
-#include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/serialization.hpp"
 
 namespace rclcpp {
@@ -14,9 +13,10 @@ void GenericPublisher::publish(const SerializedMessage& message) {
 }
 
 void GenericPublisher::publish_as_loaned_msg(const SerializedMessage& message) {
-  void* loan = nullptr;
-  detail::require_ok(rcl_borrow_loaned_message(get_publisher_handle().get(), type_support_, &loan),
-                     "failed to borrow a message");
+  void* const loan = borrow_memory(type_support_);
+  if (!loan) {
+    return;  // as a message that is published after shutdown
+  }
   try {
     SerializationBase(type_support_).deserialize_message(&message, loan);
   } catch (...) {

@@ -137,6 +137,13 @@ void PublisherBase::publish_serialized(const rcl_serialized_message_t& serialize
                   "failed to publish serialized message");
 }
 
+void* PublisherBase::borrow_memory(const rosidl_message_type_support_t* type_support) const {
+  void* memory = nullptr;
+  const rcl_ret_t ret = rcl_borrow_loaned_message(publisher_handle_.get(), type_support, &memory);
+  check_published(ret, "failed to borrow a message");
+  return ret == RCL_RET_OK ? memory : nullptr;
+}
+
 void PublisherBase::publish_loaned(void* message) {
   TRACETOOLS_TRACEPOINT(rclcpp_publish, nullptr, static_cast<const void*>(message));
   const rcl_ret_t ret = rcl_publish_loaned_message(publisher_handle_.get(), message, nullptr);

@@ -133,4 +133,14 @@ TEST_F(LoanedMessageTest, ItIsPublishedOnce) {
   }
 }
 
+// A callback may borrow while another thread, or a signal, shuts down.
+TEST_F(LoanedMessageTest, AfterShutdownItIsAnOrdinaryMessageThatGoesNowhere) {
+  const auto publisher = node_->create_publisher<Float64>("topic", 10);
+  rclcpp::shutdown();
+  auto loan = publisher->borrow_loaned_message();
+  ASSERT_TRUE(loan.is_valid());
+  loan.get().data = 1;
+  publisher->publish(std::move(loan));
+}
+
 }  // namespace

@@ -89,6 +89,8 @@ TEST_F(GenericPubSubTest, LoansWhatIsPlain) {
                 testing::HasSubstr("messages on topic '/text' cannot be loaned: their type is not plain"));
   }
   EXPECT_THROW(plain->publish_as_loaned_msg(SerializedMessage()), std::runtime_error);
+  rclcpp::shutdown();
+  plain->publish_as_loaned_msg(SerializedMessage());  // nowhere, as any message after shutdown
 }
 
 TEST_F(GenericPubSubTest, SaysWhyATypeCannotBeFound) {
