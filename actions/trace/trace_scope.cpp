@@ -88,7 +88,8 @@ void TraceScope::record(const LaunchRecord& record) {
     return;
   }
   run_.request_snapshot(record.value < 0 ? fmt::format("{} died of SIG{}", record.name, ::sigabbrev_np(-record.value))
-                                         : fmt::format("{} ended with exit code {}", record.name, record.value));
+                                         : fmt::format("{} ended with exit code {}", record.name, record.value),
+                        true);
 }
 
 void TraceScope::end(EventLoop& loop, Tell tell, Completion done) {

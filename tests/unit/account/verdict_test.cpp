@@ -282,6 +282,15 @@ TEST_F(Verdict, OfASnapshotSaysWhyItWasTakenAndWhatIsMissingInIt) {
             "  \"lost_packets\": 3,\n"
             "  \"begin_ns\": 500,\n"
             "  \"end_ns\": 2000,\n"
+            "  \"lost\": [\n"
+            "    {\n"
+            "      \"channel\": \"ros2\",\n"
+            "      \"cpu\": \"0\",\n"
+            "      \"begin_ns\": 500,\n"
+            "      \"end_ns\": 1500,\n"
+            "      \"events\": 12\n"
+            "    }\n"
+            "  ],\n"
             "  \"unwritten\": [\n"
             "    {\n"
             "      \"channel\": \"ros2\",\n"
@@ -291,6 +300,7 @@ TEST_F(Verdict, OfASnapshotSaysWhyItWasTakenAndWhatIsMissingInIt) {
             "    }\n"
             "  ]\n"
             "}\n");
+  EXPECT_EQ(tracing::describe_snapshot_losses(streams), "12 events lost, processor 0 (channel ros2)");
 }
 
 }  // namespace

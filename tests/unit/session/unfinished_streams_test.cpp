@@ -85,6 +85,19 @@ TEST_F(UnfinishedStreams, OfASnapshotAreSaid) {
   EXPECT_EQ(verdict["unwritten"].size(), 1u) << verdict.dump(2);
 }
 
+// LTTng throws the buffers of a process away when it ends. This program does not count its events.
+TEST_F(UnfinishedStreams, OfASnapshotWithoutTheDeadProcessAreSaid) {
+  TraceConfig config = config_named("run");
+  config.snapshot_mode = true;
+  config.buffers_ust = tracing::BufferOwner::kProcess;
+  tracer->start(config);
+  trace_test::TracedApp(10, 10).end();
+  const nlohmann::json verdict = verdict_in(tracer->record_snapshot("run"));
+  tracer->finish(config, never);
+  EXPECT_EQ(verdict["complete"], false) << verdict.dump(2);
+  EXPECT_EQ(verdict["absent"].size(), 1u);
+}
+
 TEST_F(UnfinishedStreams, OfAPausedSessionAreSaid) {
   const TraceConfig config = config_named("run");
   tracer->start(config);
@@ -112,6 +125,40 @@ TEST_F(UnfinishedStreams, AreWaitedForWhileTheThreadMayGoOn) {
   EXPECT_TRUE(losses.complete());
   app.wait();
   EXPECT_EQ(read_trace(config.trace_directory()).events["ros2:rclcpp_take"], 21);
+}
+
+// The timer has ended the last packet, and the consumer has read none: LTTng adds no packet where there is no room, and
+// what was lost since would be in no total.
+TEST_F(UnfinishedStreams, WithFullBuffersTellWhatWasLostToTheEnd) {
+  for (const bool pauses : {false, true}) {
+    TraceConfig config = config_named(pauses ? "paused" : "run");
+    config.ust = {.subbuffer_size = 4096, .subbuffer_count = 2, .read_timer = 1'000'000};
+    config.switch_timer_ust = 1000;
+    tracer->start(config);
+    trace_test::TracedApp app(300, 10);
+    std::uint64_t fired = 301;
+    const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(100);
+    while (std::chrono::steady_clock::now() < until) {
+      app.fire_again();
+      fired += 300;
+    }
+    std::uint64_t discarded = 0;
+    if (pauses) {
+      const auto paused = tracer->pause(config.session_name);
+      ASSERT_TRUE(paused);
+      discarded = paused->discarded_events();
+    }
+    const LossAccount losses = tracer->finish(config, never);
+    app.end();
+    const trace_test::ReadTrace read = read_trace(config.trace_directory());
+    std::uint64_t recorded = 0;
+    for (const auto& [name, count] : read.events) {
+      recorded += static_cast<std::uint64_t>(count);
+    }
+    EXPECT_EQ(losses.discarded_events(), fired - recorded);
+    EXPECT_EQ(discarded, pauses ? fired - recorded : 0);
+    EXPECT_FALSE(losses.complete());
+  }
 }
 
 // LTTng's rotation, and its end of a session that was rotated, wait for the packet that is never completed.

@@ -145,7 +145,7 @@ struct VerdictShapes : trace_test::LttngTracer, testing::WithParamInterface<unsi
       const auto snapshots = tracing::snapshots_in(chosen.config.trace_directory());
       ASSERT_FALSE(snapshots.empty());
       recording = snapshots.back();
-      tracing::judge_snapshot(recording, "run", {}, {}, asked);
+      tracing::judge_snapshot(recording, "run", {}, {}, {.asked = asked});
     }
     const bool ends_before = GetParam() % 2 == 0;
     if (ends_before) {

@@ -9,6 +9,7 @@
 
 #include "tracing/record/account/event_cuts.hpp"
 #include "tracing/record/account/loss_account.hpp"
+#include "tracing/record/account/packet_losses.hpp"
 
 namespace tracing {
 namespace {
@@ -126,6 +127,26 @@ std::string describe_losses(const LossAccount& losses) {
   return text.empty() ? "no events lost" : text;
 }
 
+std::string describe_snapshot_losses(const std::vector<Stream>& streams) {
+  std::string text;
+  std::size_t further = 0;
+  for (const Stream& stream : streams) {
+    const PacketLosses losses = losses_of(stream);
+    if (losses.discarded_events + losses.lost_packets == 0) {
+      continue;
+    }
+    if (std::count(text.begin(), text.end(), ';') + 1 >= static_cast<std::ptrdiff_t>(kMostNamed)) {
+      ++further;
+      continue;
+    }
+    text += fmt::format("{}{} lost, processor {} (channel {})", text.empty() ? "" : "; ",
+                        losses.discarded_events != 0 ? counted(losses.discarded_events, "event")
+                                                     : counted(losses.lost_packets, "packet"),
+                        stream.cpu, stream.channel);
+  }
+  return further == 0 ? text : text + fmt::format("; {} more", counted(further, "stream"));
+}
+
 std::string describe_completeness(const LossAccount& losses) {
   if (!losses.complete()) {
     return "incomplete";
@@ -158,7 +179,7 @@ std::string describe_cost(const LossAccount& losses) {
   }
   std::string text = fmt::format("estimated cost of tracing: {:.3f} s of processor time, {:.2f} % of a processor",
                                  seconds, lasted > 0 ? 100 * seconds / lasted : 0);
-  text += fmt::format("; most in {} [{}]", most->name, most->pid);
+  text += fmt::format("; most in {} [{}]", most->name.empty() ? "process" : most->name, most->pid);
   if (most->cpu_seconds > 0) {
     text += fmt::format(", {:.1f} % of its own processor time", 100 * most->own_share(ns));
   }

@@ -56,12 +56,6 @@ bool has_own_clock() {
   return std::getenv("LTTNG_UST_CLOCK_PLUGIN") != nullptr;
 }
 
-bool all_end_after(const std::filesystem::path& directory, const std::set<std::string>& channels_in_files,
-                   std::uint64_t stopped) {
-  const std::vector<std::uint64_t> ends = last_times(directory, channels_in_files);
-  return std::all_of(ends.begin(), ends.end(), [stopped](std::uint64_t end) { return end >= stopped; });
-}
-
 std::string why_unfinished(const UnwrittenRange& range, std::vector<std::string> killed) {
   if (range.pid) {
     const std::string pid = fmt::format("[{}]", *range.pid);
@@ -150,6 +144,8 @@ void find_unwritten(LossAccount& account, const std::vector<Stream>& streams, st
     for (ChannelLoss& channel : account.channels) {
       if (channel.domain == "ust" && channel.channel == range.channel) {
         channel.unwritten.push_back(range);
+        // Buffers that overwrite are never full.
+        channel.unwritten.back().after_losses = range.after_losses && !channel.overwrite;
       }
     }
   }
@@ -166,11 +162,20 @@ std::vector<std::string> killed_processes(const std::vector<EventCounts>& counts
   return killed;
 }
 
+bool streams_end_after(const std::filesystem::path& directory, const std::set<std::string>& channels_in_files,
+                       std::uint64_t stopped) {
+  if (stopped == 0 || has_own_clock()) {
+    return true;
+  }
+  const std::vector<std::uint64_t> ends = last_times(directory, channels_in_files);
+  return std::all_of(ends.begin(), ends.end(), [stopped](std::uint64_t end) { return end >= stopped; });
+}
+
 bool wait_for_last_packets(const std::filesystem::path& directory, const std::set<std::string>& channels_in_files,
                            std::uint64_t stopped, const std::function<bool()>& give_up) {
   const auto latest = std::chrono::steady_clock::now() + kLongestCommit;
   // LTTng tells nobody of a packet that it has written.
-  while (stopped != 0 && !has_own_clock() && !all_end_after(directory, channels_in_files, stopped)) {
+  while (!streams_end_after(directory, channels_in_files, stopped)) {
     if ((give_up && give_up()) || std::chrono::steady_clock::now() > latest) {
       return false;
     }

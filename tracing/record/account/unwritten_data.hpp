@@ -31,6 +31,11 @@ void find_unwritten(LossAccount& account, const std::vector<Stream>& streams, st
 // Processes of `counts` that are gone and did not end properly: "planner [4711]".
 std::vector<std::string> killed_processes(const std::vector<EventCounts>& counts);
 
+// Whether every shared stream of the recording in `directory` has a packet that ends after `stopped`, as LTTng's index
+// files tell. True if that cannot be known.
+bool streams_end_after(const std::filesystem::path& directory, const std::set<std::string>& channels_in_files,
+                       std::uint64_t stopped);
+
 // Returns when every shared stream of the recording in `directory` has a packet that ends after `stopped`, as
 // LTTng's index files tell. A thread that was interrupted within an event at the stop completes its packet when it runs
 // again. False after kLongestCommit, or when give_up says so.

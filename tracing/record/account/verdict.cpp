@@ -268,6 +268,17 @@ void write_snapshot_verdict(const std::filesystem::path& directory, const std::s
   for (const Absence& absence : account.absences) {
     json["absent"].push_back(absence.text);
   }
+  for (const Stream& stream : streams) {
+    std::vector<LossRange> ranges;
+    add_ranges(stream, std::min(begin, end), ranges);
+    for (const LossRange& range : ranges) {
+      json["lost"].push_back({{"channel", stream.channel},
+                              {"cpu", range.cpu},
+                              {"begin_ns", range.begin_ns},
+                              {"end_ns", range.end_ns},
+                              {"events", range.events}});
+    }
+  }
   for (const UnwrittenRange& range : account.unwritten) {
     json["unwritten"].push_back(
         {{"channel", range.channel}, {"cpu", range.cpu}, {"begin_ns", range.begin_ns}, {"end_ns", range.end_ns}});

@@ -26,9 +26,10 @@ FlightRecorder::~FlightRecorder() {
   thread_.join();
 }
 
-void FlightRecorder::request(const std::string& reason) {
+void FlightRecorder::request(const std::string& reason, bool after_death) {
   {
     const std::lock_guard lock(mutex_);
+    after_death_ = after_death_ || after_death;
     if (std::find(requested_.begin(), requested_.end(), reason) != requested_.end()) {
       return;
     }
@@ -45,13 +46,14 @@ void FlightRecorder::work() {
       return;
     }
     std::vector<std::string> reasons = std::exchange(requested_, {});
+    const bool after_death = std::exchange(after_death_, false);
     lock.unlock();
-    told_(take(std::move(reasons)));
+    told_(take(std::move(reasons), after_death));
     lock.lock();
   }
 }
 
-TakenSnapshot FlightRecorder::take(std::vector<std::string> reasons) {
+TakenSnapshot FlightRecorder::take(std::vector<std::string> reasons, bool after_death) {
   TakenSnapshot taken{.reasons = std::move(reasons), .directory = {}, .damage = {}, .error = {}};
   try {
     const std::uint64_t asked = record_snapshot(config_.lttng_session_name());
@@ -63,8 +65,8 @@ TakenSnapshot FlightRecorder::take(std::vector<std::string> reasons) {
       throw TraceError("LTTng has written no snapshot");
     }
     taken.directory = snapshots.back();
-    taken.damage =
-        judge_snapshot(taken.directory, config_.lttng_session_name(), config_.event_counters, taken.reasons, asked);
+    taken.damage = judge_snapshot(taken.directory, config_.lttng_session_name(), config_.event_counters, taken.reasons,
+                                  {.asked = asked, .after_death = after_death});
     for (std::size_t oldest = 0; snapshots.size() - oldest > config_.snapshot_limit; ++oldest) {
       fs::remove_all(snapshots[oldest]);
     }

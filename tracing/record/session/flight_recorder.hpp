@@ -33,18 +33,19 @@ class FlightRecorder {
 
   // From any thread; does not block. A reason that is requested again before its snapshot begins is kept once. The
   // snapshot holds every event that was fired before, as far as the buffers reach back. When there are more than
-  // TraceConfig::snapshot_limit, the oldest snapshot is removed.
-  void request(const std::string& reason);
+  // TraceConfig::snapshot_limit, the oldest snapshot is removed. `after_death`: the reason is that a process has died.
+  void request(const std::string& reason, bool after_death = false);
 
  private:
   void work();
-  TakenSnapshot take(std::vector<std::string> reasons);
+  TakenSnapshot take(std::vector<std::string> reasons, bool after_death);
 
   TraceConfig config_;
   std::function<void(const TakenSnapshot&)> told_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<std::string> requested_;
+  bool after_death_ = false;  // of one of them
   bool stop_ = false;
   std::thread thread_;
 };

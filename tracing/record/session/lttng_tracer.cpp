@@ -117,6 +117,17 @@ std::set<std::string> channels_in_files(const LossAccount& losses) {
   return in_files;
 }
 
+// Waits until all streams of the recording have their last packets, and have told in them what they have lost.
+void end_streams(LossAccount& losses, const std::string& name, const std::string& directory, std::uint64_t stopped,
+                 const std::function<bool()>& give_up) {
+  const std::set<std::string> in_files = channels_in_files(losses);
+  if (!losses.stuck && !streams_end_after(directory, in_files, stopped) &&
+      end_packets_again(name, directory, give_up)) {
+    losses.channels = read_losses(name).channels;
+  }
+  wait_for_last_packets(directory, in_files, stopped, give_up);
+}
+
 // Whether the relay daemon has gone that gets the trace of the session. Throws TraceError if it is stopped: LTTng's
 // consumer waits for its answers, and the session daemon for the consumer, for ever.
 std::optional<Absence> look_for_relay_daemon(const SessionSummary& session) {
@@ -202,7 +213,7 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
   }
   timer.finished("losses");
   if (local && !session->snapshot && !losses.cut_short) {
-    wait_for_last_packets(session->path, channels_in_files(losses), stopped, give_up);
+    end_streams(losses, name, session->path, stopped, give_up);
   }
   timer.finished("last packets");
   std::optional<std::uint64_t> lost_by_kernel;
@@ -301,7 +312,7 @@ std::optional<LossAccount> LttngTracer::pause(const std::string& name) {
     losses.directory = session->path;
     losses.stuck = end == DataEnd::kStuck;
     LossesByProcess by_process(with_counters(config), losses);
-    wait_for_last_packets(session->path, channels_in_files(losses), stopped, {});
+    end_streams(losses, name, session->path, stopped, {});
     const std::vector<Stream> streams = read_streams(session->path, channels_in_files(losses), {});
     count_in_packets(losses, streams);
     judge(losses, by_process, streams, session->path, stopped);
@@ -333,7 +344,8 @@ std::string LttngTracer::record_snapshot(const std::string& name) {
   if (snapshots.empty()) {
     return {};
   }
-  judge_snapshot(snapshots.back(), name, CounterDirectory::of_session(name), {"launch trace record_snapshot"}, asked);
+  judge_snapshot(snapshots.back(), name, CounterDirectory::of_session(name), {"launch trace record_snapshot"},
+                 {.asked = asked});
   return snapshots.back().string();
 }
 

@@ -112,6 +112,14 @@ DataEnd wait_for_data(const std::string& name, const std::string& directory, con
   return DataEnd::kWritten;
 }
 
+bool end_packets_again(const std::string& name, const std::string& directory, const std::function<bool()>& give_up) {
+  if (lttng_start_tracing(name.c_str()) != 0) {
+    return false;
+  }
+  stop(name);
+  return wait_for_data(name, directory, give_up) == DataEnd::kWritten;
+}
+
 LossAccount stop_and_account(const std::string& name, const std::string& directory,
                              const std::function<bool()>& give_up, StepTimer& timer) {
   try {

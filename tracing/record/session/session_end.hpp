@@ -19,6 +19,13 @@ enum class DataEnd { kWritten, kGivenUp, kStuck };
 DataEnd wait_for_data(const std::string& lttng_session_name, const std::string& directory,
                       const std::function<bool()>& give_up);
 
+// LTTng ends a packet of every stream when a session stops, but none where the buffers are full: what was lost there
+// since its last packet would be in no total. When the consumer has emptied them, a start and a stop make one more
+// packet of each stream. What running programs fire between the two is recorded. Returns false if LTTng refuses, as
+// while a rotation goes on, or the wait for the packets has been given up.
+bool end_packets_again(const std::string& lttng_session_name, const std::string& directory,
+                       const std::function<bool()>& give_up);
+
 // Stops the session and reads its losses once they are final, or as they are when the wait ends. A session that fails
 // in this can't be used any more and is destroyed. Throws TraceError.
 LossAccount stop_and_account(const std::string& lttng_session_name, const std::string& directory,

@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <memory>
 #include <utility>
 
 #include "base/monotonic_clock.hpp"
 #include "tracing/record/account/absence.hpp"
 #include "tracing/record/account/event_counters.hpp"
+#include "tracing/record/account/loss_text.hpp"
 #include "tracing/record/account/readable_traces.hpp"
 #include "tracing/record/account/stream_packets.hpp"
 #include "tracing/record/account/unwritten_data.hpp"
@@ -132,25 +134,29 @@ std::string recorder_directory(const std::string& name) {
 }
 
 std::string judge_snapshot(const fs::path& snapshot, const std::string& name, const std::string& counters,
-                           const std::vector<std::string>& reasons, std::uint64_t asked) {
+                           const std::vector<std::string>& reasons, const SnapshotMoment& moment) {
   SnapshotAccount account{.reasons = reasons, .absences = put_unreadable_aside(snapshot)};
   const std::vector<Stream> streams = read_streams(snapshot);
   const std::vector<EventCounts> counts =
       counters.empty() ? std::vector<EventCounts>() : EventCounters(counters).read();
   if (has_buffers_of_processes(name)) {
-    if (counters.empty()) {
-      account.absences.push_back(
-          {"each process has buffers of its own: programs that had ended are not in the snapshot"});
-    } else {
-      for (Absence& absence : absent_from_snapshot(counts, streams)) {
-        account.absences.push_back(std::move(absence));
-      }
+    // Programs that do not count their events are not among these.
+    std::vector<Absence> ended = absent_from_snapshot(counts, streams);
+    const bool is_empty =
+        std::all_of(streams.begin(), streams.end(), [](const Stream& stream) { return stream.packets.empty(); });
+    if (ended.empty() && (counters.empty() || moment.after_death || is_empty)) {
+      ended.push_back({"each process has buffers of its own: programs that had ended are not in the snapshot"});
     }
+    std::move(ended.begin(), ended.end(), std::back_inserter(account.absences));
   }
-  account.unwritten = unfinished_streams(streams, asked);
+  account.unwritten = unfinished_streams(streams, moment.asked);
+  for (UnwrittenRange& range : account.unwritten) {
+    range.after_losses = false;  // buffers that overwrite are never full
+  }
   account.damage = describe_unfinished(account.unwritten, killed_processes(counts));
   write_snapshot_verdict(snapshot, name, account, streams);
-  return account.damage;
+  const std::string lost = describe_snapshot_losses(streams);
+  return account.damage + (account.damage.empty() || lost.empty() ? "" : "; ") + lost;
 }
 
 std::uint64_t record_snapshot(const std::string& name) {

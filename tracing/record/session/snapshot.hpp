@@ -27,11 +27,17 @@ std::vector<std::filesystem::path> snapshots_in(const std::filesystem::path& dir
 // no such session, the address of the relay daemon if it sends its trace there.
 std::string recorder_directory(const std::string& lttng_session_name);
 
+struct SnapshotMoment {
+  std::uint64_t asked = 0;   // the result of record_snapshot()
+  bool after_death = false;  // it was taken because a process of the session has died
+};
+
 // Writes the verdict of a snapshot into its directory. `counters` is where the processes of the session count their
-// events, or ""; `asked` is the result of record_snapshot(). Returns a sentence on what was not written, or "". Throws
+// events, or "". Returns a sentence on what was not written, or "". Throws
 // TraceError.
 std::string judge_snapshot(const std::filesystem::path& snapshot, const std::string& lttng_session_name,
-                           const std::string& counters, const std::vector<std::string>& reasons, std::uint64_t asked);
+                           const std::string& counters, const std::vector<std::string>& reasons,
+                           const SnapshotMoment& moment);
 
 // Writes what the buffers of the session hold, and those of its kernel recorder. Returns when it was asked for
 // (CLOCK_MONOTONIC, ns): the snapshot shall hold what was before. Throws TraceError.

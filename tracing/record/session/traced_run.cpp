@@ -185,10 +185,10 @@ void TracedRun::stop_flight_recorder() {
   recorder.swap(flight_recorder_);
 }
 
-void TracedRun::request_snapshot(const std::string& reason) {
+void TracedRun::request_snapshot(const std::string& reason, bool after_death) {
   const std::lock_guard lock(flight_recorder_mutex_);
   if (flight_recorder_) {
-    flight_recorder_->request(reason);
+    flight_recorder_->request(reason, after_death);
   }
 }
 

@@ -78,7 +78,7 @@ class TracedRun {
   // recorded, for which it searches all of /proc.
   void look_around(const Tell& tell);
   // Does nothing if there is no flight recorder at the time.
-  void request_snapshot(const std::string& reason);
+  void request_snapshot(const std::string& reason, bool after_death = false);
   // The user is in a hurry: a finish() under way ends at once, with the data that is there.
   void hurry() { hurry_ = true; }
   // Ends the session and tells what it holds and has lost. Throws TraceError when the session can't be reached any
