@@ -3,9 +3,17 @@
 // the end as the report of the whole trace.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <signal.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <cstdint>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <thread>
+#include <utility>
 
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
@@ -13,6 +21,7 @@
 namespace {
 
 namespace fs = std::filesystem;
+using test_support::Command;
 using test_support::CommandResult;
 using test_support::run_command;
 using test_support::RunningCommand;
@@ -24,7 +33,9 @@ class LiveReport : public ::testing::Test {
  protected:
   // Starts a session that records everything. `where` are the options that say where its trace goes.
   void start_session(const std::vector<std::string>& where) {
-    ASSERT_EQ(run_command({"lttng-sessiond", "--daemonize"}).exit_code, 0);
+    if (!std::exchange(has_daemon_, true)) {
+      ASSERT_EQ(run_command({"lttng-sessiond", "--daemonize"}).exit_code, 0);
+    }
     std::vector<std::string> create{"lttng", "create", "seen"};
     create.insert(create.end(), where.begin(), where.end());
     run(create);
@@ -38,6 +49,26 @@ class LiveReport : public ::testing::Test {
   void run(const std::vector<std::string>& command) {
     const CommandResult result = run_command(command);
     ASSERT_EQ(result.exit_code, 0) << command[1] << result.out << result.err;
+  }
+
+  // Whether a relay daemon listens, within the patience of the test.
+  static bool accepts_viewers() {
+    constexpr std::uint16_t kPort = 5344;
+    const auto until = std::chrono::steady_clock::now() + kPatience;
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(kPort);
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    while (std::chrono::steady_clock::now() < until) {
+      const int probe = socket(AF_INET, SOCK_STREAM, 0);
+      const bool accepts = connect(probe, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+      close(probe);
+      if (accepts) {
+        return true;
+      }
+      std::this_thread::yield();
+    }
+    return false;
   }
 
   static void beat(RunningCommand& worker, const std::string& times) {
@@ -54,6 +85,7 @@ class LiveReport : public ::testing::Test {
   }
 
   test_support::Sandbox sandbox_;
+  bool has_daemon_ = false;
 };
 
 TEST_F(LiveReport, OfASessionSaysAtTheEndWhatTheTraceSays) {
@@ -114,6 +146,53 @@ TEST_F(LiveReport, OfADirectorySaysAtTheEndWhatTheTraceSays) {
   ASSERT_NE(begin, std::string::npos) << ended.out;
   EXPECT_EQ(ended.out.substr(begin), report({directory.string()}));
   EXPECT_THAT(ended.out.substr(begin), HasSubstr("/beats"));
+}
+
+// The sessions of a relay daemon end with it. The view waits for another daemon, and for another session of this name.
+TEST_F(LiveReport, GoesOnAfterItsRelayDaemonWasRestarted) {
+  const Command relay_daemon{.argv = {"lttng-relayd", "--output=" + (sandbox_.directory() / "relayed").string()}};
+  auto relay = std::make_unique<RunningCommand>(relay_daemon);
+  ASSERT_TRUE(accepts_viewers());
+  RunningCommand live({.argv = {LAUNCH_REPORT, "--live", "seen", "--json", "--interval=0.1"}});
+  for (const std::string events : {"50", "70"}) {
+    start_session({"--live=50000"});
+    const std::string attached = events == "50" ? "attached to the session 'seen'" : "the view goes on";
+    ASSERT_TRUE(live.wait_for_output(attached, kPatience)) << live.err();
+    {
+      RunningCommand worker({.argv = {WORKER}});
+      beat(worker, events);
+      EXPECT_TRUE(live.wait_for_output("latency p50", kPatience)) << live.err();
+      worker.close_input();
+      EXPECT_EQ(worker.wait().exit_code, 0);
+    }
+    if (events == "50") {
+      relay->send_signal(SIGKILL);
+      relay->wait();
+      ASSERT_TRUE(live.wait_for_output("waiting for a session 'seen' of another one", kPatience)) << live.err();
+      run({"lttng", "destroy", "--no-wait", "seen"});
+      relay = std::make_unique<RunningCommand>(relay_daemon);
+      ASSERT_TRUE(accepts_viewers());
+    }
+  }
+  run({"lttng", "destroy", "seen"});
+  const CommandResult ended = live.wait(kPatience);
+  EXPECT_EQ(ended.exit_code, 1) << "what was recorded without a relay daemon is missing";
+  EXPECT_THAT(ended.out, HasSubstr("the relay daemon was restarted"));
+  EXPECT_THAT(ended.out, HasSubstr("\"count\": 50"));
+  EXPECT_THAT(ended.out, HasSubstr("\"count\": 70"));
+}
+
+TEST_F(LiveReport, EndsWhenItsRelayDaemonDoesNotComeBack) {
+  auto relay = std::make_unique<RunningCommand>(
+      Command{.argv = {"lttng-relayd", "--output=" + (sandbox_.directory() / "relayed").string()}});
+  ASSERT_TRUE(accepts_viewers());
+  RunningCommand live({.argv = {LAUNCH_REPORT, "--live", "seen"}});
+  start_session({"--live=50000"});
+  ASSERT_TRUE(live.wait_for_output("attached to the session 'seen'", kPatience)) << live.err();
+  relay->send_signal(SIGKILL);
+  relay->wait();
+  EXPECT_EQ(live.wait(kPatience).exit_code, 1);
+  run({"lttng", "destroy", "--no-wait", "seen"});
 }
 
 TEST_F(LiveReport, EndsWithAReportWhenTheUserEndsIt) {

@@ -94,6 +94,15 @@ LiveAddress live_address(const std::string& text) {
   return address;
 }
 
+RelayState ask_relay_daemon(const LiveAddress& address) {
+  const MessageGraph graph("lttng-live");
+  try {
+    return ask_relay(graph.source_class(), address) ? RelayState::kSession : RelayState::kNoSession;
+  } catch (const TraceReadError&) {
+    return RelayState::kNoDaemon;
+  }
+}
+
 struct LiveReader::Implementation {
   // One attachment to the session, with what it has read.
   struct Connection {

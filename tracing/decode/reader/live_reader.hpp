@@ -26,6 +26,10 @@ struct LiveAddress {
 // A URL, or the name of a session of this machine with a relay daemon of this machine. Throws TraceReadError.
 LiveAddress live_address(const std::string& text);
 
+// What a relay daemon says of a session.
+enum class RelayState { kNoDaemon, kNoSession, kSession };
+RelayState ask_relay_daemon(const LiveAddress& address);
+
 class LiveReader {
  public:
   explicit LiveReader(LiveAddress address);

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 
@@ -132,6 +133,39 @@ bool attach(LiveReader& reader, const LiveAddress& address, LiveScreen& screen) 
   return true;
 }
 
+constexpr std::chrono::seconds kLongestWithoutRelay{10};
+
+// To be called after an error of reading. A relay daemon that ends takes its sessions with it: waits for another one
+// that has a session of this name, and attaches. Null when the relay daemon was not the cause, when none answers for 10
+// s, or when the user has ended the report.
+std::unique_ptr<LiveReader> attach_after_restart(const LiveAddress& address, LiveScreen& screen) {
+  RelayState state = ask_relay_daemon(address);
+  if (state == RelayState::kSession) {
+    return nullptr;
+  }
+  screen.note(
+      fmt::format("the relay daemon has ended, and the session with it; waiting for a session '{}' of another one",
+                  address.session));
+  Clock::time_point answered = Clock::now();
+  while (!screen.is_over_after(kRetryAttach)) {
+    state = ask_relay_daemon(address);
+    if (state != RelayState::kNoDaemon) {
+      answered = Clock::now();
+    } else if (Clock::now() - answered > kLongestWithoutRelay) {
+      return nullptr;
+    }
+    if (state == RelayState::kSession) {
+      auto reader = std::make_unique<LiveReader>(address);
+      if (!attach(*reader, address, screen)) {
+        return nullptr;
+      }
+      screen.note("the view goes on");
+      return reader;
+    }
+  }
+  return nullptr;
+}
+
 struct Reading {
   Report report;
   Clock::duration took{};
@@ -165,25 +199,25 @@ std::optional<Reading> read(const std::vector<fs::path>& directories, const Live
 bool report_live_session(const std::string& session, const LiveOptions& options) {
   const LiveAddress address = live_address(session);
   LiveScreen screen(options);
-  LiveReader reader(address);
+  auto reader = std::make_unique<LiveReader>(address);
   Report report{address.url(), {}, ""};
-  if (!attach(reader, address, screen)) {
+  if (!attach(*reader, address, screen)) {
     return true;
   }
   LiveView view;
   Clock::time_point drawn = Clock::now();
   std::chrono::nanoseconds wait{0};
   std::size_t late_attachments = 0;
-  try {
-    while (!screen.is_over_after(wait)) {
-      if (late_attachments != reader.late_attachments()) {
-        late_attachments = reader.late_attachments();
+  while (!screen.is_over_after(wait)) {
+    try {
+      if (late_attachments != reader->late_attachments()) {
+        late_attachments = reader->late_attachments();
         screen.note(
             "the session has begun before; objects that are older have no names until it is told of them: "
             "lttng regenerate statedump --session=" +
             address.session);
       }
-      const LiveReader::State state = read_some(reader, view);
+      const LiveReader::State state = read_some(*reader, view);
       if (state == LiveReader::State::kEnd) {
         break;
       }
@@ -196,9 +230,15 @@ bool report_live_session(const std::string& session, const LiveOptions& options)
       screen.show("Live       " + address.url(), view.screen(seconds, options.text), view.line(seconds));
       view.clear();
       drawn = Clock::now();
+    } catch (const TraceReadError& error) {
+      report.error = error.what();
+      reader = attach_after_restart(address, screen);
+      if (!reader) {
+        break;
+      }
+      report.error = "the relay daemon was restarted: what was recorded meanwhile is missing";
+      late_attachments = 0;
     }
-  } catch (const TraceReadError& error) {
-    report.error = error.what();
   }
   report.results = view.finish();
   screen.finish(report);
