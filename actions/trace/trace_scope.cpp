@@ -2,6 +2,7 @@
 #include "actions/trace/trace_scope.hpp"
 
 #include <fmt/format.h>
+#include <signal.h>
 #include <string.h>
 
 #include <utility>
@@ -29,7 +30,15 @@ TraceScope::TraceScope(TraceRequest request, std::unique_ptr<tracing::Tracer> tr
                        SourceRange origin)
     : origin_(std::move(origin)),
       choices_(std::move(request.choices)),
-      run_(std::move(request.config), std::move(tracer), std::move(prefix), choices_) {}
+      run_(std::move(request.config), std::move(tracer), std::move(prefix), choices_) {
+  if (choices_.snapshot_on_signal != 0) {
+    // The first of several traces starts threads. If the signal is not blocked in them, it ends the launcher.
+    sigset_t signal;
+    ::sigemptyset(&signal);
+    ::sigaddset(&signal, choices_.snapshot_on_signal);
+    ::pthread_sigmask(SIG_BLOCK, &signal, nullptr);
+  }
+}
 
 TraceScope::~TraceScope() {
   if (worker_.joinable()) {
@@ -57,7 +66,6 @@ void TraceScope::in_background(EventLoop& loop, std::string context, std::functi
 
 void TraceScope::begin(EventLoop& loop, Tell tell, Completion done) {
   if (choices_.snapshot_on_signal != 0) {
-    // Before any thread is started, because the signal must be blocked in all threads.
     signals_ = loop.on_signal({choices_.snapshot_on_signal}, [this](EventLoop::Signal signal) {
       run_.request_snapshot(fmt::format("SIG{}", ::sigabbrev_np(signal.number)));
     });

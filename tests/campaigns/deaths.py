@@ -20,8 +20,8 @@ def run(place, random):
     buffers = random.choice(['uid', 'pid'])
     process = place.start_launch(
         place.trace_tag(buffers_ust=buffers, subbuffer_size_ust=65536),
-        *(place.app_tag(number, threads=random.choice([1, 2]), bytes=20, burst=random.choice([1, 5, 50, 500]),
-                        pause=random.choice([500, 2000]), attributes='allowed-exit-codes="any"')
+        *(place.app_tag(number, threads=random.choice([1, 2]), bytes=20, burst=random.choice([1, 5, 20]),
+                        pause=random.choice([1000, 5000]), attributes='allowed-exit-codes="any"')
           for number in range(PROGRAMS)))
     until = time.monotonic() + 60
     while (len(place.started()) < PROGRAMS or not place.counts(PROGRAMS - 1)) and time.monotonic() < until:

@@ -94,8 +94,7 @@ class Place:
         shutil.rmtree(self.path(), ignore_errors=True)
         self.run += 1
         self.path().mkdir()
-        subprocess.run(('lttng-sessiond', '--daemonize', f"--pidfile={self.directory / 'sessiond.pid'}"), check=True,
-                       stdout=subprocess.DEVNULL)
+        subprocess.run(('lttng-sessiond', '--daemonize'), check=True, stdout=subprocess.DEVNULL)
 
     def path(self, *parts):
         return self.directory.joinpath(f'run-{self.run}', *parts)
@@ -164,7 +163,7 @@ class Place:
         file.write_text('<launch>\n' + '\n'.join(tags) + '\n</launch>\n', encoding='utf-8')
         self._log = open(self.path('launch.log'), 'w+', encoding='utf-8')
         self._begin = time.monotonic()
-        return self.start(self.program, file, stdin=subprocess.DEVNULL, stdout=self._log, stderr=subprocess.STDOUT)
+        return self.start(self.program, '--timing', file, stdin=subprocess.DEVNULL, stdout=self._log, stderr=subprocess.STDOUT)
 
     def end_launch(self, process, patience=PATIENCE):
         try:

@@ -279,6 +279,21 @@ TEST_F(TraceControl, SnapshotsAreTakenOnASignalAndOnAnEvent) {
   EXPECT_THAT(run_command({"lttng", "list-triggers"}).out, testing::Not(HasSubstr("run:")));
 }
 
+// The threads of the trace before must not take the signal.
+TEST_F(TraceControl, ASnapshotIsTakenOnASignalBesideAnotherTrace) {
+  const std::string file = write("system.launch.xml", R"xml(<trace session-name="whole"/>
+<trace session-name="run" snapshot-on-signal="SIGUSR1"/>
+<executable name="app" output="screen" cmd=")xml" TRACED_APP R"xml( 1 10"/>
+<timer period="60"><shutdown/></timer>)xml");
+  RunningCommand run({.argv = {LAUNCH_PROGRAM, file}});
+  ASSERT_TRUE(run.wait_for_output("fired")) << run.out() << run.err();
+  run.send_signal(SIGUSR1);
+  ASSERT_TRUE(run.wait_for_output("(SIGUSR1)")) << run.out() << run.err();
+  run.send_signal(SIGINT);
+  EXPECT_EQ(run.wait().exit_code, 0);
+  EXPECT_THAT(snapshots("run"), SizeIs(1));
+}
+
 TEST_F(TraceControl, AKilledLauncherLeavesNoTriggerAndNoSession) {
   const std::string file =
       write("system.launch.xml", R"xml(<trace session-name="run" snapshot-on-events="ros2:rcl_init"/>

@@ -17,6 +17,13 @@
 namespace tracing {
 namespace {
 
+// "`kill -9 4711` ends WHAT". The process id is unknown if the daemon writes it to a file of its own (--pidfile).
+std::string ending_the_daemon(const char* kill, const char* what) {
+  const pid_t daemon = session_daemon_pid();
+  return daemon > 0 ? fmt::format("`{} {}` ends {}", kill, daemon, what)
+                    : fmt::format("`{}` and the process id of lttng-sessiond ends {}", kill, what);
+}
+
 std::string remedy_for(int code) {
   switch (code) {
     case LTTNG_ERR_NO_SESSIOND:
@@ -37,10 +44,8 @@ std::string remedy_for(int code) {
     // Its consumer was killed.
     case LTTNG_ERR_FATAL:
     case LTTNG_ERR_NO_USTCONSUMERD:
-      return fmt::format(
-          "restart lttng-sessiond: its consumer has ended, and it starts no other one. `kill {}` ends it with all its "
-          "sessions; the next trace starts a new one",
-          session_daemon_pid());
+      return "restart lttng-sessiond: its consumer has ended, and it starts no other one. " +
+             ending_the_daemon("kill", "it") + " with all its sessions; the next trace starts a new one";
     case LTTNG_ERR_UST_CONSUMER64_FAIL:
     case LTTNG_ERR_ENABLE_CONSUMER_FAIL:
       return "lttng-consumerd did not start: check the installation of lttng-tools";
@@ -56,8 +61,8 @@ std::string remedy_for_silence() {
       return fmt::format("LTTng's consumer is stopped: continue it with `kill -CONT {}`", consumer);
     }
   }
-  return fmt::format("`kill -9 {}` ends LTTng's session daemon with all its sessions; the next trace starts a new one",
-                     daemon);
+  return ending_the_daemon("kill -9", "LTTng's session daemon") +
+         " with all its sessions; the next trace starts a new one";
 }
 
 }  // namespace

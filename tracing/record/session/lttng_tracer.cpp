@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -44,6 +45,8 @@
 
 namespace tracing {
 namespace {
+
+constexpr std::chrono::milliseconds kLongestEndOfAStuckSession{1000};
 
 // A damaged trace is not complete, so its damage is looked for first.
 void judge(LossAccount& losses, LossesByProcess& by_process, const std::vector<Stream>& streams,
@@ -237,7 +240,12 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
   const bool rotated = local && std::filesystem::exists(session->path + "/archives", unreadable);
   std::optional<TraceError> failure;
   try {
-    rotated ? static_cast<void>(destroy_rotated_session(name, give_up)) : destroy_session(name, give_up);
+    // What has not moved for ten seconds is not waited for that long once more.
+    const auto latest = std::chrono::steady_clock::now() + kLongestEndOfAStuckSession;
+    const auto no_longer = [&give_up, stuck = losses.stuck, latest] {
+      return (give_up && give_up()) || (stuck && std::chrono::steady_clock::now() > latest);
+    };
+    rotated ? static_cast<void>(destroy_rotated_session(name, no_longer)) : destroy_session(name, no_longer);
   } catch (const TraceError& error) {
     failure = error;  // what has been written is judged all the same
   }
