@@ -91,8 +91,13 @@ void TraceScope::begin(EventLoop& loop, Tell tell, Completion done) {
 }
 
 void TraceScope::record(const LaunchRecord& record) {
-  if (!choices_.snapshot_on_crash || record.kind != LaunchRecord::Kind::kExit || record.value == 0 ||
-      record.asked_for) {
+  if (record.kind != LaunchRecord::Kind::kExit) {
+    return;
+  }
+  // Whatever it ended of: at an exit() other threads may be within an event, and a shell tells the death of its child
+  // by an exit code.
+  run_.process_ended(record.name);
+  if (!choices_.snapshot_on_crash || record.value == 0 || record.asked_for) {
     return;
   }
   run_.request_snapshot(record.value < 0 ? fmt::format("{} died of SIG{}", record.name, ::sigabbrev_np(-record.value))

@@ -44,6 +44,11 @@ std::string session_as_text(const SessionDetails& session) {
                         channel.overwrite ? "overwrites the oldest events" : "drops the newest events");
     text += fmt::format("    {}: {}\n", counted(channel.events.size(), "event rule"), joined(channel.events));
   }
+  for (const auto& [processor, seconds] : session.held_up) {
+    text += fmt::format(
+        "  processor {}: a process died within an event; what is recorded there is lost, for {:.1f} s now\n", processor,
+        seconds);
+  }
   return text + fmt::format("  {}\n", describe_losses(session.losses));
 }
 

@@ -229,6 +229,18 @@ TEST_F(TraceControl, TheLastEventBeforeEachOfTwentyCrashesIsInASnapshot) {
 }
 
 // LTTng-UST would give a stopped daemon three seconds, three times, before main().
+TEST_F(TraceControl, AProcessThatDiesWithinAnEventIsToldOfWhileTheOthersRun) {
+  const std::string file = write("system.launch.xml", R"xml(<trace session-name="run"/>
+<executable name="planner" cmd=")xml" INTERRUPTED_APP R"xml( 20 die"/>
+<executable name="other" cmd="sleep 1000"/>)xml");
+  RunningCommand launch({.argv = {LAUNCH_PROGRAM, file}});
+  ASSERT_TRUE(launch.wait_for_output("[launch.trace]: planner-1 died within an event: what processor ")) << launch.out();
+  EXPECT_THAT(run_command({LAUNCH_PROGRAM, "trace", "status", "run"}).out,
+              ContainsRegex("  processor [0-9]+: a process died within an event; what is recorded there is lost, for "));
+  launch.send_signal(SIGINT);
+  EXPECT_THAT(launch.wait().out + launch.err(), HasSubstr("trace is incomplete: unfinished:"));
+}
+
 TEST_F(TraceControl, AStoppedDaemonDoesNotHoldUpProcessesThatStartLater) {
   const std::string file = write("system.launch.xml", R"xml(<trace session-name="run"/>
 <executable name="first" cmd="sleep 1000"/>

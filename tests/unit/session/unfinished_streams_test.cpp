@@ -5,10 +5,15 @@
 #include <signal.h>
 
 #include <chrono>
+#include <condition_variable>
 #include <filesystem>
+#include <list>
+#include <memory>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "tests/support/command.hpp"
 #include "tests/unit/session/lttng_tracer_fixture.hpp"
@@ -23,7 +28,9 @@ namespace {
 using test_support::run_command;
 using test_support::RunningCommand;
 using testing::ContainsRegex;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::Not;
 using trace_test::never;
 using trace_test::read_trace;
@@ -159,6 +166,120 @@ TEST_F(UnfinishedStreams, WithFullBuffersTellWhatWasLostToTheEnd) {
     EXPECT_EQ(discarded, pauses ? fired - recorded : 0);
     EXPECT_FALSE(losses.complete());
   }
+}
+
+// What the watch of the run says within so long of the death of a process.
+class Watched {
+ public:
+  Watched(tracing::Tracer& tracer, const TraceConfig& config)
+      : watch_(tracer.watch(config, [this](const std::string& sentence) {
+          const std::lock_guard lock(mutex_);
+          said_.push_back(sentence);
+          changed_.notify_one();
+        })) {}
+
+  void ended(const std::string& process) { watch_->process_ended(process); }
+  std::vector<std::string> said_within(std::chrono::milliseconds longest) {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, longest, [this] { return !said_.empty(); });
+    return std::exchange(said_, {});
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<std::string> said_;
+  std::unique_ptr<tracing::RunWatch> watch_;
+};
+
+constexpr std::chrono::milliseconds kASecond{1000};
+constexpr std::chrono::milliseconds kASecondOnABusyMachine{4000};
+
+TEST_F(UnfinishedStreams, AreSaidWhileTheSessionRecords) {
+  for (const bool snapshots : {false, true}) {
+    TraceConfig config = config_named(snapshots ? "snapshots" : "run");
+    config.snapshot_mode = snapshots;
+    tracer->start(config);
+    trace_test::TracedApp other(10, 10);
+    Watched watched(*tracer, config);
+    die_within_an_event();
+    watched.ended("planner-1");
+    EXPECT_THAT(
+        watched.said_within(kASecondOnABusyMachine),
+        ElementsAre(ContainsRegex("^planner-1 died within an event: what processor [0-9]+ records is lost since "
+                                  "[0-9.]+ s before, also of other processes; start the launch anew")));
+    EXPECT_EQ(tracer->status(config.session_name).held_up.size(), 1u);
+    watched.ended("another");
+    EXPECT_THAT(watched.said_within(kASecond), IsEmpty()) << "it is said once";
+    other.end();
+    tracer->finish(config, never);
+  }
+}
+
+// Another session of the same session daemon is held up.
+TEST_F(UnfinishedStreams, AreNotSaidOfAnotherSession) {
+  const TraceConfig held_up = config_named("other");
+  tracer->start(held_up);
+  die_within_an_event();
+  const TraceConfig config = config_named("run");
+  tracer->start(config);
+  trace_test::TracedApp app(10, 10);
+  Watched watched(*tracer, config);
+  watched.ended("planner-1");
+  EXPECT_THAT(watched.said_within(kASecond + kASecond), IsEmpty());
+  EXPECT_TRUE(tracer->status("run").held_up.empty());
+  EXPECT_EQ(tracer->status("other").held_up.size(), 1u);
+  app.end();
+  tracer->finish(held_up, never);
+  tracer->finish(config, never);
+}
+
+TEST_F(UnfinishedStreams, AreNotSaidWhereEachProcessHasBuffersOfItsOwn) {
+  TraceConfig config = config_named("run");
+  config.buffers_ust = tracing::BufferOwner::kProcess;
+  tracer->start(config);
+  Watched watched(*tracer, config);
+  die_within_an_event();
+  watched.ended("planner-1");
+  EXPECT_THAT(watched.said_within(kASecond + kASecond), IsEmpty());
+  EXPECT_TRUE(tracer->status("run").held_up.empty());
+  tracer->finish(config, never);
+}
+
+// A thread that is stopped within an event, and goes on when it has been taken for dead.
+TEST_F(UnfinishedStreams, AreTakenBackWhenTheyGoOn) {
+  const TraceConfig config = config_named("run");
+  tracer->start(config);
+  RunningCommand app({.argv = {INTERRUPTED_APP, "20", "wait"}, .environment = {}});
+  ASSERT_TRUE(app.wait_for_output("within\n"));
+  Watched watched(*tracer, config);
+  watched.ended("planner-1");
+  EXPECT_THAT(watched.said_within(kASecondOnABusyMachine), ElementsAre(HasSubstr("planner-1 died within an event")));
+  app.write("\n");
+  app.wait();
+  EXPECT_THAT(watched.said_within(kASecondOnABusyMachine),
+              ElementsAre(ContainsRegex("^the events of processor [0-9]+ are recorded after all")));
+  EXPECT_TRUE(tracer->finish(config, never).complete());
+}
+
+TEST_F(UnfinishedStreams, AreNotSaidOfThreadsThatFireWithoutPause) {
+  TraceConfig config = config_named("run");
+  config.overwrite_ust = true;
+  tracer->start(config);
+  std::list<RunningCommand> apps;
+  for (int i = 0; i < 4; ++i) {
+    apps.emplace_back(test_support::Command{.argv = {INTERRUPTED_APP, "2000000000", "die"}, .environment = {}});
+  }
+  Watched watched(*tracer, config);
+  for (int i = 0; i < 4; ++i) {
+    watched.ended("planner-1");
+    EXPECT_THAT(watched.said_within(kASecond), IsEmpty());
+  }
+  for (RunningCommand& app : apps) {
+    app.send_signal(SIGKILL);
+    app.wait();
+  }
+  tracer->finish(config, never);
 }
 
 // LTTng's rotation, and its end of a session that was rotated, wait for the packet that is never completed.

@@ -229,6 +229,26 @@ std::vector<std::uint64_t> last_times(const fs::path& directory, const std::set<
   return times;
 }
 
+std::set<std::string> trace_uuids(const fs::path& directory) {
+  std::set<std::string> uuids;
+  Traces traces;
+  for (const fs::path& chunk : chunks_of(directory)) {
+    std::error_code error;
+    fs::recursive_directory_iterator entry(chunk / "ust", error);
+    for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+      if (entry->path().filename() != kMetadata) {
+        continue;
+      }
+      // LTTng may have made the file and not written it yet.
+      const ctf::TraceClass* const trace = traces.in(entry->path().parent_path());
+      if (trace != nullptr && !trace->uuid.empty()) {
+        uuids.insert(trace->uuid);
+      }
+    }
+  }
+  return uuids;
+}
+
 std::uint64_t first_time(const std::vector<Stream>& streams) {
   std::uint64_t first = std::numeric_limits<std::uint64_t>::max();
   for (const Stream& stream : streams) {

@@ -43,6 +43,9 @@ std::vector<Stream> read_streams(const std::filesystem::path& directory,
 std::vector<std::uint64_t> last_times(const std::filesystem::path& directory,
                                       const std::set<std::string>& channels_in_files);
 
+// The UUIDs of the userspace traces in the recording, as their packets have them.
+std::set<std::string> trace_uuids(const std::filesystem::path& directory);
+
 // When the first packet of all streams begins; the greatest number when there is none.
 std::uint64_t first_time(const std::vector<Stream>& streams);
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct SessionDetails {
   SessionSummary summary;
   std::vector<ChannelDetails> channels;
   LossAccount losses;
+  // Seconds since which the events of a processor are lost because a process died within an event, by processor.
+  std::map<std::uint32_t, double> held_up = {};
 };
 
 }  // namespace tracing

@@ -10,7 +10,9 @@
 #include <memory>
 #include <set>
 
+#include "base/monotonic_clock.hpp"
 #include "tracing/record/account/loss_counters.hpp"
+#include "tracing/record/account/stream_packets.hpp"
 #include "tracing/record/checks/kernel_checks.hpp"
 #include "tracing/record/lttng/channels.hpp"
 #include "tracing/record/lttng/lttng_ctl.hpp"
@@ -19,6 +21,7 @@
 #include "tracing/record/plan/channel_plan.hpp"
 #include "tracing/record/plan/context_fields.hpp"
 #include "tracing/record/plan/trace_error.hpp"
+#include "tracing/record/session/held_up_streams.hpp"
 
 namespace tracing {
 namespace {
@@ -129,6 +132,14 @@ SessionDetails describe_session(const std::string& name) {
   for (const lttng_domain& domain : domains) {
     for (ChannelDetails& channel : channels_of(name, domain)) {
       details.channels.push_back(std::move(channel));
+    }
+  }
+  if (std::none_of(domains.begin(), domains.end(),
+                   [](const lttng_domain& domain) { return domain.buf_type == LTTNG_BUFFER_PER_PID; })) {
+    const auto now = static_cast<std::uint64_t>(launch::monotonic_time());
+    for (const HeldUpStream& stream : find_held_up_streams(name)) {
+      double& seconds = details.held_up[stream.processor];
+      seconds = std::max(seconds, now > stream.since ? to_seconds(now - stream.since) : 0);
     }
   }
   return details;

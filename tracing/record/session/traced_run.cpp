@@ -116,7 +116,10 @@ void TracedRun::start(const Tell& tell, const SnapshotObserver& observer) {
     tell(false, setup_.notes);
   }
   tell(false, fmt::format("writing tracing session to: {}", setup_.trace_directory));
-  run_watch_ = tracer_->watch(config_, [tell](const std::string& sentence) { tell(true, sentence); });
+  std::unique_ptr<RunWatch> watch =
+      tracer_->watch(config_, [tell](const std::string& sentence) { tell(true, sentence); });
+  const std::lock_guard lock(watchers_mutex_);
+  run_watch_ = std::move(watch);
 }
 
 void TracedRun::end_failed_session() {
@@ -173,7 +176,7 @@ void TracedRun::start_flight_recorder(const Tell& tell, const SnapshotObserver& 
       request_snapshot(snapshot_reason(choices_, rule));
     });
   }
-  const std::lock_guard lock(flight_recorder_mutex_);
+  const std::lock_guard lock(watchers_mutex_);
   flight_recorder_ = std::move(recorder);
 }
 
@@ -181,19 +184,33 @@ void TracedRun::start_flight_recorder(const Tell& tell, const SnapshotObserver& 
 void TracedRun::stop_flight_recorder() {
   event_watch_.reset();
   std::shared_ptr<FlightRecorder> recorder;
-  const std::lock_guard lock(flight_recorder_mutex_);
+  const std::lock_guard lock(watchers_mutex_);
   recorder.swap(flight_recorder_);
 }
 
 void TracedRun::request_snapshot(const std::string& reason, bool after_death) {
-  const std::lock_guard lock(flight_recorder_mutex_);
+  const std::lock_guard lock(watchers_mutex_);
   if (flight_recorder_) {
     flight_recorder_->request(reason, after_death);
   }
 }
 
+void TracedRun::process_ended(const std::string& name) {
+  const std::lock_guard lock(watchers_mutex_);
+  if (run_watch_) {
+    run_watch_->process_ended(name);
+  }
+}
+
+// What it tells at last is told without the lock.
+void TracedRun::stop_run_watch() {
+  std::unique_ptr<RunWatch> watch;
+  const std::lock_guard lock(watchers_mutex_);
+  watch.swap(run_watch_);
+}
+
 void TracedRun::finish(const Tell& tell) {
-  run_watch_.reset();
+  stop_run_watch();
   overhead_guard_.reset();
   stop_flight_recorder();
   try {

@@ -3,7 +3,7 @@
 //
 // Call start(), then look_around() and request_snapshot() as you like, then finish(). start(), look_around() and
 // finish() block, some for hundreds of milliseconds: call them from a thread of your own, one at a time. The others
-// return at once, and request_snapshot() and hurry() may be called from any thread meanwhile.
+// return at once, and request_snapshot(), process_ended() and hurry() may be called from any thread meanwhile.
 #pragma once
 
 #include <atomic>
@@ -79,6 +79,8 @@ class TracedRun {
   void look_around(const Tell& tell);
   // Does nothing if there is no flight recorder at the time.
   void request_snapshot(const std::string& reason, bool after_death = false);
+  // A process of the run has ended: with a session that records, look whether it has died within an event.
+  void process_ended(const std::string& name);
   // The user is in a hurry: a finish() under way ends at once, with the data that is there.
   void hurry() { hurry_ = true; }
   // Ends the session and tells what it holds and has lost. Throws TraceError when the session can't be reached any
@@ -96,6 +98,7 @@ class TracedRun {
   std::string write_chains() const;
   void start_flight_recorder(const Tell& tell, const SnapshotObserver& observer);
   void stop_flight_recorder();
+  void stop_run_watch();
   void summarize();
   void make_report();
   void tell_result(const Tell& tell) const;
@@ -112,7 +115,7 @@ class TracedRun {
   std::string summary_;
   std::string report_;  // path of the page; empty: none could be made
   std::atomic<bool> hurry_ = false;
-  std::mutex flight_recorder_mutex_;  // of the pointer
+  std::mutex watchers_mutex_;  // of the pointers to the flight recorder and to the watch of the run
   std::shared_ptr<FlightRecorder> flight_recorder_;
   std::unique_ptr<EventWatch> event_watch_;
   std::unique_ptr<OverheadGuard> overhead_guard_;
