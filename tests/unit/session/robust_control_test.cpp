@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <filesystem>
@@ -237,20 +238,52 @@ TEST_F(RobustControl, AStoppedConsumerIsAnErrorAndIsContinuedAtTheEnd) {
   EXPECT_EQ(read_trace(config().trace_directory()).events.at("ros2:rclcpp_callback_register"), 10);
 }
 
-TEST_F(RobustControl, ADaemonThatIsStoppedInMidRunIsAnErrorAndDoesNotBlock) {
+TEST_F(RobustControl, ADaemonThatIsStoppedInMidRunIsAnErrorAndIsContinuedAtTheEnd) {
   tracer->start(config());
   TracedApp app(10, 10);
   const std::string home = std::string(getenv("LTTNG_HOME")) + "/.lttng";
   const pid_t pid = std::stoi(test_support::read_file((geteuid() == 0 ? "/run/lttng" : home) + "/lttng-sessiond.pid"));
   kill(pid, SIGSTOP);
   ASSERT_EQ(waitpid(pid, nullptr, WUNTRACED), pid);
-  EXPECT_EQ(error_of([this] { tracer->finish(config(), never); }),
-            "the LTTng session daemon (process " + std::to_string(pid) +
-                ") is stopped and does not answer\ncontinue it with `kill -CONT " + std::to_string(pid) + "`");
-  kill(pid, SIGCONT);
-  tracer->finish(config(), never);
+  const std::string stopped = "the LTTng session daemon (process " + std::to_string(pid) +
+                              ") is stopped and does not answer\ncontinue it with `kill -CONT " + std::to_string(pid) +
+                              "`";
+  EXPECT_EQ(error_of([this] { tracer->status("run"); }), stopped);
+  EXPECT_EQ(error_of([this] { tracer->pause("run"); }), stopped);
+  const LossAccount losses = tracer->finish(config(), never);
+  EXPECT_TRUE(losses.complete()) << losses.damage;
+  EXPECT_THAT(losses.notes, testing::ElementsAre("LTTng's session daemon (process " + std::to_string(pid) +
+                                                 ") was stopped; it was continued, so that the session could end"));
+  EXPECT_EQ(listed_sessions(), "");
   app.end();
   EXPECT_EQ(read_trace(config().trace_directory()).events.at("ros2:rclcpp_callback_register"), 10);
+}
+
+// Also in the middle of the end of a session.
+TEST_F(RobustControl, DaemonsThatAreStoppedWhileTheSessionEndsAreContinued) {
+  if (geteuid() != 0) {
+    GTEST_SKIP() << "skipped, because without root the consumers of the machine can't be told apart";
+  }
+  for (const char* const name : {"lttng-sessiond", "lttng-consumerd"}) {
+    tracer->start(config(name));
+    TracedApp app(2000, 200);
+    const pid_t pid = processes(name).at(0);
+    std::atomic<bool> ended = false;
+    std::thread stopping([&] {
+      while (!ended) {
+        kill(pid, SIGSTOP);
+        std::this_thread::sleep_for(std::chrono::milliseconds(150));
+      }
+    });
+    const LossAccount losses = tracer->finish(config(name), never);
+    ended = true;
+    stopping.join();
+    kill(pid, SIGCONT);
+    EXPECT_TRUE(losses.complete()) << losses.damage;
+    EXPECT_EQ(losses.notes.size(), 1u) << name;
+    EXPECT_EQ(listed_sessions(), "");
+    app.end();
+  }
 }
 
 TEST_F(RobustControl, AFullDiskIsSaidAndTheSessionEnds) {

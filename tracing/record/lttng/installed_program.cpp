@@ -1,19 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/record/lttng/installed_program.hpp"
 
+#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <system_error>
 
+#include "base/environment/own_environment.hpp"
 #include "base/environment/own_prefix.hpp"
 #include "base/files/pipe.hpp"
 #include "base/processes/spawn.hpp"
+#include "tracing/record/lttng/session_daemon.hpp"
 
 namespace tracing {
 namespace {
 
 namespace fs = std::filesystem;
+
+// LTTng-UST waits three times so long for a session daemon that has been stopped, and with the user's own timeout maybe
+// for ever.
+constexpr const char* kRegisterTimeout = "1000";  // ms
+constexpr std::chrono::seconds kLongestRun{5};
 
 bool succeeded(int status) {
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
@@ -38,6 +47,31 @@ bool run_program(const fs::path& program) {
     })));
   } catch (const std::system_error&) {
     return false;
+  }
+}
+
+void run_traced(const fs::path& program) {
+  if (!session_daemon_can_answer()) {
+    return;
+  }
+  launch::Environment environment = launch::own_environment();
+  environment.insert_or_assign("LTTNG_UST_REGISTER_TIMEOUT", kRegisterTimeout);
+  try {
+    const pid_t pid = launch::spawn({
+        .program = program.string(),
+        .argv = {program.string()},
+        .environment = &environment.variables(),
+        .descriptors = {{STDIN_FILENO, launch::kDevNull},
+                        {STDOUT_FILENO, launch::kDevNull},
+                        {STDERR_FILENO, launch::kDevNull}},
+        .group = launch::ChildGroup::kOwn,
+    });
+    if (!launch::ends_within(pid, kLongestRun)) {
+      kill(pid, SIGKILL);
+    }
+    launch::wait_for(pid);
+  } catch (const std::system_error&) {
+    // It is not needed.
   }
 }
 

@@ -95,14 +95,15 @@ bool is_this_machine(const std::string& peer) {
                           : peer == "00000000000000000000000001000000" || peer.ends_with("FFFF00000100007F");
 }
 
-// A relay daemon in the consumer's network namespace is stopped.
-bool relay_daemon_is_stopped(pid_t consumer) {
+// The relay daemons in the consumer's network namespace that are stopped; none if another one runs there: which of them
+// it is, is unknown.
+std::vector<pid_t> stopped_relay_daemons(pid_t consumer) {
   std::error_code error;
   const fs::path network = fs::read_symlink(fmt::format("/proc/{}/ns/net", consumer), error);
   if (error) {
-    return false;
+    return {};
   }
-  bool stopped = false;
+  std::vector<pid_t> stopped;
   fs::directory_iterator entry("/proc", error);
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
     const pid_t pid = static_cast<pid_t>(std::strtol(entry->path().filename().c_str(), nullptr, 10));
@@ -118,9 +119,9 @@ bool relay_daemon_is_stopped(pid_t consumer) {
       continue;
     }
     if (process.state != 'T' && process.state != 't') {
-      return false;  // which one it is, is unknown
+      return {};
     }
-    stopped = true;
+    stopped.push_back(pid);
   }
   return stopped;
 }
@@ -163,7 +164,7 @@ RelayConnection::State RelayConnection::look() {
       is_silent = is_silent || connection.is_silent;
       local = local || is_this_machine(connection.peer);
     }
-    if (local && relay_daemon_is_stopped(consumer)) {
+    if (local && !stopped_relay_daemons(consumer).empty()) {
       return State::kSilent;
     }
   }
@@ -172,6 +173,19 @@ RelayConnection::State RelayConnection::look() {
   }
   silence_ = is_silent ? silence_ + 1 : 0;
   return silence_ >= kLongestSilence ? State::kSilent : State::kWorks;
+}
+
+std::vector<pid_t> RelayConnection::stopped_daemons() const {
+  std::vector<pid_t> stopped;
+  for (const pid_t consumer : consumers_) {
+    const std::optional<std::vector<Connection>> connections = connections_of(consumer, ports_);
+    if (connections && std::any_of(connections->begin(), connections->end(),
+                                   [](const Connection& connection) { return is_this_machine(connection.peer); })) {
+      const std::vector<pid_t> found = stopped_relay_daemons(consumer);
+      stopped.insert(stopped.end(), found.begin(), found.end());
+    }
+  }
+  return stopped;
 }
 
 }  // namespace tracing

@@ -35,6 +35,8 @@ class RelayConnection {
   };
   // Call it twice a second.
   State look();
+  // The relay daemon at the other end if it runs on this machine and is stopped.
+  std::vector<pid_t> stopped_daemons() const;
 
   static constexpr int kLongestSilence = 10;
 

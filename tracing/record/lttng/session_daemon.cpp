@@ -5,6 +5,8 @@
 #include <fmt/core.h>
 #include <signal.h>
 #include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <array>
@@ -19,10 +21,12 @@
 
 #include "base/environment/home_directory.hpp"
 #include "base/environment/own_environment.hpp"
+#include "base/files/unique_fd.hpp"
 #include "base/processes/process_mark.hpp"
 #include "base/processes/process_stat.hpp"
 #include "base/processes/spawn.hpp"
 #include "tracing/record/lttng/consumer_priority.hpp"
+#include "tracing/record/lttng/daemons_kept_going.hpp"
 #include "tracing/record/lttng/lttng_ctl.hpp"
 #include "tracing/record/plan/trace_error.hpp"
 
@@ -158,8 +162,24 @@ pid_t read_pid(const std::string& pid_file) {
   return file >> pid && pid > 0 ? pid : 0;
 }
 
+// The process that listens where programs find the session daemon. Its pid file may be elsewhere (--pidfile), or gone.
+pid_t daemon_at_socket() {
+  const std::string path = session_daemon_directory() + "/client-lttng-sessiond";
+  const launch::UniqueFd connection(socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  path.copy(address.sun_path, sizeof address.sun_path - 1);
+  ucred peer{};
+  socklen_t size = sizeof peer;
+  if (connect(connection.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
+      getsockopt(connection.get(), SOL_SOCKET, SO_PEERCRED, &peer, &size) != 0) {
+    return 0;
+  }
+  return peer.pid;
+}
+
 void check_not_stopped(pid_t pid, const launch::ProcessStat& process) {
-  if (process.name != kDaemon || process.state != 'T') {
+  if (process.name != kDaemon || process.state != 'T' || is_kept_going(pid)) {
     return;
   }
   throw TraceError(fmt::format("the LTTng session daemon (process {}) is stopped and does not answer", pid),
@@ -192,7 +212,8 @@ std::string session_daemon_directory() {
 }
 
 pid_t session_daemon_pid() {
-  return read_pid(pid_file_of_daemon());
+  const pid_t pid = read_pid(pid_file_of_daemon());
+  return pid != 0 ? pid : daemon_at_socket();
 }
 
 bool session_daemon_can_answer() {
@@ -209,22 +230,11 @@ void check_daemon_not_stopped() {
 void check_daemons_not_stopped() {
   check_daemon_not_stopped();
   for (const pid_t consumer : consumers_of(session_daemon_pid())) {
-    if (launch::read_process_stat(consumer).state == 'T') {
+    if (launch::read_process_stat(consumer).state == 'T' && !is_kept_going(consumer)) {
       throw TraceError(fmt::format("LTTng's consumer (process {}) is stopped and does not answer", consumer),
                        fmt::format("continue it with `kill -CONT {}`", consumer));
     }
   }
-}
-
-std::vector<std::string> continue_stopped_consumers() {
-  std::vector<std::string> continued;
-  for (const pid_t consumer : consumers_of(session_daemon_pid())) {
-    if (launch::read_process_stat(consumer).state == 'T' && kill(consumer, SIGCONT) == 0) {
-      continued.push_back(fmt::format(
-          "LTTng's consumer (process {}) was stopped; it was continued, so that the session could end", consumer));
-    }
-  }
-  return continued;
 }
 
 bool session_daemon_is_ours() {

@@ -35,13 +35,10 @@ pid_t session_daemon_pid();
 // False when the daemon is known to be stopped (SIGSTOP). A traced program would wait for it at its start.
 bool session_daemon_can_answer();
 
-// Throws when the daemon is stopped: it would block every call.
+// Throws when the daemon is stopped, and nobody keeps it going (daemons_kept_going.hpp): it would block every call.
 void check_daemon_not_stopped();
 
 // Throws also when a consumer of the daemon is stopped: the daemon waits for it in most calls.
 void check_daemons_not_stopped();
-
-// Continues the consumers that are stopped, as far as this user may. Returns a sentence for each.
-std::vector<std::string> continue_stopped_consumers();
 
 }  // namespace tracing

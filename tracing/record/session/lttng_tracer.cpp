@@ -25,6 +25,7 @@
 #include "tracing/record/checks/unreachable_processes.hpp"
 #include "tracing/record/kernel/kernel_recorder.hpp"
 #include "tracing/record/lttng/consumer_priority.hpp"
+#include "tracing/record/lttng/daemons_kept_going.hpp"
 #include "tracing/record/lttng/lttng_ctl.hpp"
 #include "tracing/record/lttng/lttng_error.hpp"
 #include "tracing/record/lttng/relay_connection.hpp"
@@ -131,19 +132,30 @@ void end_streams(LossAccount& losses, const std::string& name, const std::string
   wait_for_last_packets(directory, in_files, stopped, give_up);
 }
 
-// Whether the relay daemon has gone that gets the trace of the session. Throws TraceError if it is stopped: LTTng's
-// consumer waits for its answers, and the session daemon for the consumer, for ever.
-std::optional<Absence> look_for_relay_daemon(const SessionSummary& session) {
+// The connections of a session that sends its trace to a relay daemon.
+std::optional<RelayConnection> connection_of(const SessionSummary& session) {
   if (session.snapshot || session.path.empty() || session.path.starts_with('/')) {
     return std::nullopt;
   }
-  RelayConnection connection(relay_ports(session.path), consumers_of(session_daemon_pid()));
-  const RelayConnection::State state = connection.look();
+  return RelayConnection(relay_ports(session.path), consumers_of(session_daemon_pid()));
+}
+
+// How to end a session that could not be ended.
+std::string end_it_later(const std::string& session_name) {
+  return fmt::format("then end the session with `launch trace stop {}`", session_name);
+}
+
+// Whether the relay daemon has gone that gets the trace of the session. Throws TraceError if it is stopped: LTTng's
+// consumer waits for its answers, and the session daemon for the consumer, for ever.
+std::optional<Absence> look_for_relay_daemon(const SessionSummary& session) {
+  std::optional<RelayConnection> connection = connection_of(session);
+  if (!connection) {
+    return std::nullopt;
+  }
+  const RelayConnection::State state = connection->look();
   if (state == RelayConnection::State::kSilent) {
     throw TraceError(fmt::format("the relay daemon that gets the trace of session '{}' is stopped", session.name),
-                     fmt::format("continue it with `kill -CONT` and its process id, then end the session with `launch "
-                                 "trace stop {}`",
-                                 session.name));
+                     "continue it with `kill -CONT` and its process id, " + end_it_later(session.name));
   }
   if (state != RelayConnection::State::kEnded) {
     return std::nullopt;
@@ -178,20 +190,23 @@ class LttngTracer : public Tracer {
 
 LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<bool()>& give_up) {
   const std::string name = config.lttng_session_name();
-  std::vector<std::string> notes;
   std::vector<SessionStep> steps;
   StepTimer timer(steps);
+  DaemonsKeptGoing daemons;
   std::optional<SessionSummary> session;
   try {
-    check_daemon_not_stopped();
-    notes = continue_stopped_consumers();
     session = find_session(name);
+    if (session) {
+      if (const std::optional<RelayConnection> connection = connection_of(*session)) {
+        daemons.keep_relay_daemons([connection] { return connection->stopped_daemons(); });
+      }
+    }
   } catch (const TraceError& error) {
     // When the daemon goes on, the session can be ended, and gets another verdict.
     if (!config.records_snapshots() && !config.over_network()) {
       write_failed_verdict(name, config.trace_directory(), error.what());
     }
-    throw;
+    throw TraceError(error.what(), error.remedy() + (error.remedy().empty() ? "" : "; ") + end_it_later(name));
   }
   // One that was paused has written its last packets before.
   const std::uint64_t stopped = session && session->active ? static_cast<std::uint64_t>(launch::monotonic_time()) : 0;
@@ -208,7 +223,6 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
     }
     throw;
   }
-  losses.notes = notes;
   const bool local = session && session->path.starts_with('/');  // else it went to a relay daemon
   LossesByProcess by_process(with_counters(config), losses);
   if (relay_daemon_gone) {
@@ -250,6 +264,7 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
     failure = error;  // what has been written is judged all the same
   }
   timer.finished("destroy");
+  losses.notes = daemons.notes();
   EventWatch::clean_up(name);  // of a launcher that was killed
   const bool readable = local && !session->snapshot;
   std::vector<Stream> streams;

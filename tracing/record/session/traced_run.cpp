@@ -147,7 +147,7 @@ std::string TracedRun::write_chains() const {
 void TracedRun::look_around(const Tell& tell) {
   // In a session with buffers for each process it would have a trace of its own, for nothing.
   if (config_.buffers_ust != BufferOwner::kProcess) {
-    program_output(prefix_ + "/lib/launch/launch-trace-probe", {});
+    run_traced(prefix_ + "/lib/launch/launch-trace-probe");
   }
   for (const std::string& warning : tracer_->unreachable_processes()) {
     tell(true, warning);
