@@ -141,6 +141,13 @@ std::vector<Setting<TraceRequest>> make_trace_settings() {
        .perform = event_rules<TraceRequest>("events-ust", Tracepoints::kUserspace, at(&Config::events_ust)),
        .shown = "events-ust",
        .option = {"-u,--ust", "EVENT", "userspace events (default: all ROS 2 events)"}},
+      {.attribute =
+           extension("events-python", Type::kWords, "none",
+                     "loggers of Python programs that import lttngust; `my_logger:*` is one with all below it"),
+       .place = at(&Config::events_python),
+       .perform = events<TraceRequest>("events-python", Tracepoints::kKernel, at(&Config::events_python)),
+       .shown = "events-python",
+       .option = {"--python", "LOGGER", "loggers of Python programs that import lttngust (default: none)"}},
       {.attribute = {"events-kernel", Type::kWords, false, "none", "kernel tracepoints"},
        .place = at(&Config::events_kernel),
        .perform = event_rules<TraceRequest>("events-kernel", Tracepoints::kKernel, at(&Config::events_kernel)),

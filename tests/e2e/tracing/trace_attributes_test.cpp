@@ -81,6 +81,10 @@ INSTANTIATE_TEST_SUITE_P(
             .expected = {"ros2:rmw_take (type: tracepoint) [enabled] [filter: 'taken == 1']",
                          "my:* (loglevel <= TRACE_WARNING (4)) (type: tracepoint) [enabled]"},
             .absent = {"launch:*", "ros2:rcl_init"}},
+        Row{.name = "Loggers",
+            .attributes = R"(events-python="planner:* 'costs level ERR'" subbuffer-size-ust="65536")",
+            .expected = {"Domain: Python (logging)", "- planner", "- planner.*", "- costs (loglevel >= ERROR (40))",
+                         "- lttng_python_channel: [enabled]"}},
         Row{.name = "Buffers",
             .attributes = R"(subbuffer-size-ust="65536" subbuffer-count-ust="8" read-timer-ust="12345"
                 switch-timer-ust="500000" tracefile-size="1048576" tracefile-count="3" overwrite-ust="true" buffers-ust="pid")",
@@ -130,6 +134,75 @@ TEST(TraceContextFields, AreInTheTrace) {
   const std::string text = run_command({"babeltrace2", (sandbox.trace_directory() / "run").string()}).out;
   EXPECT_THAT(text, testing::ContainsRegex(
                         "ros2:rcl_init: \\{ cpu_id = [0-9]+ \\}, \\{ vtid = [0-9]+, pthread_id = [0-9]+ \\}"));
+}
+
+// A program in Python, as a node of rclpy would be.
+constexpr const char* kPythonProgram = R"py(import logging
+import lttngust
+logging.getLogger('planner').info('a plan')
+logging.getLogger('planner.local').warning('a local plan')
+logging.getLogger('costs').info('not severe enough')
+logging.getLogger('costs').error('too dear')
+logging.getLogger('elsewhere').error('not asked for')
+)py";
+
+class TracePython : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (run_command({"/usr/bin/python3", "-c", "import lttngust"}).exit_code != 0) {
+      GTEST_SKIP() << "skipped, because Python has no module lttngust (python3-lttngust)";
+    }
+  }
+
+  CommandResult launch(const std::string& attributes, const std::string& program) {
+    const auto path = sandbox_.directory() / "system.launch.xml";
+    write_file(sandbox_.directory() / "app.py", program);
+    write_file(path, "<launch>\n<trace session-name=\"run\" " + attributes +
+                         "/>\n<executable cmd=\"/usr/bin/python3 $(dirname)/app.py\"/>\n</launch>\n");
+    return run_command({LAUNCH_PROGRAM, path.string()});
+  }
+
+  Sandbox sandbox_;
+  const std::string trace_ = (sandbox_.trace_directory() / "run").string();
+};
+
+TEST_F(TracePython, LoggersAreRecordedByName) {
+  for (const char* const owner : {"uid", "pid"}) {
+    const CommandResult result = launch("append-trace=\"true\" buffers-ust=\"" + std::string(owner) +
+                                            "\" events-python=\"planner:* 'costs level WARNING'\"",
+                                        kPythonProgram);
+    EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+    EXPECT_THAT(result.out, HasSubstr("trace is complete: no events lost"));
+  }
+  const std::string text = run_command({LAUNCH_PROGRAM, "read", trace_}).out;
+  for (const char* const part : {"lttng_python:event", "a plan", "a local plan", "too dear", "planner.local"}) {
+    EXPECT_THAT(text, HasSubstr(part));
+  }
+  EXPECT_THAT(text, Not(HasSubstr("not severe enough")));
+  EXPECT_THAT(text, Not(HasSubstr("not asked for")));
+  const std::string report = run_command({LAUNCH_PROGRAM, "report", trace_, "--json", "-"}).out;
+  EXPECT_THAT(report, HasSubstr("lttng_python:event (planner)"));
+  EXPECT_THAT(report, HasSubstr("lttng_python:event (planner.local)"));
+  EXPECT_THAT(report, HasSubstr("lttng_python:event (costs)"));
+}
+
+TEST_F(TracePython, AProgramThatDoesNotImportTheModuleIsToldOf) {
+  const CommandResult result =
+      launch("events-python=\"*\"", "import logging\nlogging.getLogger('planner').error('x')\n");
+  EXPECT_THAT(result.out + result.err,
+              HasSubstr("no Python program that ran tells LTTng what it logs: it has to import lttngust"));
+}
+
+TEST_F(TracePython, ACommandRecordsAndListsLoggers) {
+  run_command({LAUNCH_PROGRAM, "trace", "start", "run", "--python", "planner", "--ust", "ros2:*"});
+  const CommandResult status = run_command({LAUNCH_PROGRAM, "trace", "status", "run"});
+  EXPECT_THAT(status.out, HasSubstr("ust channel lttng_python_channel")) << status.err;
+  EXPECT_THAT(status.out, HasSubstr("1 event rule: planner\n"));
+  write_file(sandbox_.directory() / "app.py", kPythonProgram);
+  run_command({"/usr/bin/python3", (sandbox_.directory() / "app.py").string()});
+  const CommandResult stopped = run_command({LAUNCH_PROGRAM, "trace", "stop", "run"});
+  EXPECT_EQ(stopped.exit_code, 0) << stopped.err;
+  EXPECT_THAT(run_command({"babeltrace2", trace_}).out, HasSubstr("msg = \"a plan\", logger_name = \"planner\""));
 }
 
 constexpr const char* kFiresAndEnds = "sh -c '" TRACED_APP " 1 1 &lt;/dev/null'";

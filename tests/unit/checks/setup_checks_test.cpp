@@ -58,8 +58,9 @@ TEST_F(SetupChecks, RefuseANameThatLttngWouldCut) {
 
 TEST_F(SetupChecks, RefuseATraceWithoutEvents) {
   config.events_ust.clear();
-  EXPECT_EQ(config_error(),
-            "no events enabled for trace session 'run'\nname some in events-ust, events-kernel or syscalls");
+  EXPECT_EQ(
+      config_error(),
+      "no events enabled for trace session 'run'\nname some in events-ust, events-python, events-kernel or syscalls");
   config.syscalls = {"openat"};
   EXPECT_EQ(config_error(), "no error");
 }

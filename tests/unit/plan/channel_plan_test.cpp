@@ -31,6 +31,29 @@ TEST(ChannelPlan, TakesNamesOnceAndOnlyUsedDomains) {
   EXPECT_TRUE(warnings.empty());
 }
 
+TEST(ChannelPlan, LoggersOfPythonHaveTheChannelOfLttng) {
+  TraceConfig config;
+  config.events_python = {"planner:*", "costs level ERR", "*", "x level DEBUG if lineno > 5"};
+  config.snapshot_mode = true;
+  std::vector<std::string> warnings;
+  const auto plans = tracing::plan_channels(config, warnings);
+  ASSERT_EQ(plans.size(), 2u);
+  EXPECT_EQ(plans[1].channel, "lttng_python_channel");
+  EXPECT_TRUE(plans[1].overwrite);
+  std::vector<std::string> names;
+  for (const tracing::EventRule& rule : plans[1].events) {
+    names.push_back(rule.pattern);
+  }
+  EXPECT_THAT(names, testing::ElementsAre("planner", "planner.*", "costs", "*", "x"));
+  EXPECT_EQ(plans[1].events[2].log_level, 40);
+  EXPECT_EQ(plans[1].events[4].log_level, 10);
+  EXPECT_EQ(plans[1].events[4].filter, "lineno > 5");
+  config.events_python = {"planner.* except planner.local"};
+  EXPECT_EQ(error_of([&] { tracing::plan_channels(config, warnings); }),
+            "nothing can be taken out of the loggers 'planner.*'\n"
+            "name the loggers one by one, or use a filter such as `if logger_name != \"my_logger\"`");
+}
+
 TEST(ChannelPlan, RuntimeHalfOfADualSessionWantsNoStateDumps) {
   TraceConfig config;
   config.events_ust = {"ros2:*"};

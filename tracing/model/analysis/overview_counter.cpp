@@ -2,9 +2,18 @@
 #include "tracing/model/analysis/overview_counter.hpp"
 
 #include <algorithm>
+#include <string_view>
 #include <tuple>
 
 namespace tracing {
+namespace {
+
+constexpr const char* kPythonEvent = "lttng_python:event";
+constexpr const char* kLoggerField = "logger_name";
+// A program may make a logger for each thing that it does. The others are counted together.
+constexpr std::size_t kMostLoggers = 200;
+
+}  // namespace
 
 std::uint64_t TraceOverview::lost_events() const {
   std::uint64_t sum = 0;
@@ -36,6 +45,7 @@ void OverviewCounter::count(const Event& event, ProcessId process) {
     counted.name = event_class.name;
     counted.trace = event_class.trace;
     counted.of_launcher = event_class.name.starts_with("launch:");
+    counted.of_python = event_class.name == kPythonEvent;
   }
   // The launcher is no part of the traced system.
   if (counted.of_launcher) {
@@ -47,6 +57,24 @@ void OverviewCounter::count(const Event& event, ProcessId process) {
     begin_ns_ = event.timestamp_ns;
   }
   end_ns_ = event.timestamp_ns;
+  if (process >= counted.by_process.size()) {
+    counted.by_process.resize(process + 1);
+  }
+  ++counted.by_process[process];
+  if (counted.of_python) {
+    count_logger(event, process);
+  }
+}
+
+void OverviewCounter::count_logger(const Event& event, ProcessId process) {
+  const std::optional<FieldValue> field = event.field(kLoggerField);
+  const std::string_view logger = field ? field->string().value_or("") : "";
+  std::string name = std::string(kPythonEvent) + " (" + std::string(logger) + ")";
+  if (logger.empty() || (loggers_.size() >= kMostLoggers && !loggers_.contains(name))) {
+    name = kPythonEvent;
+  }
+  CountedClass& counted = loggers_[name];
+  counted.name = name;
   if (process >= counted.by_process.size()) {
     counted.by_process.resize(process + 1);
   }
@@ -148,10 +176,7 @@ TraceOverview OverviewCounter::overview() const {
   const std::vector<std::optional<ProcessIndex>> place = places();
 
   std::map<std::string, EventCount> counts;  // several traces may have classes of one name
-  for (const CountedClass& counted : classes_) {
-    if (counted.name.empty()) {
-      continue;
-    }
+  const auto add = [&](const CountedClass& counted) {
     EventCount& count = counts[counted.name];
     count.name = counted.name;
     count.total += counted.by_launcher;
@@ -164,6 +189,14 @@ TraceOverview OverviewCounter::overview() const {
       count.total += counted.by_process[process];
       result.processes[*place[process]].events += counted.by_process[process];
     }
+  };
+  for (const CountedClass& counted : classes_) {
+    if (!counted.name.empty() && !counted.of_python) {
+      add(counted);
+    }
+  }
+  for (const auto& [name, counted] : loggers_) {
+    add(counted);
   }
   for (auto& [name, count] : counts) {
     result.event_counts.push_back(std::move(count));

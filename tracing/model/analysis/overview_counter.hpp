@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts the events of a trace by name and process, and adds up its losses.
+// Counts the events of a trace by name and process, and adds up its losses. What Python programs log is one event of
+// LTTng; it is counted by logger.
 #pragma once
 
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "tracing/decode/reader/trace_reader.hpp"
@@ -37,6 +40,7 @@ class OverviewCounter : public TraceSink {
   struct CountedClass {
     std::string name;
     bool of_launcher = false;
+    bool of_python = false;
     std::uint64_t by_launcher = 0;
     std::size_t trace = 0;
     std::vector<std::uint64_t> by_process;  // in the order of processes_
@@ -48,6 +52,7 @@ class OverviewCounter : public TraceSink {
   };
 
   void count(const Event& event, ProcessId process);
+  void count_logger(const Event& event, ProcessId process);
   std::vector<ProcessId> order() const;
   std::vector<ProcessId> processes_that_lost(const CountedLoss& loss) const;
 
@@ -55,8 +60,9 @@ class OverviewCounter : public TraceSink {
   std::optional<std::int64_t> begin_ns_;
   std::int64_t end_ns_ = 0;
   ProcessTable processes_;
-  std::vector<CountedClass> classes_;          // by EventClass::id
-  std::map<std::string, CountedLoss> losses_;  // by stream
+  std::vector<CountedClass> classes_;            // by EventClass::id
+  std::map<std::string, CountedClass> loggers_;  // by the name in the overview
+  std::map<std::string, CountedLoss> losses_;    // by stream
 };
 
 }  // namespace tracing

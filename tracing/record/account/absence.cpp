@@ -16,7 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostToldOf = 5;             // processes
+constexpr std::size_t kMostToldOf = 5;  // processes
+constexpr const char* kPythonEvent = "lttng_python:event";
 constexpr const char* kLaunchEvents = "launch:*";  // the launcher's own
 
 std::string some_events(std::uint64_t count) {
@@ -127,6 +128,11 @@ std::optional<std::set<std::string>> declared_events(const fs::path& recording) 
 
 std::vector<Absence> absent_events(const RecordedEvents& events, const std::set<std::string>& declared) {
   std::vector<Absence> absences = absent_launcher(events, declared);
+  if (events.python && !declared.contains(kPythonEvent)) {
+    absences.push_back(
+        {"no Python program that ran tells LTTng what it logs: it has to import lttngust, of package "
+         "python3-lttngust"});
+  }
   std::vector<const RecordedEvents::Rule*> rules;
   for (const RecordedEvents::Rule& rule : events.rules) {
     if (!is_our_own(rule.pattern)) {

@@ -44,7 +44,9 @@ LossAccount read_losses(const std::string& lttng_session_name) {
   const LttngList<lttng_domain> domains(fmt::format("list the domains of session '{}'", lttng_session_name),
                                         lttng_list_domains, lttng_session_name.c_str());
   for (const lttng_domain& domain : domains) {
-    read_domain(lttng_session_name, domain, account);
+    if (has_channels(domain)) {
+      read_domain(lttng_session_name, domain, account);
+    }
   }
   return account;
 }

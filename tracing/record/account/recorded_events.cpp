@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <string_view>
 
 #include "tracing/record/lttng/channels.hpp"
 #include "tracing/record/lttng/lttng_ctl.hpp"
 #include "tracing/record/lttng/lttng_list.hpp"
+#include "tracing/record/plan/channel_plan.hpp"
 
 namespace tracing {
 namespace {
@@ -77,6 +79,10 @@ RecordedEvents read_recorded_events(const std::string& lttng_session_name) {
   const DomainHandle handle = domain_handle(lttng_session_name, LTTNG_DOMAIN_UST);
   const std::string doing = fmt::format("list the events of session '{}'", lttng_session_name);
   for (const lttng_channel& channel : LttngList<lttng_channel>(doing, lttng_list_channels, handle.get())) {
+    if (std::string_view(channel.name) == kPythonChannel) {
+      recorded.python = true;
+      continue;
+    }
     for (lttng_event& rule : LttngList<lttng_event>(doing, lttng_list_events, handle.get(), channel.name)) {
       recorded.rules.push_back({.channel = channel.name,
                                 .pattern = rule.name,

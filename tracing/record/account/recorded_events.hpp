@@ -19,6 +19,7 @@ struct RecordedEvents {
     bool takes(const std::string& event) const;
   };
   std::vector<Rule> rules;
+  bool python = false;  // also what Python programs log
 
   // In how many channels the event is recorded, each time that it is fired.
   std::size_t times(const std::string& event) const;

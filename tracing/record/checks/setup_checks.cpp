@@ -41,9 +41,10 @@ void check_config(const TraceConfig& config) {
   if (session.size() >= LTTNG_NAME_MAX) {
     throw TraceError(fmt::format("trace session name '{}' is longer than {} characters", session, LTTNG_NAME_MAX - 1));
   }
-  if (config.events_ust.empty() && config.events_kernel.empty() && config.syscalls.empty() && config.channels.empty()) {
+  if (config.events_ust.empty() && config.events_python.empty() && config.events_kernel.empty() &&
+      config.syscalls.empty() && config.channels.empty()) {
     throw TraceError(fmt::format("no events enabled for trace session '{}'", session),
-                     "name some in events-ust, events-kernel or syscalls");
+                     "name some in events-ust, events-python, events-kernel or syscalls");
   }
   if (config.over_network()) {
     check_relay_daemon(config);

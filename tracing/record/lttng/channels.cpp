@@ -110,7 +110,11 @@ void enable_channel(const std::string& lttng_session_name, const ChannelPlan& pl
 }
 
 void enable_events(const std::string& lttng_session_name, const ChannelPlan& plan) {
-  const DomainHandle handle = domain_of(lttng_session_name, plan);
+  lttng_domain domain = make_domain(plan.domain, plan.buffers);
+  if (plan.python) {
+    domain.type = LTTNG_DOMAIN_PYTHON;  // LTTng makes an event of userspace of it, and takes its channel by name
+  }
+  const DomainHandle handle = domain_handle(lttng_session_name, domain);
   for (const EventRule& rule : plan.events) {
     enable_event(handle.get(), rule, plan.channel);
   }

@@ -20,6 +20,10 @@ using DomainHandle = std::unique_ptr<lttng_handle, HandleDeleter>;
 
 // Names a session and one of its domains to liblttng-ctl.
 DomainHandle domain_handle(const std::string& lttng_session_name, lttng_domain domain);
+// Whether LTTng lists channels of the domain. Those of Python's loggers are among the channels of userspace.
+inline bool has_channels(const lttng_domain& domain) {
+  return domain.type == LTTNG_DOMAIN_UST || domain.type == LTTNG_DOMAIN_KERNEL;
+}
 // For calls that work alike for buffers of users and buffers of processes.
 DomainHandle domain_handle(const std::string& lttng_session_name, lttng_domain_type domain);
 

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 #include <fnmatch.h>
 #include <lttng/constant.h>
+#include <lttng/event.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -116,6 +117,52 @@ ChannelPlan userspace_plan(const TraceConfig& config) {
   if (config.dual_runtime && !plan.events.empty()) {
     plan.events.push_back({.pattern = kNoStateDump});
   }
+  plan.context_fields = config.context_fields_ust;
+  plan.switch_timer = config.switch_timer();
+  plan.overwrite = config.overwrite_ust.value_or(config.records_snapshots());
+  plan.tracefile_size = config.tracefile_size;
+  plan.tracefile_count = config.tracefile_count;
+  return plan;
+}
+
+// LTTng's levels of userspace events have other numbers than those of Python.
+int python_level(int level) {
+  return level <= LTTNG_LOGLEVEL_CRIT      ? LTTNG_LOGLEVEL_PYTHON_CRITICAL
+         : level == LTTNG_LOGLEVEL_ERR     ? LTTNG_LOGLEVEL_PYTHON_ERROR
+         : level == LTTNG_LOGLEVEL_WARNING ? LTTNG_LOGLEVEL_PYTHON_WARNING
+         : level <= LTTNG_LOGLEVEL_INFO    ? LTTNG_LOGLEVEL_PYTHON_INFO
+                                           : LTTNG_LOGLEVEL_PYTHON_DEBUG;
+}
+
+// "my_logger:*" is the logger and all that are below it, as Python names them.
+std::vector<EventRule> python_rules(const std::vector<std::string>& texts) {
+  constexpr std::string_view kAllBelow = ":*";
+  std::vector<EventRule> found;
+  for (const std::string& text : without_repetitions(texts)) {
+    EventRule rule = parse_event_rule(text);
+    if (!rule.exclusions.empty()) {
+      throw TraceError(fmt::format("nothing can be taken out of the loggers '{}'", rule.pattern),
+                       "name the loggers one by one, or use a filter such as `if logger_name != \"my_logger\"`");
+    }
+    if (rule.log_level) {
+      rule.log_level = python_level(*rule.log_level);
+    }
+    if (rule.pattern.ends_with(kAllBelow) && rule.pattern.size() > kAllBelow.size()) {
+      rule.pattern.resize(rule.pattern.size() - kAllBelow.size());
+      found.push_back(rule);
+      rule.pattern += ".*";
+    }
+    found.push_back(std::move(rule));
+  }
+  return found;
+}
+
+ChannelPlan python_plan(const TraceConfig& config) {
+  ChannelPlan plan{config.ust};
+  plan.python = true;
+  plan.buffers = config.buffers_ust;
+  plan.channel = kPythonChannel;
+  plan.events = python_rules(config.events_python);
   plan.context_fields = config.context_fields_ust;
   plan.switch_timer = config.switch_timer();
   plan.overwrite = config.overwrite_ust.value_or(config.records_snapshots());
@@ -293,6 +340,9 @@ std::vector<ChannelPlan> plan_channels(const TraceConfig& config, std::vector<st
   }
   if (config.init_channel && has_main) {
     split_initialisation_events(plans, 0);
+  }
+  if (!config.events_python.empty()) {
+    plans.push_back(python_plan(config));
   }
   for (const ChannelConfig& channel : config.channels) {
     plans.push_back(further_plan(channel, config));

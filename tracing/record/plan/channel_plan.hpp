@@ -25,15 +25,19 @@ struct ChannelPlan : ChannelBuffers {
   std::vector<std::string> syscalls;
   std::vector<std::string> context_fields;
   std::uint32_t switch_timer = 0;    // µs
+  bool python = false;               // the events are loggers of Python programs
   bool overwrite = false;            // keep the newest events rather than the oldest: what a snapshot needs
   std::uint64_t tracefile_size = 0;  // bytes
   std::uint64_t tracefile_count = 0;
 };
 
-// The channels into which `config` records something: `ros2` and `kchan`, with `init_channel` also `ros2_init`, and the
-// channels of `config.channels`. A name that occurs twice is recorded once. A default event that one of
-// `config.channels` records is recorded in that channel only. Warnings (a sub-buffer size that had to be rounded up)
-// are appended. Throws TraceError for a context field or an event rule that does not exist, and for attributes that
+// What Python programs log is recorded into a channel that LTTng calls so.
+inline constexpr const char* kPythonChannel = "lttng_python_channel";
+
+// The channels into which `config` records something: `ros2`, kPythonChannel and `kchan`, with `init_channel` also
+// `ros2_init`, and the channels of `config.channels`. A name that occurs twice is recorded once. A default event that
+// one of `config.channels` records is recorded in that channel only. Warnings (a sub-buffer size that had to be rounded
+// up) are appended. Throws TraceError for a context field or an event rule that does not exist, and for attributes that
 // exclude each other.
 std::vector<ChannelPlan> plan_channels(const TraceConfig& config, std::vector<std::string>& warnings);
 

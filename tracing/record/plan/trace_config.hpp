@@ -57,6 +57,7 @@ struct TraceConfig {
   bool append_trace = false;
   bool fail_on_loss = false;  // lost events are a failure of the run
   std::vector<std::string> events_ust = default_ros_events();
+  std::vector<std::string> events_python;  // names of loggers
   std::vector<std::string> events_kernel;
   std::vector<std::string> syscalls;
   std::vector<std::string> context_fields_ust = default_context_fields();

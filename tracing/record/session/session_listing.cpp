@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <string_view>
 
 #include "base/monotonic_clock.hpp"
 #include "tracing/record/account/loss_counters.hpp"
@@ -43,15 +44,19 @@ std::vector<ChannelDetails> channels_of(const std::string& session, const lttng_
   const DomainHandle handle = domain_handle(session, domain);
   const LttngList<lttng_channel> channels(fmt::format("list the channels of session '{}'", session),
                                           lttng_list_channels, handle.get());
+  lttng_domain of_python = domain;
+  of_python.type = LTTNG_DOMAIN_PYTHON;
+  const DomainHandle loggers = domain_handle(session, of_python);
   std::vector<ChannelDetails> details;
   for (const lttng_channel& channel : channels) {
     const lttng_channel_attr& attributes = channel.attr;
+    const bool python = std::string_view(channel.name) == kPythonChannel;
     details.push_back({.domain = domain_name(domain.type),
                        .name = channel.name,
                        .subbuffer_size = attributes.subbuf_size,
                        .subbuffer_count = attributes.num_subbuf,
                        .overwrite = attributes.overwrite == 1,
-                       .events = enabled_events(handle.get(), channel.name)});
+                       .events = enabled_events((python ? loggers : handle).get(), channel.name)});
   }
   return details;
 }
@@ -130,6 +135,9 @@ SessionDetails describe_session(const std::string& name) {
   const LttngList<lttng_domain> domains(fmt::format("list the domains of session '{}'", name), lttng_list_domains,
                                         name.c_str());
   for (const lttng_domain& domain : domains) {
+    if (!has_channels(domain)) {
+      continue;
+    }
     for (ChannelDetails& channel : channels_of(name, domain)) {
       details.channels.push_back(std::move(channel));
     }

@@ -34,7 +34,7 @@ struct EventCount {
   static const Field<EventCount> kFields[];
 };
 inline constexpr Field<EventCount> EventCount::kFields[] = {
-    {"name", &EventCount::name, ""},
+    {"name", &EventCount::name, "what Python programs log is counted by logger: `lttng_python:event (LOGGER)`"},
     {"total", &EventCount::total,
      "the launcher's own events (`launch:exec`) are in it alone, because the launcher is not one of the traced "
      "processes"},
