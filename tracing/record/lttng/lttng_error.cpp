@@ -56,6 +56,9 @@ std::string remedy_for(int code) {
 
 std::string remedy_for_silence() {
   const pid_t daemon = session_daemon_pid();
+  if (launch::read_process_stat(daemon).state == 'T') {
+    return fmt::format("LTTng's session daemon is stopped: continue it with `kill -CONT {}`", daemon);
+  }
   for (const pid_t consumer : consumers_of(daemon)) {
     if (launch::read_process_stat(consumer).state == 'T') {
       return fmt::format("LTTng's consumer is stopped: continue it with `kill -CONT {}`", consumer);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "base/monotonic_clock.hpp"
@@ -164,6 +165,23 @@ std::optional<Absence> look_for_relay_daemon(const SessionSummary& session) {
                  .is_loss = true};
 }
 
+// The same once it goes on, which somebody sees to (daemons_kept_going.hpp).
+std::optional<Absence> wait_for_relay_daemon(const SessionSummary& session) {
+  constexpr std::chrono::seconds kLongest{2};
+  constexpr std::chrono::milliseconds kPause{50};
+  const auto latest = std::chrono::steady_clock::now() + kLongest;
+  while (true) {
+    try {
+      return look_for_relay_daemon(session);
+    } catch (const TraceError&) {
+      if (std::chrono::steady_clock::now() > latest) {
+        throw;
+      }
+    }
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
 class LttngTracer : public Tracer {
  public:
   SetupReport start(const TraceConfig& config) override { return start_session(config); }
@@ -210,7 +228,7 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
   }
   // One that was paused has written its last packets before.
   const std::uint64_t stopped = session && session->active ? static_cast<std::uint64_t>(launch::monotonic_time()) : 0;
-  const std::optional<Absence> relay_daemon_gone = session ? look_for_relay_daemon(*session) : std::nullopt;
+  const std::optional<Absence> relay_daemon_gone = session ? wait_for_relay_daemon(*session) : std::nullopt;
   LossAccount losses;
   try {
     losses = stop_and_account(name, session ? session->path : "", give_up, timer);

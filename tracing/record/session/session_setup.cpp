@@ -22,9 +22,11 @@
 #include "tracing/record/kernel/kernel_recorder.hpp"
 #include "tracing/record/lttng/channels.hpp"
 #include "tracing/record/lttng/consumer_priority.hpp"
+#include "tracing/record/lttng/daemons_kept_going.hpp"
 #include "tracing/record/lttng/installed_program.hpp"
 #include "tracing/record/lttng/lttng_ctl.hpp"
 #include "tracing/record/lttng/lttng_error.hpp"
+#include "tracing/record/lttng/relay_connection.hpp"
 #include "tracing/record/lttng/session_daemon.hpp"
 #include "tracing/record/plan/buffer_sizes.hpp"
 #include "tracing/record/plan/channel_plan.hpp"
@@ -80,11 +82,14 @@ class NewSession {
 
  private:
   std::string name_;
-  std::string directory_;  // of the recording; "": it existed before, or the trace is on another machine
+  std::string relay_daemon_;  // the address of the one that gets the trace; "": none
+  std::string directory_;     // of the recording; "": it existed before, or the trace is on another machine
   bool kept_ = false;
 };
 
-NewSession::NewSession(const TraceConfig& config) : name_(config.lttng_session_name()) {
+NewSession::NewSession(const TraceConfig& config)
+    : name_(config.lttng_session_name()),
+      relay_daemon_(config.over_network() && !config.records_snapshots() ? config.destination() : "") {
   const std::string directory = config.over_network() ? "" : recording_directory(config);
   if (!std::filesystem::exists(directory)) {
     directory_ = directory;
@@ -100,6 +105,12 @@ NewSession::NewSession(const TraceConfig& config) : name_(config.lttng_session_n
 NewSession::~NewSession() {
   if (kept_) {
     return;
+  }
+  // The set-up may have failed because one of them is stopped.
+  DaemonsKeptGoing daemons;
+  if (!relay_daemon_.empty()) {
+    const RelayConnection connection(relay_ports(relay_daemon_), consumers_of(session_daemon_pid()));
+    daemons.keep_relay_daemons([connection] { return connection.stopped_daemons(); });
   }
   if (directory_.empty()) {
     lttng_destroy_session_no_wait(name_.c_str());
