@@ -49,7 +49,7 @@ def run(place, random, name, act):
         if asked is not None and now >= asked:
             process.send_signal(signal.SIGINT)
             asked, end = None, time.monotonic()
-        if acted and asked is not None and acted.said is None and says(place, name, acted):
+        if acted and acted.said is None and says(place, name, acted):
             acted.said = time.monotonic() - acted.time
         time.sleep(0.01)
     if asked is not None:

@@ -174,7 +174,7 @@ TEST_F(TracePython, LoggersAreRecordedByName) {
     EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
     EXPECT_THAT(result.out, HasSubstr("trace is complete: no events lost"));
   }
-  const std::string text = run_command({LAUNCH_PROGRAM, "read", trace_}).out;
+  const std::string text = run_command({LAUNCH_PROGRAM, "trace", "read", trace_}).out;
   for (const char* const part : {"lttng_python:event", "a plan", "a local plan", "too dear", "planner.local"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }

@@ -234,9 +234,11 @@ TEST_F(TraceControl, AProcessThatDiesWithinAnEventIsToldOfWhileTheOthersRun) {
 <executable name="planner" cmd=")xml" INTERRUPTED_APP R"xml( 20 die"/>
 <executable name="other" cmd="sleep 1000"/>)xml");
   RunningCommand launch({.argv = {LAUNCH_PROGRAM, file}});
-  ASSERT_TRUE(launch.wait_for_output("[launch.trace]: planner-1 died within an event: what processor ")) << launch.out();
-  EXPECT_THAT(run_command({LAUNCH_PROGRAM, "trace", "status", "run"}).out,
-              ContainsRegex("  processor [0-9]+: a process died within an event; what is recorded there is lost, for "));
+  ASSERT_TRUE(launch.wait_for_output("[launch.trace]: planner-1 died within an event: what processor "))
+      << launch.out();
+  EXPECT_THAT(
+      run_command({LAUNCH_PROGRAM, "trace", "status", "run"}).out,
+      ContainsRegex("  processor [0-9]+: a process died within an event; what is recorded there is lost, for "));
   launch.send_signal(SIGINT);
   EXPECT_THAT(launch.wait().out + launch.err(), HasSubstr("trace is incomplete: unfinished:"));
 }

@@ -71,6 +71,15 @@ TEST(Absence, OfKnownEventsIsNoneWhereOthersAreThere) {
   EXPECT_THAT(absent_events(rules({"my_app:*"}), {"my_app:deadline"}), IsEmpty());
 }
 
+TEST(Absence, OfLoggersIsToldWhereNoProgramHasTheirModule) {
+  RecordedEvents events = rules({"ros2:*"});
+  events.python = true;
+  EXPECT_THAT(texts(absent_events(events, {"ros2:rcl_init"})),
+              ElementsAre("no Python program that ran tells LTTng what it logs: it has to import lttngust, of package "
+                          "python3-lttngust"));
+  EXPECT_THAT(absent_events(events, {"lttng_python:event"}), IsEmpty());
+}
+
 TEST(Absence, OfAnEndedProcessWithBuffersOfItsOwnIsToldOfASnapshot) {
   std::vector<tracing::Stream> streams = {{.domain = "ust", .channel = "ros2", .cpu = "0", .pid = 13}};
   EXPECT_THAT(texts(tracing::absent_from_snapshot(kProcesses, streams)),

@@ -148,7 +148,8 @@ std::vector<Absence> absent_events(const RecordedEvents& events, const std::set<
     return std::any_of(candidates.begin(), candidates.end(),
                        [&rule](const std::string& name) { return !is_our_own(name) && rule.takes(name); });
   };
-  const bool nothing = std::none_of(rules.begin(), rules.end(),
+  const bool nothing = !(events.python && declared.contains(kPythonEvent)) &&
+                       std::none_of(rules.begin(), rules.end(),
                                     [&](const RecordedEvents::Rule* rule) { return takes_one_of(*rule, declared); });
   std::set<std::string> told;
   bool has_known_rule = false;

@@ -87,8 +87,8 @@ void DaemonsKeptGoing::look() {
 
 void DaemonsKeptGoing::continue_process(pid_t pid, const char* what) {
   if (is_stopped(pid) && kill(pid, SIGCONT) == 0) {
-    continued_.try_emplace(pid, fmt::format("{} (process {}) was stopped; it was continued, so that the session could end",
-                                            what, pid));
+    continued_.try_emplace(
+        pid, fmt::format("{} (process {}) was stopped; it was continued, so that the session could end", what, pid));
   }
 }
 

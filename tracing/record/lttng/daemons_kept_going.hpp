@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// LTTng's daemons at the end of a session: one that is stopped (SIGSTOP) would hold up the end for ever, and the session
-// would stay. So it is continued.
+// LTTng's daemons at the end of a session: one that is stopped (SIGSTOP) would hold up the end for ever, and the
+// session would stay. So it is continued.
 #pragma once
 
 #include <sys/types.h>

@@ -142,8 +142,7 @@ std::optional<RingBuffer> RingBuffer::open(const fs::path& path) {
 // The counter of commits of a sub-buffer goes on through all its packets. An event that is committed between our two
 // looks makes it seem open, never complete.
 bool RingBuffer::may_be_open(std::uint64_t position) const {
-  const std::uint64_t committed =
-      word(about_.offset.commits + index_of(position) * about_.stride.commits);
+  const std::uint64_t committed = word(about_.offset.commits + index_of(position) * about_.stride.commits);
   const std::uint64_t produced = word(about_.offset.produced);
   const std::uint64_t before = position / about_.size * about_.subbuffer_size;
   const std::uint64_t reserved = std::min(produced - position, about_.subbuffer_size);
@@ -154,7 +153,8 @@ std::optional<PacketHeader> RingBuffer::header_of(std::uint64_t position) const 
   constexpr std::uint64_t kIndex = 0xFFFFFFFF;  // the other half of the word has flags
   const std::uint64_t memory =
       word(about_.offset.writers + index_of(position) * about_.stride.writers + about_.offset.writer_id) & kIndex;
-  const std::uint64_t description = word(about_.offset.memories + memory * about_.stride.memories + about_.offset.memory);
+  const std::uint64_t description =
+      word(about_.offset.memories + memory * about_.stride.memories + about_.offset.memory);
   PacketHeader header{};
   const bool there = read(word(description + about_.offset.memory_begin), header) && header.magic == kPacketMagic;
   return there ? std::optional(header) : std::nullopt;

@@ -49,8 +49,7 @@ HeldUpStreams::Look HeldUpStreams::look() {
       suspicion.told = true;
       suspicion.is_ours = is_ours(packet);
       if (suspicion.is_ours) {
-        look.held_up.push_back(
-            {.processor = packet.processor, .since = packet.begin, .seen = suspicion.first_seen});
+        look.held_up.push_back({.processor = packet.processor, .since = packet.begin, .seen = suspicion.first_seen});
       }
     }
     still.emplace(packet, suspicion);
