@@ -145,7 +145,7 @@ std::vector<Setting<TraceRequest>> make_trace_settings() {
            extension("events-python", Type::kWords, "none",
                      "loggers of Python programs that import lttngust; `my_logger:*` is one with all below it"),
        .place = at(&Config::events_python),
-       .perform = events<TraceRequest>("events-python", Tracepoints::kKernel, at(&Config::events_python)),
+       .perform = event_rules<TraceRequest>("events-python", Tracepoints::kKernel, at(&Config::events_python)),
        .shown = "events-python",
        .option = {"--python", "LOGGER", "loggers of Python programs that import lttngust (default: none)"}},
       {.attribute = {"events-kernel", Type::kWords, false, "none", "kernel tracepoints"},
