@@ -29,7 +29,7 @@ void check_daemon_is_here(const std::string& pid_file);
 // Where programs find the daemon that serves this user.
 std::string session_daemon_directory();
 
-// The process of the daemon that serves this user; 0 when its pid file can't be read.
+// The process of the daemon that serves this user; 0 when there is none, or nothing tells of it.
 pid_t session_daemon_pid();
 
 // False when the daemon is known to be stopped (SIGSTOP). A traced program would wait for it at its start.
