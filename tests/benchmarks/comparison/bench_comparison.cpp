@@ -1,17 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// How reliable `launch report --diff` is with real runs: how often it finds a change between two runs of one system,
-// and how often it finds exactly the one of fifty callbacks that takes 2 ms longer in the second run. Usage:
-//   bench_comparison [PAIRS [SECONDS]]
+// How reliable `launch report --diff` is with real runs of twenty callbacks, half of them beside other busy programs:
+// how often it finds a change between two runs of one system, and how often it names exactly the callback that takes
+// 2 ms or 20 % longer in the second run. Usage:
+//   bench_comparison [TRIALS [SECONDS [DIRECTORY]]]
+// Each trial has four runs of SECONDS. DIRECTORY keeps them as baselines, and those that it has are not recorded again,
+// so that a change of the method can be judged by the same runs.
 #include <fmt/format.h>
 #include <sys/wait.h>
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <random>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "tests/support/trace_writer/temporary_directory.hpp"
 
@@ -20,76 +31,236 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr int kCallbacks = 50;
+constexpr int kCallbacks = 20;
+
+bool succeeds(const std::string& command) {
+  const int status = std::system(command.c_str());
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
 
 void run(const std::string& command) {
-  const int status = std::system(command.c_str());
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+  if (!succeeds(command)) {
     throw std::runtime_error("failed: " + command);
   }
 }
 
-class Comparisons {
+// What compilers do to the machine: a thread for each processor, which works for a while on some megabytes and
+// waits for a file now and then.
+class OtherPrograms {
  public:
-  explicit Comparisons(int seconds) : seconds_(seconds) {}
-
-  // Returns the directory of the trace.
-  fs::path record(const std::string& name, int slow) const {
-    const fs::path log = directory_.path() / "output";
-    run(fmt::format("cd {} && ROS_HOME={} {} {} program:={} directory:={} seconds:={} slow:={} >{} 2>&1",
-                    directory_.path().native(), directory_.path().native(), LAUNCH_PROGRAM, LAUNCH_FILE,
-                    FIFTY_CALLBACKS, name, seconds_, slow, log.native()));
-    return directory_.path() / name;
+  OtherPrograms() {
+    for (unsigned thread = 0; thread < std::max(std::thread::hardware_concurrency(), 1U); ++thread) {
+      threads_.emplace_back([this, thread] { work(thread); });
+    }
   }
-
-  json compare(const fs::path& before, const fs::path& after) const {
-    const fs::path result = directory_.path() / "result.json";
-    run(fmt::format("{} --diff {} {} --json >{}", LAUNCH_REPORT, before.native(), after.native(), result.native()));
-    std::ifstream file(result);
-    return json::parse(file);
+  ~OtherPrograms() {
+    ends_ = true;
+    for (std::thread& thread : threads_) {
+      thread.join();
+    }
   }
 
  private:
-  tracing::testing::TemporaryDirectory directory_;
-  int seconds_;
+  void work(unsigned seed) {
+    std::mt19937 random(seed);
+    std::vector<unsigned> memory(1U << 20);
+    while (!ends_) {
+      const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(random() % 500);
+      while (!ends_ && std::chrono::steady_clock::now() < end) {
+        for (int step = 0; step < 1000; ++step) {
+          memory[random() % memory.size()] += random();
+        }
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(random() % 30));
+    }
+  }
+
+  std::atomic<bool> ends_ = false;
+  std::vector<std::thread> threads_;
 };
 
+json parsed(const fs::path& file) {
+  std::ifstream stream(file);
+  return json::parse(stream);
+}
+
 std::string name_of(int callback) {
-  return callback % 2 == 0 ? fmt::format("/source_{}, timer 20 ms", callback / 2)
+  return callback % 2 == 0 ? fmt::format("/source_{}, timer 40 ms", callback / 2)
                            : fmt::format("/sink_{0}, subscription /topic_{0}", callback / 2);
 }
 
-std::set<std::string> changed_callbacks(const json& comparison) {
-  std::set<std::string> names;
-  for (const json& change : comparison["changes"]) {
+// One trial: the runs before and after, all of them baselines.
+struct Trial {
+  bool busy;
+  std::string shape;  // of the work
+  int slow;
+  fs::path before, same, by_time, by_part;
+};
+
+class Runs {
+ public:
+  Runs(fs::path directory, int seconds) : directory_(std::move(directory)), seconds_(seconds) {
+    fs::create_directories(directory_);
+  }
+
+  Trial trial(int number) const {
+    Trial trial{number % 2 == 1, number / 2 % 2 == 0 ? "equal" : "varied", number * 7 % kCallbacks, {}, {}, {}, {}};
+    std::optional<OtherPrograms> others;
+    const auto record = [&](const char* name, int slow, const char* more) {
+      const fs::path file = directory_ / fmt::format("{}_{}.json", number, name);
+      if (!fs::exists(file)) {
+        if (trial.busy && !others) {
+          others.emplace();
+        }
+        record_run(file, trial.shape, slow, more);
+      }
+      return file;
+    };
+    trial.before = record("before", -1, "0ms");
+    trial.same = record("same", -1, "0ms");
+    trial.by_time = record("by_time", trial.slow, "2ms");
+    trial.by_part = record("by_part", trial.slow, "20%");
+    return trial;
+  }
+
+ private:
+  void record_run(const fs::path& file, const std::string& shape, int slow, const char* more) const {
+    const tracing::testing::TemporaryDirectory directory;
+    const std::string home = directory.path().native();
+    run(fmt::format("cd {0} && ROS_HOME={0} {1} {2} program:={3} directory:=run seconds:={4} shape:={5} slow:={6} "
+                    "more:={7} >{0}/output 2>&1",
+                    home, LAUNCH_PROGRAM, LAUNCH_FILE, TWENTY_CALLBACKS, seconds_, shape, slow, more));
+    run(fmt::format("{} {}/run --save-baseline {} >/dev/null", LAUNCH_REPORT, home, file.native()));
+  }
+
+  fs::path directory_;
+  int seconds_;
+};
+
+// What a method names: the callbacks, and whether anything else has changed.
+struct Named {
+  std::set<std::string> callbacks;
+  bool others = false;
+
+  bool nothing() const { return callbacks.empty() && !others; }
+  bool only(int callback) const { return callbacks == std::set{name_of(callback)}; }
+};
+
+Named named_by_report(const std::vector<fs::path>& before, const fs::path& after) {
+  const tracing::testing::TemporaryDirectory directory;
+  json all = parsed(before.front());
+  for (auto one = before.begin() + 1; one != before.end(); ++one) {
+    all["runs"].push_back(parsed(*one)["runs"][0]);
+  }
+  const fs::path sides = directory.path() / "before.json";
+  std::ofstream(sides) << all;
+  const fs::path result = directory.path() / "result.json";
+  Named named;
+  if (!succeeds(fmt::format("{} --diff {} {} --json >{} 2>&1", LAUNCH_REPORT, sides.native(), after.native(),
+                            result.native()))) {
+    return named;  // too few samples
+  }
+  for (const json& change : parsed(result)["changes"]) {
     if (change["kind"] == "callback") {
-      names.insert(change["subject"]);
+      named.callbacks.insert(change["subject"]);
+    } else {
+      named.others = true;
     }
   }
-  return names;
+  return named;
 }
 
-void count(int pairs, int seconds) {
-  const Comparisons comparisons(seconds);
+double median_of(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+std::map<std::string, std::vector<double>> durations_of(const fs::path& file) {
+  std::map<std::string, std::vector<double>> durations;
+  const json baseline = parsed(file);
+  for (const json& one : baseline["runs"][0]["measurements"]) {
+    if (one["kind"] == "callback" && one["quantity"] == "duration") {
+      durations[one["subject"]] = one["samples_ns"].get<std::vector<double>>();
+    }
+  }
+  return durations;
+}
+
+// The rival: all medians of ten blocks are higher than before, and the median of all is higher by 30 %.
+Named named_by_plain_rule(const fs::path& before, const fs::path& after) {
+  constexpr std::size_t kBlocks = 10;
+  const auto block = [](const std::vector<double>& values, std::size_t number) {
+    const auto at = [&](std::size_t place) {
+      return values.begin() + static_cast<std::ptrdiff_t>(values.size() * place / kBlocks);
+    };
+    return median_of(std::vector<double>(at(number), at(number + 1)));
+  };
+  const auto earlier = durations_of(before);
+  Named named;
+  for (const auto& [name, later] : durations_of(after)) {
+    const auto found = earlier.find(name);
+    if (found == earlier.end() || std::min(found->second.size(), later.size()) < kBlocks) {
+      continue;
+    }
+    bool higher = median_of(later) > 1.3 * median_of(found->second);
+    for (std::size_t number = 0; number < kBlocks; ++number) {
+      higher = higher && block(later, number) > block(found->second, number);
+    }
+    if (higher) {
+      named.callbacks.insert(name);
+    }
+  }
+  return named;
+}
+
+// The trials of one condition by one method.
+struct Count {
+  int trials = 0;
   int alarms = 0;
-  int found = 0;
-  fs::path before = comparisons.record("run_0", -1);
-  for (int pair = 0; pair < pairs; ++pair) {
-    const fs::path same = comparisons.record(fmt::format("run_{}", pair + 1), -1);
-    const int slow = pair * 7 % kCallbacks;
-    const fs::path changed = comparisons.record(fmt::format("slow_{}", pair), slow);
-    if (!comparisons.compare(before, same)["changes"].empty()) {
-      ++alarms;
+  int by_time = 0;
+  int by_part = 0;
+
+  void add(const Trial& trial, const Named& same, const Named& time, const Named& part) {
+    ++trials;
+    alarms += same.nothing() ? 0 : 1;
+    by_time += time.only(trial.slow) ? 1 : 0;
+    by_part += part.only(trial.slow) ? 1 : 0;
+  }
+  void print(const char* method, const char* condition) const {
+    fmt::print("{:22} {:5}  false alarms {:2} of {:2}, +2 ms {:2} of {:2}, +20 % {:2} of {:2}\n", method, condition,
+               alarms, trials, by_time, trials, by_part, trials);
+  }
+};
+
+void count(int trials, const Runs& runs) {
+  Count counts[3][2];
+  std::vector<Trial> recorded;
+  for (int number = 0; number < trials; ++number) {
+    recorded.push_back(runs.trial(number));
+    fmt::print(stderr, "trial {} of {}\n", number + 1, trials);
+  }
+  std::map<std::pair<bool, std::string>, std::vector<fs::path>> earlier;
+  for (const Trial& trial : recorded) {
+    const std::size_t busy = trial.busy ? 1 : 0;
+    counts[0][busy].add(trial, named_by_report({trial.before}, trial.same),
+                        named_by_report({trial.before}, trial.by_time), named_by_report({trial.before}, trial.by_part));
+    counts[2][busy].add(trial, named_by_plain_rule(trial.before, trial.same),
+                        named_by_plain_rule(trial.before, trial.by_time),
+                        named_by_plain_rule(trial.before, trial.by_part));
+    std::vector<fs::path>& before = earlier[{trial.busy, trial.shape}];
+    before.push_back(trial.before);
+    if (before.size() > 3) {
+      before.erase(before.begin());
     }
-    if (changed_callbacks(comparisons.compare(before, changed)) == std::set{name_of(slow)}) {
-      ++found;
+    if (before.size() == 3) {
+      counts[1][busy].add(trial, named_by_report(before, trial.same), named_by_report(before, trial.by_time),
+                          named_by_report(before, trial.by_part));
     }
-    fmt::print("pair {}: {} of {} with a change where there is none, exactly the slow callback found in {}\n", pair + 1,
-               alarms, pair + 1, found);
-    std::fflush(stdout);
-    fs::remove_all(before);
-    fs::remove_all(changed);
-    before = same;
+  }
+  constexpr const char* kMethods[] = {"one run before", "three runs before", "plain rule, one run"};
+  for (std::size_t method = 0; method < 3; ++method) {
+    counts[method][0].print(kMethods[method], "quiet");
+    counts[method][1].print(kMethods[method], "busy");
   }
 }
 
@@ -97,7 +268,9 @@ void count(int pairs, int seconds) {
 
 int main(int argc, char** argv) {
   try {
-    count(argc > 1 ? std::atoi(argv[1]) : 20, argc > 2 ? std::atoi(argv[2]) : 5);
+    const tracing::testing::TemporaryDirectory directory;
+    count(argc > 1 ? std::atoi(argv[1]) : 40,
+          Runs(argc > 3 ? fs::path(argv[3]) : directory.path(), argc > 2 ? std::atoi(argv[2]) : 6));
   } catch (const std::exception& error) {
     fmt::print(stderr, "bench_comparison: error: {}\n", error.what());
     return 1;

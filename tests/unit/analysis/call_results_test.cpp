@@ -17,7 +17,7 @@ TEST_F(CallResults, NameBothEnds) {
   calls.on({110, 2, 2}, ros2::RmwTakeRequest{6, 9, gid, 1, true});  // of a service that is not in the trace
   calls.on({130, 1, 1}, ros2::RmwTakeResponse{4, 9, 1, 1, true});
   calls.on({140, 1, 1}, ros2::RmwSendRequest{99, 9, 1});
-  calls.finish();
+  calls.finish(140);
   const std::vector<CallResult> results = call_results(subjects, calls);
   ASSERT_EQ(results.size(), 1u);
   EXPECT_EQ(results[0].service, "/add");

@@ -50,6 +50,11 @@ class Feed {
     analysis_->on_execution(origin_, {kind, handle});
     return *this;
   }
+  Feed& ends_process(ProcessId process) {
+    origin_.time_ns += 10;
+    analysis_->on_process_end(process, origin_.time_ns);
+    return *this;
+  }
   // To be called before the first event.
   void define(std::vector<ChainDefinition> chains) {
     analysis_ = std::make_unique<Ros2Analysis>(nullptr, std::move(chains));

@@ -2,6 +2,8 @@
 // Calls of services: requests, responses, and the work of executors and clients with them.
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "tests/unit/analysis/ros2_feed.hpp"
 
 namespace tracing {
@@ -106,6 +108,80 @@ TEST(ServiceCalls, CountsARequestWithoutAResponse) {
   EXPECT_EQ(results.calls[0].responses, 0u);
   EXPECT_EQ(results.calls[0].request.max_ns, 30);
   EXPECT_EQ(results.calls[0].round_trip.count, 0u);
+}
+
+constexpr std::int64_t kMillisecond = 1'000'000;
+
+// The results of a call that is answered, and of a request that is sent at 1 s and gets no response.
+CallResult with_open_request(const std::function<void(Feed&)>& then, std::int64_t end_ns) {
+  Feed feed = with_client_and_service();
+  call(feed, 1);
+  feed.at(1000 * kMillisecond).in(kClient, kClient)(ros2::RmwSendRequest{4, 9, 2});
+  then(feed);
+  feed.at(end_ns).in(kClient, kClient + 1)(ros2::RclcppExecutorGetNextReady{});
+  CallResult both;
+  for (const CallResult& result : feed.results().calls) {  // one that is not taken has no service
+    both.requests += result.requests;
+    both.responses += result.responses;
+    both.in_flight += result.in_flight;
+  }
+  EXPECT_EQ(both.requests, 2u);
+  EXPECT_EQ(both.responses, 1u);
+  return both;
+}
+
+TEST(ServiceCalls, ARequestShortlyBeforeTheEndIsInFlight) {
+  const auto nothing = [](Feed&) {};
+  EXPECT_EQ(with_open_request(nothing, 1009 * kMillisecond).in_flight, 1u);
+  const CallResult late = with_open_request(nothing, 1011 * kMillisecond);
+  EXPECT_EQ(late.in_flight, 0u);
+  EXPECT_EQ(late.unanswered(), 1u);
+}
+
+TEST(ServiceCalls, ARequestIsInFlightAsLongAsTheSlowestAnswerOfItsClientTook) {
+  Feed feed = with_client_and_service();
+  feed.in(kClient, kClient)(ros2::RmwSendRequest{4, 9, 1});
+  feed.at(300 * kMillisecond)(ros2::RmwTakeResponse{4, 9, 1, 1, true});
+  feed.at(1000 * kMillisecond)(ros2::RmwSendRequest{4, 9, 2}).at(1100 * kMillisecond)(ros2::RmwSendRequest{4, 9, 3});
+  feed.at(1350 * kMillisecond)(ros2::RclcppExecutorGetNextReady{});
+  const Ros2Results results = feed.results();
+  ASSERT_EQ(results.calls.size(), 1u);
+  EXPECT_EQ(results.calls[0].in_flight, 1u);
+  EXPECT_EQ(results.calls[0].unanswered(), 1u);
+}
+
+TEST(ServiceCalls, ARequestIsInFlightWhileItsServiceWorks) {
+  const auto take = [](Feed& feed) { feed.in(kServer, kServer)(ros2::RmwTakeRequest{6, 9, kGid, 2, true}); };
+  const auto works = [&](Feed& feed) {
+    take(feed);
+    feed(ros2::CallbackStart{7, false});
+  };
+  const auto worked = [&](Feed& feed) {
+    works(feed);
+    feed(ros2::CallbackEnd{7});
+  };
+  constexpr std::int64_t kEnd = 60'000 * kMillisecond;
+  EXPECT_EQ(with_open_request(works, kEnd).in_flight, 1u);
+  EXPECT_EQ(with_open_request(worked, kEnd).in_flight, 0u) << "it has forgotten the request";
+  EXPECT_EQ(with_open_request(take, kEnd).in_flight, 0u);
+  const auto dies = [&](Feed& feed) {
+    works(feed);
+    feed.ends_process(kServer);
+  };
+  EXPECT_EQ(with_open_request(dies, kEnd).in_flight, 0u) << "nobody works at it any more";
+}
+
+TEST(ServiceCalls, AClientThatHasEndedWaitsNoLonger) {
+  constexpr std::int64_t kEnd = 60'000 * kMillisecond;
+  using End = ros2::ObjectEnd::Kind;
+  const auto client_ends = [](Feed& feed) {
+    feed.at(1005 * kMillisecond).end(End::kRclClient, 3).end(End::kRmwClient, 4);
+  };
+  EXPECT_EQ(with_open_request(client_ends, kEnd).in_flight, 1u);
+  const auto process_ends = [](Feed& feed) { feed.at(1005 * kMillisecond).ends_process(kClient); };
+  EXPECT_EQ(with_open_request(process_ends, kEnd).in_flight, 1u);
+  const auto ends_later = [](Feed& feed) { feed.at(2000 * kMillisecond).ends_process(kClient); };
+  EXPECT_EQ(with_open_request(ends_later, kEnd).in_flight, 0u);
 }
 
 TEST(ServiceCalls, KnowsTheServersPartOfAClientOutsideTheTrace) {

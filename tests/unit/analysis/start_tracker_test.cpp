@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
+
 #include "tests/support/trace_writer/temporary_directory.hpp"
 #include "tests/support/trace_writer/trace_writer.hpp"
 #include "tracing/decode/reader/trace_reader.hpp"
@@ -45,6 +47,21 @@ class StartOfProcesses : public ::testing::Test {
     testing::detail::append(payload, std::uint32_t{3});
     writer_.write_raw(0, kEpoch + recorded, kLauncher, *exec_, payload);
   }
+  void signal(std::int64_t time, const std::string& process, std::int32_t number) {
+    if (!signal_) {
+      signal_ = writer_.declare("launch:signal",
+                                "\t\tinteger { size = 64; align = 8; signed = 1; } _time;\n\t\tstring _process;\n"
+                                "\t\tinteger { size = 32; align = 8; signed = 1; } _signal;\n\t\tstring _file;\n"
+                                "\t\tinteger { size = 32; align = 8; signed = 0; } _line;\n");
+    }
+    std::string payload;
+    testing::detail::append(payload, time);
+    payload.append(process).push_back('\0');
+    testing::detail::append(payload, number);
+    payload.append("a.launch.xml").push_back('\0');
+    testing::detail::append(payload, std::uint32_t{3});
+    writer_.write_raw(0, kEpoch + time, kLauncher, *signal_, payload);
+  }
   template <class Struct>
   void write(std::int64_t time, const Thread& thread, const Struct& event) {
     writer_.write(0, kEpoch + time, thread, event);
@@ -53,16 +70,20 @@ class StartOfProcesses : public ::testing::Test {
     writer_.finish();
     Sink sink;
     TraceReader(directory_.path()).read(sink);
+    ends_ = sink.tracker.ends(sink.processes);
     const ObjectModel objects;
     TraceResults results;
     sink.tracker.finish(sink.processes, {std::nullopt, 7, std::nullopt}, FirstActivity(objects), results);
     return results.starts;
   }
 
+  std::vector<std::pair<ProcessId, std::int64_t>> ends_;
+
  private:
   TemporaryDirectory directory_;
   TraceWriter writer_{directory_.path()};
   std::optional<std::uint16_t> exec_;
+  std::optional<std::uint16_t> signal_;
 };
 
 TEST_F(StartOfProcesses, IsMeasuredFromExecToTheFirstNodeAndTheFirstLookForWork) {
@@ -112,6 +133,19 @@ TEST_F(StartOfProcesses, StaysAsItWasWhenAnotherSessionBegins) {
   ASSERT_EQ(starts.size(), 1u);
   EXPECT_EQ(starts[0].node_after_ns, 2'000);
   EXPECT_EQ(starts[0].ready_after_ns, 3'000);
+}
+
+TEST_F(StartOfProcesses, TheFirstSignalThatAsksAProcessToEndIsItsEnd) {
+  exec(1'000, 1'000, "talker-1", 71);
+  exec(2'000, 2'000, "other-2", 72);
+  write(3'000, kTalker, ros2::RclNodeInit{1, 2, "talker", "/"});
+  signal(4'000, "talker-1", SIGUSR1);
+  signal(5'000, "talker-1", SIGINT);
+  signal(9'000, "talker-1", SIGTERM);
+  results();
+  ASSERT_EQ(ends_.size(), 1u);
+  EXPECT_EQ(ends_[0].first, 1u) << "the second process of the trace";
+  EXPECT_EQ(ends_[0].second, kEpoch + 5'000);
 }
 
 TEST_F(StartOfProcesses, IsEmptyWithoutTheLauncher) {

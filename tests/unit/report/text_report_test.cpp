@@ -97,6 +97,16 @@ Notes
 )");
 }
 
+TEST(TextReport, ARequestInFlightIsNotUnanswered) {
+  Report report = report_with_results();
+  report.results.ros2.calls[0].in_flight = 1;
+  const std::string text = text_report(report, {.all = true});
+  EXPECT_THAT(text, HasSubstr("\n  /add, asked by /ns/node      2           -  3.00 us"));
+  EXPECT_THAT(text, HasSubstr("\n    1 request in flight at the end\n"));
+  EXPECT_THAT(text, Not(HasSubstr("No response")));
+  EXPECT_THAT(text, Not(HasSubstr("without a response")));
+}
+
 TEST(TextReport, FitsTheWidth) {
   for (const std::size_t width : {60U, 80U, 100U, 200U}) {
     for (const bool compact : {false, true}) {

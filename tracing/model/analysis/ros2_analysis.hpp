@@ -48,6 +48,7 @@ class Ros2Analysis {
   void on_allocation(const Origin& origin, std::uint64_t bytes) {
     sinks_.on_allocation({{origin.process, origin.vtid}, origin.time_ns, bytes});
   }
+  void on_process_end(ProcessId process, std::int64_t time_ns) { join_.on_process_end(process, time_ns); }
   // Returns whether it is an event of the kernel's scheduler.
   bool on_kernel_event(const Event& event, ProcessId process) { return scheduler_.on_event(event, process); }
   // `places`: where each process is in `processes`. Empty lists leave it where it is.

@@ -2,6 +2,7 @@
 #include "tracing/model/analysis/start_tracker.hpp"
 
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <utility>
 
@@ -41,6 +42,10 @@ StartTracker::Kind StartTracker::kind_of(const Event& event) {
       kinds_[id] = Kind::kCondition;
     } else if (name == "launch:load" || name == "launch:include" || name == "launch:visit") {
       kinds_[id] = Kind::kStep;
+    } else if (name == "launch:signal") {
+      kinds_[id] = Kind::kSignal;
+    } else if (name == "launch:exit" || name == "launch:respawn") {
+      kinds_[id] = Kind::kExit;
     } else if (name.starts_with("launch:")) {
       kinds_[id] = Kind::kLaunch;
     } else if (name == "ros2:rcl_init") {
@@ -129,9 +134,39 @@ void StartTracker::on_launcher_event(const Event& event, ProcessId launcher, Kin
       steps_.push_back({file.empty() ? what : what + " " + file, time, time + number_of(event, "duration")});
       break;
     }
+    case Kind::kSignal: {
+      const std::int64_t signal = number_of(event, "signal");
+      if (signal == SIGINT || signal == SIGTERM || signal == SIGKILL) {
+        end(launcher, text_of(event, "process"), time);
+      }
+      break;
+    }
+    case Kind::kExit:
+      end(launcher, text_of(event, "process"), time);
+      break;
     default:
       break;
   }
+}
+
+void StartTracker::end(ProcessId launcher, const std::string& process, std::int64_t time_ns) {
+  const auto found = std::find_if(starts_.rbegin(), starts_.rend(), [&](const Start& start) {
+    return start.launcher == launcher && start.result.process == process;
+  });
+  if (found != starts_.rend() && !found->end_ns) {
+    found->end_ns = time_ns;
+  }
+}
+
+std::vector<std::pair<ProcessId, std::int64_t>> StartTracker::ends(const ProcessTable& processes) const {
+  std::vector<std::pair<ProcessId, std::int64_t>> ends;
+  for (const Start& start : starts_) {
+    const std::optional<ProcessId> process = processes.beside(start.launcher, start.result.vpid);
+    if (process && start.end_ns) {
+      ends.emplace_back(*process, *start.end_ns + monotonic_zero_ns_.value_or(0));
+    }
+  }
+  return ends;
 }
 
 StartResult StartTracker::result_of(const Start& start, const ProcessTable& processes,

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "tracing/decode/reader/event.hpp"
@@ -27,10 +28,12 @@ class StartTracker {
   // results.
   void finish(const ProcessTable& processes, const std::vector<std::optional<ProcessIndex>>& places,
               const FirstActivity& first, TraceResults& results) const;
+  // When the launcher asked each process to end, or saw that it had ended.
+  std::vector<std::pair<ProcessId, std::int64_t>> ends(const ProcessTable& processes) const;
 
  private:
   // Those of the launcher come first.
-  enum class Kind : std::uint8_t { kExec, kSpawn, kCondition, kStep, kLaunch, kInit, kNode, kExecutor, kOther };
+  enum class Kind : std::uint8_t { kExec, kSpawn, kCondition, kStep, kSignal, kExit, kLaunch, kInit, kNode, kExecutor, kOther };
   struct Process {
     std::optional<std::int64_t> init_ns;
     std::optional<std::int64_t> node_ns;
@@ -41,10 +44,12 @@ class StartTracker {
     StartResult result;
     ProcessId launcher = kNoProcess;
     std::string name;  // as the launch file calls it: "talker"
+    std::optional<std::int64_t> end_ns;
   };
 
   Kind kind_of(const Event& event);
   void on_launcher_event(const Event& event, ProcessId launcher, Kind kind);
+  void end(ProcessId launcher, const std::string& process, std::int64_t time_ns);
   StartResult result_of(const Start& start, const ProcessTable& processes,
                         const std::vector<std::optional<ProcessIndex>>& places, const FirstActivity& first) const;
 

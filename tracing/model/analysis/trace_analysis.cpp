@@ -39,6 +39,9 @@ TraceResults TraceAnalysis::finish() {
   TraceResults results;
   results.overview = overview_.overview();
   const std::vector<std::optional<ProcessIndex>> places = overview_.places();
+  for (const auto& [process, time_ns] : starts_.ends(overview_.processes())) {
+    ros2_.on_process_end(process, time_ns);
+  }
   results.ros2 = ros2_.finish(places, results.overview.processes);
   starts_.finish(overview_.processes(), places, ros2_.first_activity(), results);
   results.ros2.lacks_thread_context = lacks_thread_context_;

@@ -285,7 +285,7 @@ std::optional<Finding> unanswered(const TraceResults& results) {
   const Hosts hosts(results.overview);
   std::optional<Finding> best;
   for (const CallResult& call : results.ros2.calls) {
-    const std::uint64_t open = call.requests - call.responses;
+    const std::uint64_t open = call.unanswered();
     if (open == 0) {
       continue;
     }

@@ -68,6 +68,38 @@ void ServiceMatcher::on(const Origin& origin, const ros2::RmwTakeRequest& event)
   }
   call.service = model_.rmw_service(origin.process, event.rmw_service_handle);
   call.taken_ns = origin.time_ns;
+  served_[{origin.process, origin.vtid}] = {event.client_gid, event.sequence_number};
+}
+
+void ServiceMatcher::begin_work(const Origin& origin) {
+  const auto served = served_.find({origin.process, origin.vtid});
+  if (served == served_.end()) {
+    return;
+  }
+  if (const auto call = calls_.find(served->second); call != calls_.end()) {
+    call->second.worked = true;
+  }
+}
+
+void ServiceMatcher::end_work(const Origin& origin) {
+  const auto served = served_.find({origin.process, origin.vtid});
+  if (served == served_.end()) {
+    return;
+  }
+  if (const auto call = calls_.find(served->second); call != calls_.end()) {
+    call->second.worked_ns = origin.time_ns;
+  }
+  served_.erase(served);
+}
+
+void ServiceMatcher::end_client(ObjectId client, std::int64_t time_ns) {
+  if (client != kNoObject) {
+    ended_clients_.try_emplace(client, time_ns);
+  }
+}
+
+void ServiceMatcher::end_process(ProcessId process, std::int64_t time_ns) {
+  ended_processes_.try_emplace(process, time_ns);
 }
 
 void ServiceMatcher::on(const Origin& origin, const ros2::RmwSendResponse& event) {
@@ -101,15 +133,58 @@ void ServiceMatcher::end_now(const Key& key) {
   calls_.erase(call);
 }
 
-void ServiceMatcher::finish() {
+std::int64_t ServiceMatcher::end_of(ObjectId client, std::int64_t end_ns) const {
+  if (client == kNoObject) {
+    return end_ns;
+  }
+  if (const auto ended = ended_clients_.find(client); ended != ended_clients_.end()) {
+    end_ns = std::min(end_ns, ended->second);
+  }
+  const ObjectId node = model_.clients()[client].node;
+  if (node != kNoObject) {
+    const auto ended = ended_processes_.find(model_.nodes()[node].process);
+    if (ended != ended_processes_.end()) {
+      end_ns = std::min(end_ns, ended->second);
+    }
+  }
+  return end_ns;
+}
+
+bool ServiceMatcher::is_in_flight(const Call& call, std::int64_t end_ns, std::int64_t usual_ns) const {
+  const std::int64_t client_end_ns = end_of(call.client, end_ns);
+  if (call.worked && !call.answered_ns && call.worked_ns.value_or(end_ns) >= client_end_ns) {
+    // Nobody works in a process that has ended.
+    const ObjectId node = call.service == kNoObject ? kNoObject : model_.services()[call.service].node;
+    const auto ended =
+        node == kNoObject ? ended_processes_.end() : ended_processes_.find(model_.nodes()[node].process);
+    if (ended == ended_processes_.end() || ended->second >= client_end_ns) {
+      return true;
+    }
+  }
+  const std::int64_t begin_ns = call.sent_ns ? *call.sent_ns : call.taken_ns.value_or(0);
+  return client_end_ns - begin_ns <= usual_ns;
+}
+
+void ServiceMatcher::finish(std::int64_t end_ns) {
+  constexpr std::int64_t kAtLeast = 10'000'000;
+  std::unordered_map<ObjectId, std::int64_t> longest;  // by client; kNoObject: all that are not in the trace
+  for (const auto& [pair, record] : records_) {
+    std::int64_t& known = longest.try_emplace(pair.first, kAtLeast).first->second;
+    known = std::max(known, (pair.first == kNoObject ? record.service : record.round_trip).summary().max_ns);
+  }
   for (const auto& [key, call] : calls_) {
-    end(call);
+    CallRecord& record = end(call);
+    const bool is_open = call.sent_ns ? !call.received_ns : !call.answered_ns && !call.received_ns;
+    const auto usual = longest.find(call.client);
+    if (is_open && is_in_flight(call, end_ns, usual == longest.end() ? kAtLeast : usual->second)) {
+      ++record.in_flight;
+    }
   }
   calls_.clear();
   oldest_first_.clear();
 }
 
-void ServiceMatcher::end(const Call& call) {
+CallRecord& ServiceMatcher::end(const Call& call) {
   if (call.sent_ns && call.received_ns) {
     sink_.on_call({.client = call.client,
                    .service = call.service,
@@ -133,6 +208,7 @@ void ServiceMatcher::end(const Call& call) {
   add(record.request, call.sent_ns, call.taken_ns);
   add(record.service, call.taken_ns, call.answered_ns);
   add(record.response, call.answered_ns, call.received_ns);
+  return record;
 }
 
 }  // namespace tracing

@@ -23,6 +23,7 @@ namespace tracing {
 struct CallRecord {
   std::uint64_t requests = 0;     // sent within the trace, or taken when the client is not in the trace
   std::uint64_t responses = 0;    // taken by the client, or sent when the client is not in the trace
+  std::uint64_t in_flight = 0;    // without a response when the trace or the client ended, but it was not late yet
   DurationStatistics round_trip;  // rmw_send_request to rmw_take_response
   DurationStatistics request;     // rmw_send_request to rmw_take_request
   DurationStatistics service;     // rmw_take_request to rmw_send_response
@@ -42,8 +43,16 @@ class ServiceMatcher {
   void on(const Origin& origin, const ros2::RmwTakeRequest& event);
   void on(const Origin& origin, const ros2::RmwSendResponse& event);
   void on(const Origin& origin, const ros2::RmwTakeResponse& event);
-  // To be called at the end of the trace: calls without a response will get none.
-  void finish();
+  // The callback of a service begins and ends in the thread that took the request.
+  void begin_work(const Origin& origin);
+  void end_work(const Origin& origin);
+  // The client takes no response from now on; kNoObject is ignored.
+  void end_client(ObjectId client, std::int64_t time_ns);
+  void end_process(ProcessId process, std::int64_t time_ns);
+  // To be called at the end of the trace: calls without a response will get none. One is in flight, and not
+  // unanswered, if the service is working at it when the trace or the client ends, or if it is not older by then than
+  // the slowest call of the client that was answered, and 10 ms.
+  void finish(std::int64_t end_ns);
 
   // Client and service; kNoObject for one that is not in the trace.
   using Pair = std::pair<ObjectId, ObjectId>;
@@ -67,18 +76,25 @@ class ServiceMatcher {
     std::optional<std::int64_t> taken_ns;
     std::optional<std::int64_t> answered_ns;
     std::optional<std::int64_t> received_ns;
+    bool worked = false;                   // the callback of the service has begun
+    std::optional<std::int64_t> worked_ns;  // and ended
   };
 
   ros2::Gid gid_of(ObjectId client) const;
   Call& begin(const Key& key);
   void end_now(const Key& key);  // a key of calls_
-  void end(const Call& call);
+  CallRecord& end(const Call& call);
+  bool is_in_flight(const Call& call, std::int64_t end_ns, std::int64_t usual_ns) const;
+  std::int64_t end_of(ObjectId client, std::int64_t end_ns) const;
 
   const ObjectModel& model_;
   ExecutionSink& sink_;
   std::unordered_map<Key, Call, HashKey> calls_;  // calls that have no response yet, or no client in the trace
   std::deque<Key> oldest_first_;                  // the keys of calls_, and of some calls that have ended
   std::map<Pair, CallRecord> records_;
+  std::unordered_map<ThreadId, Key, HashThreadId> served_;  // the request that the thread took last
+  std::unordered_map<ObjectId, std::int64_t> ended_clients_;
+  std::unordered_map<ProcessId, std::int64_t> ended_processes_;
   std::uint64_t unknown_clients_ = 0;
 };
 

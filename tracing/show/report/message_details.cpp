@@ -134,8 +134,11 @@ std::string call_section(const TraceResults& results) {
     for (const auto& [part, took] : kCallParts) {
       text += duration_row(part, call.*took);
     }
-    if (call.responses < call.requests) {
-      text += fmt::format("    {} without a response\n", format_count(call.requests - call.responses, "request"));
+    if (call.unanswered() > 0) {
+      text += fmt::format("    {} without a response\n", format_count(call.unanswered(), "request"));
+    }
+    if (call.in_flight > 0) {
+      text += fmt::format("    {} in flight at the end\n", format_count(call.in_flight, "request"));
     }
   }
   return text + "  (from rmw_send_request to rmw_take_response; in the service: from rmw_take_request on)\n";

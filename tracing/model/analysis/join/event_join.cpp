@@ -33,6 +33,9 @@ void EventJoin::on(const Origin& origin, const ros2::CallbackStart& event) {
                    {event.callback, id, origin.time_ns, event.is_intra_process});
   messages_.on_callback(origin, running, id, event.is_intra_process);
   waits_.begin_callback(origin, running.waits, id);
+  if (model_.callbacks()[id].owner == CallbackObject::Owner::kService) {
+    calls_.begin_work(origin);
+  }
 }
 
 void EventJoin::on(const Origin& origin, const ros2::CallbackEnd& event) {
@@ -40,6 +43,9 @@ void EventJoin::on(const Origin& origin, const ros2::CallbackEnd& event) {
       callbacks_.end({origin.process, origin.vtid}, thread(origin).active_callbacks, event.callback, origin.time_ns);
   if (ended) {
     waits_.end_callback(origin, *ended);
+    if (model_.callbacks()[*ended].owner == CallbackObject::Owner::kService) {
+      calls_.end_work(origin);
+    }
   }
 }
 
@@ -93,6 +99,8 @@ void EventJoin::on_end(const Origin& origin, const ros2::ObjectEnd& end) {
   last_ns_ = origin.time_ns;
   if (end.kind == ros2::ObjectEnd::Kind::kRclLifecycleStateMachine) {
     lifecycle_.end(origin, end.handle);
+  } else if (end.kind == ros2::ObjectEnd::Kind::kRmwClient) {
+    calls_.end_client(model_.rmw_client(origin.process, end.handle), origin.time_ns);
   }
   model_.on(origin, end);
 }
@@ -105,7 +113,7 @@ void EventJoin::finish() {
   threads_.clear();
   lifecycle_.finish(last_ns_);
   messages_.finish();
-  calls_.finish();
+  calls_.finish(last_ns_);
 }
 
 }  // namespace tracing

@@ -40,6 +40,8 @@ class EventJoin {
     lifecycle_.state(origin, state_machine, state);
   }
   void on_execution(const Origin& origin, const ros2::ExecutionEvent& event);
+  // The process was told to end, or has ended.
+  void on_process_end(ProcessId process, std::int64_t time_ns) { calls_.end_process(process, time_ns); }
   // At the end of the trace. Tells what has no end.
   void finish();
 

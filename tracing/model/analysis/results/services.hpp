@@ -15,6 +15,8 @@ struct CallResult {
   std::string server;
   std::uint64_t requests = 0;
   std::uint64_t responses = 0;
+  std::uint64_t in_flight = 0;
+  std::uint64_t unanswered() const { return requests - responses - in_flight; }
   DurationSummary round_trip;
   DurationSummary request;
   DurationSummary in_service;
@@ -31,7 +33,10 @@ inline constexpr Field<CallResult> CallResult::kFields[] = {
      "likewise; `null`: the service is not in the trace, or never took a request", trait::kProcess},
     {"server", &CallResult::server, "its node"},
     {"requests", &CallResult::requests, ""},
-    {"responses", &CallResult::responses, "fewer than requests: some were not answered within the trace"},
+    {"responses", &CallResult::responses, "taken by the client; sent, if the client is not in the trace"},
+    {"in_flight", &CallResult::in_flight,
+     "without a response when the trace or the client ended, and not late by then (`docs/report.md`). The rest of the "
+     "requests is unanswered"},
     {"round_trip", &CallResult::round_trip, "from `rmw_send_request` to `rmw_take_response`; its parts follow"},
     {"request", &CallResult::request,
      "to `rmw_take_request`. `rmw_send_request` is recorded when the request is on its way already. If the service "

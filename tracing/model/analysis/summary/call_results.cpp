@@ -30,6 +30,7 @@ CallResult call_result(const Subjects& subjects, const ServiceMatcher::Pair& pai
   }
   result.requests = record.requests;
   result.responses = record.responses;
+  result.in_flight = record.in_flight;
   result.round_trip = record.round_trip.summary();
   result.request = record.request.summary();
   result.in_service = record.service.summary();

@@ -29,8 +29,10 @@ std::vector<UnmatchedResult> unmatched_results(const ObjectModel& model, const E
     not_executed += record.not_executed;
   }
   std::uint64_t unanswered = 0;
+  std::uint64_t in_flight = 0;
   for (const auto& [pair, record] : join.calls().records()) {
-    unanswered += record.requests - record.responses;
+    unanswered += record.requests - record.responses - record.in_flight;
+    in_flight += record.in_flight;
   }
 
   std::vector<UnmatchedResult> results;
@@ -54,6 +56,7 @@ std::vector<UnmatchedResult> unmatched_results(const ObjectModel& model, const E
   add("rclcpp_ring_buffer_enqueue", "the buffer was cleared", buffers.cleared);
   add("rclcpp_ring_buffer_dequeue", "the message was not put in within the trace", buffers.unknown);
   add("rmw_send_request", "no response within the trace", unanswered);
+  add("rmw_send_request", "in flight when the trace or the client ended", in_flight);
   add("rmw_send_request", "the creation of the client is not in the trace", join.calls().unknown_clients());
   return results;
 }

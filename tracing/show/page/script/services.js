@@ -11,7 +11,7 @@ function servicesView(data) {
   const ends = [{title: 'Asked by', value: row => known(row.client)}, {title: 'Served by', value: row => known(row.server)}];
   const callTable = () => dataTable(calls, [
     {title: 'Service', value: row => row.service, wide: true}, ...ends,
-    count('Requests', row => row.requests), count('Unanswered', row => row.requests - row.responses),
+    count('Requests', row => row.requests), count('Unanswered', row => row.requests - row.responses - row.in_flight),
     duration('p50', row => row.round_trip?.p50), duration('p99', row => row.round_trip?.p99), duration('Max', row => row.round_trip?.max),
     duration('Request p50', row => row.request?.p50), duration('In service p50', row => row.in_service?.p50), duration('Response p50', row => row.response?.p50),
   ], {name: 'service', sort: 6, descending: true});

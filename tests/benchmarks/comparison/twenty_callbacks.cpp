@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fifty callbacks for bench_comparison: each of 25 timers publishes to a subscription of its own. All of them do some
-// work. Usage:
-//   fifty_callbacks SECONDS [SLOW [MILLISECONDS]]
-// SLOW: the number of the callback that takes longer, from 0 on; even ones are timers, odd ones subscriptions.
+// Twenty callbacks for bench_comparison: each of ten timers publishes to a subscription of its own. All of them do work
+// that is known. Usage:
+//   twenty_callbacks SECONDS SHAPE [SLOW MORE]
+// SHAPE: "equal", all of them do the same work, or "varied", up to twenty times as much as the least one.
+// SLOW: the number of the callback that does more, even ones are timers, odd ones subscriptions; -1: none.
+// MORE: "2ms" of the time of its thread, or "20%" of its work.
+#include <ctime>
+
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <rclcpp/rclcpp.hpp>
 #include <std_msgs/msg/u_int64.hpp>
@@ -15,42 +20,57 @@ using std_msgs::msg::UInt64;
 
 namespace {
 
-constexpr int kPairs = 25;
-constexpr auto kPeriod = std::chrono::milliseconds(20);
+constexpr int kPairs = 10;
+constexpr auto kPeriod = std::chrono::milliseconds(40);
 
 // The same number of steps each time, so that its duration varies as that of real work does.
-void work() {
+void work(double steps) {
   volatile std::uint64_t value = 1;
-  for (int step = 0; step < 20'000; ++step) {
+  for (auto left = static_cast<std::int64_t>(steps); left > 0; --left) {
     value = value * 6364136223846793005 + 1442695040888963407;
   }
 }
 
+double thread_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
+}
+
 class Callbacks {
  public:
-  Callbacks(int slow, std::chrono::milliseconds longer) : slow_(slow), longer_(longer) {}
+  Callbacks(bool varied, int slow, const std::string& more)
+      : varied_(varied), slow_(slow), part_(more.ends_with('%') ? std::atof(more.c_str()) / 100 : 0),
+        seconds_(more.ends_with("ms") ? std::atof(more.c_str()) / 1000 : 0) {}
 
   void run(int number) const {
-    work();
-    if (number == slow_) {
-      std::this_thread::sleep_for(longer_);
+    constexpr double kUsual = 330'000;  // steps
+    const double steps = varied_ ? kUsual / 3 * std::pow(20, (number * 7 % (2 * kPairs)) / 19.0) : kUsual;
+    if (number != slow_) {
+      work(steps);
+      return;
+    }
+    work(steps * (1 + part_));
+    for (const double end = thread_seconds() + seconds_; thread_seconds() < end;) {
     }
   }
 
  private:
+  bool varied_;
   int slow_;
-  std::chrono::milliseconds longer_;
+  double part_;
+  double seconds_;
 };
 
 }  // namespace
 
 int main(int argc, char** argv) {
   rclcpp::init(argc, argv);
-  if (argc < 2) {
+  if (argc < 3) {
     return 2;
   }
-  const Callbacks callbacks(argc > 2 ? std::atoi(argv[2]) : -1,
-                            std::chrono::milliseconds(argc > 3 ? std::atoi(argv[3]) : 2));
+  const Callbacks callbacks(argv[2] == std::string("varied"), argc > 4 ? std::atoi(argv[3]) : -1,
+                            argc > 4 ? argv[4] : "");
   rclcpp::executors::SingleThreadedExecutor timers;
   rclcpp::executors::SingleThreadedExecutor subscriptions;
   std::vector<rclcpp::Node::SharedPtr> nodes;
