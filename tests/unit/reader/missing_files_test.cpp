@@ -113,6 +113,22 @@ TEST_F(MissingFiles, TheMetadataOfOneHalf) {
                           "' is missing, without which the 2 stream files of the directory can't be read"));
 }
 
+TEST_F(MissingFiles, APacketThatIsGoneWithItsIndex) {
+  const auto verdict = [this](const std::string& bytes, const std::string& more = "") {
+    std::ofstream(directory_.path() / "verdict.json") << R"({"channels": [{"counted_by": "packets", "bytes": )" << bytes
+                                                      << R"(}, {"counted_by": "x", "bytes": 9999999}])" << more << "}";
+  };
+  testing::RecordingSink sink;
+  verdict("1");
+  TraceReader(directory_.path()).read(sink);
+  verdict("9999999");
+  EXPECT_THROW(TraceReader(directory_.path()).read(sink), TraceReadError);
+  verdict("9999999", R"(, "reasons": ["it does not know"])");
+  TraceReader(directory_.path()).read(sink);
+  std::ofstream(directory_.path() / "verdict.json") << "{";
+  TraceReader(directory_.path()).read(sink);
+}
+
 TEST_F(MissingFiles, AnIndexThatIsNoneTellsNothing) {
   std::ofstream(trace_ / "index" / "ros2_1.idx") << "something else, but long enough";
   EXPECT_THAT(damage(directory_.path()), IsEmpty());

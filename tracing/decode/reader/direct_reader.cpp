@@ -306,6 +306,10 @@ void DirectReader::open_streams() {
   for (const auto& trace : traces_) {
     open_trace(*trace);
   }
+  if (expected_bytes_ && content_bytes_ < *expected_bytes_ && damage_.empty()) {
+    note(fmt::format("'{}' lacks {} of the {} bytes that the session recorded", directory_.string(),
+                     *expected_bytes_ - content_bytes_, *expected_bytes_));
+  }
   for (const auto& stream : streams_) {
     advance(*stream);
     if (stream->item != ctf::StreamCursor::Item::kEnd) {

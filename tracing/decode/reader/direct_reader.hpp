@@ -6,6 +6,7 @@
 #include <deque>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ class DirectReader {
 
   // Adds a line to damage().
   void note(const std::string& damage);
+  // Notes it when the packets have fewer bytes.
+  void expect_bytes(std::optional<std::uint64_t> bytes) { expected_bytes_ = bytes; }
   // Gives all items, and throws nothing of its own.
   void read(TraceSink& sink);
   // As in TraceReader.
@@ -52,6 +55,7 @@ class DirectReader {
   std::vector<std::string> damage_;
   bool lacks_descriptions_ = false;
   std::uint64_t content_bytes_ = 0;
+  std::optional<std::uint64_t> expected_bytes_;
 };
 
 }  // namespace tracing

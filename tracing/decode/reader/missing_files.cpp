@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 
@@ -140,6 +141,28 @@ std::vector<std::string> missing_metadata(const fs::path& directory) {
   }
   lines.erase("");
   return {lines.begin(), lines.end()};
+}
+
+std::optional<std::uint64_t> recorded_bytes(const fs::path& trace) {
+  using nlohmann::json;
+  std::ifstream stream(trace / "verdict.json");
+  const json verdict = json::parse(stream, nullptr, false);
+  if (!verdict.is_object() || verdict.contains("reasons") || verdict.value("damage", json("")) != "") {
+    return std::nullopt;
+  }
+  const json channels = verdict.value("channels", json());
+  if (!channels.is_array()) {
+    return std::nullopt;
+  }
+  std::uint64_t bytes = 0;
+  for (const json& channel : channels) {
+    if (!channel.is_object() || channel.value("counted_by", json()) != "packets") {
+      continue;
+    }
+    const json size = channel.value("bytes", json());
+    bytes += size.is_number_unsigned() ? size.get<std::uint64_t>() : 0;
+  }
+  return bytes;
 }
 
 }  // namespace tracing

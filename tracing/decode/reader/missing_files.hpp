@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is missing of the files of a trace. A stream file that ends at the border of a packet, or is not there, looks
-// whole; but LTTng lists the packets of each stream file in a file of `index/`. Private to the reader.
+// whole; but LTTng lists the packets of each stream file in a file of `index/`, and the verdict of a recording has the
+// size of all of them. Private to the reader.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,5 +18,9 @@ std::vector<std::string> missing_packets(const std::filesystem::path& trace);
 
 // A line for each directory at or below this one that has stream files but no metadata, and that nobody is writing to.
 std::vector<std::string> missing_metadata(const std::filesystem::path& directory);
+
+// How many bytes the packets of the trace had together when it was recorded, by its verdict.json. nullopt: it has none,
+// or does not know all packets.
+std::optional<std::uint64_t> recorded_bytes(const std::filesystem::path& trace);
 
 }  // namespace tracing

@@ -54,6 +54,10 @@ TraceReader::TraceReader(const std::vector<std::filesystem::path>& directories, 
       for (const std::string& line : missing) {
         implementation_->direct->note(line);
       }
+      // What several directories have in common is counted once.
+      if (directories.size() == 1 && open.empty() && missing.empty()) {
+        implementation_->direct->expect_bytes(recorded_bytes(directories.front()));
+      }
       return;
     } catch (const ctf::UnsupportedTrace& unsupported) {
       if (decoder == Decoder::kDirect) {
