@@ -84,7 +84,7 @@ void add_comparison(CLI::App& app, Arguments& arguments) {
                  "--least", fmt::format("'{}' is no change; write a part such as 5% or a time such as 20us", text));
            }
          },
-         "Changes that are smaller than this part or this time do not count; default: 10%,100us")
+         "Changes that are smaller than this part or this time do not count; default: 10%,20us")
       ->option_text("CHANGE")
       ->delimiter(',')
       ->allow_extra_args(false);

@@ -127,7 +127,8 @@ class Runs {
   void record_run(const fs::path& file, const std::string& shape, int slow, const char* more) const {
     const tracing::testing::TemporaryDirectory directory;
     const std::string home = directory.path().native();
-    run(fmt::format("cd {0} && ROS_HOME={0} {1} {2} program:={3} directory:=run seconds:={4} shape:={5} slow:={6} "
+    run(
+        fmt::format("cd {0} && ROS_HOME={0} {1} {2} program:={3} directory:=run seconds:={4} shape:={5} slow:={6} "
                     "more:={7} >{0}/output 2>&1",
                     home, LAUNCH_PROGRAM, LAUNCH_FILE, TWENTY_CALLBACKS, seconds_, shape, slow, more));
     run(fmt::format("{} {}/run --save-baseline {} >/dev/null", LAUNCH_REPORT, home, file.native()));

@@ -2,14 +2,16 @@
 // Twenty callbacks for bench_comparison: each of ten timers publishes to a subscription of its own. All of them do work
 // that is known. Usage:
 //   twenty_callbacks SECONDS SHAPE [SLOW MORE]
+// SECONDS: so long at least; each callback runs sixty times.
 // SHAPE: "equal", all of them do the same work, or "varied", up to twenty times as much as the least one.
 // SLOW: the number of the callback that does more, even ones are timers, odd ones subscriptions; -1: none.
 // MORE: "2ms" of the time of its thread, or "20%" of its work.
-#include <ctime>
-
+#include <array>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <ctime>
 #include <rclcpp/rclcpp.hpp>
 #include <std_msgs/msg/u_int64.hpp>
 #include <string>
@@ -40,10 +42,23 @@ double thread_seconds() {
 class Callbacks {
  public:
   Callbacks(bool varied, int slow, const std::string& more)
-      : varied_(varied), slow_(slow), part_(more.ends_with('%') ? std::atof(more.c_str()) / 100 : 0),
+      : varied_(varied),
+        slow_(slow),
+        part_(more.ends_with('%') ? std::atof(more.c_str()) / 100 : 0),
         seconds_(more.ends_with("ms") ? std::atof(more.c_str()) / 1000 : 0) {}
 
-  void run(int number) const {
+  // Until each callback has run so often that its times say something.
+  void wait() const {
+    for (int left = left_; left != 0; left = left_) {
+      left_.wait(left);
+    }
+  }
+
+  void run(int number) {
+    constexpr int kEnough = 60;
+    if (++calls_[static_cast<std::size_t>(number)] == kEnough && --left_ == 0) {
+      left_.notify_all();
+    }
     constexpr double kUsual = 330'000;  // steps
     const double steps = varied_ ? kUsual / 3 * std::pow(20, (number * 7 % (2 * kPairs)) / 19.0) : kUsual;
     if (number != slow_) {
@@ -60,6 +75,8 @@ class Callbacks {
   int slow_;
   double part_;
   double seconds_;
+  std::array<int, 2 * kPairs> calls_{};
+  std::atomic<int> left_{2 * kPairs};
 };
 
 }  // namespace
@@ -69,8 +86,7 @@ int main(int argc, char** argv) {
   if (argc < 3) {
     return 2;
   }
-  const Callbacks callbacks(argv[2] == std::string("varied"), argc > 4 ? std::atoi(argv[3]) : -1,
-                            argc > 4 ? argv[4] : "");
+  Callbacks callbacks(argv[2] == std::string("varied"), argc > 4 ? std::atoi(argv[3]) : -1, argc > 4 ? argv[4] : "");
   rclcpp::executors::SingleThreadedExecutor timers;
   rclcpp::executors::SingleThreadedExecutor subscriptions;
   std::vector<rclcpp::Node::SharedPtr> nodes;
@@ -92,6 +108,7 @@ int main(int argc, char** argv) {
   std::thread receiver([&] { subscriptions.spin(); });
   std::thread sender([&] { timers.spin(); });
   std::this_thread::sleep_for(std::chrono::seconds(std::atoi(argv[1])));
+  callbacks.wait();
   timers.cancel();
   subscriptions.cancel();
   sender.join();

@@ -85,11 +85,12 @@ TEST_F(ComparisonCommand, SaysWhatHasChanged) {
   EXPECT_EQ(outcome.err, "");
   EXPECT_EQ(outcome.out, "Before     " + before + ": 405 events in 2.00 s\nAfter      " + after +
                              R"(: 405 events in 2.00 s
-Compared   1 subject in 3 tests
+Compared   1 subject in 4 tests
 Result     1 subject has changed; with a confidence of 99 % none of them by chance
 
 Callbacks
   /node, timer 10 ms
+    duration, p10                    200 us -> 2.20 ms   +2.00 ms  (+2.00 ms to +2.00 ms)
     duration, median                 200 us -> 2.20 ms   +2.00 ms  (+2.00 ms to +2.00 ms)
     duration, p90                    201 us -> 2.20 ms   +2.00 ms  (+2.00 ms to +2.00 ms)
 )");
@@ -148,9 +149,10 @@ TEST_F(ComparisonCommand, PrintsJson) {
   const nlohmann::json json = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(json["version"], 1);
   EXPECT_EQ(json["compared"], 1);
-  EXPECT_EQ(json["changes"].size(), 2u);
+  EXPECT_EQ(json["changes"].size(), 3u);
+  EXPECT_EQ(json["likely"].size(), 0u);
   EXPECT_EQ(json["changes"][0]["subject"], "/node, timer 10 ms");
-  EXPECT_EQ(json["changes"][0]["statistic"], "median");
+  EXPECT_EQ(json["changes"][0]["statistic"], "p10");
   EXPECT_NEAR(json["changes"][0]["shift_ns"], 2e6, 1e3);
   EXPECT_EQ(json["failed_on"], nlohmann::json({"slower"}));
 }
@@ -162,11 +164,11 @@ TEST_F(ComparisonCommand, NeedsSomethingInCommon) {
   EXPECT_EQ(nothing.exit_code, 1);
   EXPECT_EQ(nothing.err, "launch report: error: " + before + " and " + other +
                              " have no callback, hop, chain or service in common\n");
-  const std::string rare = trace("rare", 200'000, 49);
+  const std::string rare = trace("rare", 200'000, 15);
   const Outcome few = run("--diff " + before + " " + rare);
   EXPECT_EQ(few.exit_code, 1);
   EXPECT_EQ(few.err, "launch report: error: " + before + " and " + rare +
-                         " have too few samples to compare anything: a callback or message must occur 50 times in "
+                         " have too few samples to compare anything: a callback or message must occur 16 times in "
                          "each run\n");
   const std::string silent = trace("silent", 200'000, 0);
   EXPECT_EQ(

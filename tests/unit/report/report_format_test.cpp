@@ -269,7 +269,7 @@ void expect_rows(const Json& schema, const Field<Result> (&fields)[kCount]) {
 
 TEST(ReportFormat, TheSchemaOfAComparisonHasEveryField) {
   const Json schema = Json::parse(text_of(kDocs / "schema" / "comparison.schema.json"));
-  expect_rows(schema["properties"]["changes"]["items"], compare::Change::kFields);
+  expect_rows(schema["$defs"]["change"], compare::Change::kFields);
   expect_rows(schema["properties"]["overall"]["anyOf"][1], compare::Overall::kFields);
   expect_rows(schema["$defs"]["lone"], compare::Lone::kFields);
   expect_rows(schema["$defs"]["side"]["properties"]["runs"]["items"], compare::RunSummary::kFields);

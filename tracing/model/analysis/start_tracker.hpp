@@ -33,7 +33,19 @@ class StartTracker {
 
  private:
   // Those of the launcher come first.
-  enum class Kind : std::uint8_t { kExec, kSpawn, kCondition, kStep, kSignal, kExit, kLaunch, kInit, kNode, kExecutor, kOther };
+  enum class Kind : std::uint8_t {
+    kExec,
+    kSpawn,
+    kCondition,
+    kStep,
+    kSignal,
+    kExit,
+    kLaunch,
+    kInit,
+    kNode,
+    kExecutor,
+    kOther
+  };
   struct Process {
     std::optional<std::int64_t> init_ns;
     std::optional<std::int64_t> node_ns;

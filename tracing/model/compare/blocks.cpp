@@ -2,6 +2,7 @@
 #include "tracing/model/compare/blocks.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "tracing/model/compare/rank_test.hpp"
 
@@ -10,6 +11,7 @@ namespace tracing::compare {
 namespace {
 
 constexpr std::size_t kMostBlocks = 50;
+constexpr std::size_t kTenBlocks = 10;  // fewer can't show anything once there are many tests
 constexpr double kMostResemblance = 0.3;
 
 std::vector<double> values_of_blocks(const std::vector<std::int64_t>& samples, double share, std::size_t length) {
@@ -23,35 +25,36 @@ std::vector<double> values_of_blocks(const std::vector<std::int64_t>& samples, d
   return values;
 }
 
-// How far the tenths of a run are apart, without the highest and the lowest one. If a run drifts, or something disturbs
-// it for a while, another run may differ from it by as much.
-double spread_of_tenths(const std::vector<std::int64_t>& samples, double share) {
-  std::vector<double> tenths = values_of_blocks(samples, share, samples.size() / 10);
+// How far the tenths of a run are apart, without the two highest and the lowest one, as the logarithm of a ratio. If a
+// run drifts, or something disturbs it for a while, another run may differ from it by as much.
+double spread_of_tenths(const std::vector<std::int64_t>& samples, const BlockRule& rule) {
+  std::vector<double> tenths = values_of_blocks(samples, rule.share, std::max(rule.least_length, samples.size() / 10));
   std::sort(tenths.begin(), tenths.end());
-  return tenths[tenths.size() - 2] - tenths[1];
+  const std::size_t lowest = tenths.size() / 10;
+  const std::size_t highest = (tenths.size() * 8 + 9) / 10 - 1;
+  return std::log(std::max(tenths[highest], 1.0) / std::max(tenths[lowest], 1.0));
 }
 
 }  // namespace
 
 std::optional<BlockPair> cut_into_blocks(const std::vector<std::int64_t>& before,
-                                         const std::vector<std::int64_t>& after, double share,
-                                         std::size_t least_length) {
+                                         const std::vector<std::int64_t>& after, const BlockRule& rule) {
   const std::size_t fewer = std::min(before.size(), after.size());
-  if (fewer < kLeastBlocks * least_length) {
+  if (fewer < rule.least_blocks * rule.least_length) {
     return std::nullopt;
   }
-  std::size_t length = std::max(least_length, (fewer + kMostBlocks - 1) / kMostBlocks);
+  std::size_t length = std::max(rule.least_length, (fewer + kMostBlocks - 1) / kMostBlocks);
   BlockPair pair;
   while (true) {
-    pair.before = values_of_blocks(before, share, length);
-    pair.after = values_of_blocks(after, share, length);
+    pair.before = values_of_blocks(before, rule.share, length);
+    pair.after = values_of_blocks(after, rule.share, length);
     const double resemblance = std::max(rank_autocorrelation(pair.before), rank_autocorrelation(pair.after));
-    if (resemblance <= kMostResemblance || fewer < kLeastBlocks * length * 2) {
+    if (resemblance <= kMostResemblance || fewer < kTenBlocks * length * 2) {
       break;
     }
     length *= 2;
   }
-  pair.own_spread = std::max(spread_of_tenths(before, share), spread_of_tenths(after, share));
+  pair.own_ratio = spread_of_tenths(before, rule);
   return pair;
 }
 

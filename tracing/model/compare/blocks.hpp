@@ -8,19 +8,22 @@
 
 namespace tracing::compare {
 
-// The blocks of two runs, which have equal lengths, and how much each run differs within itself.
+// The blocks of two runs, which have equal lengths, and how much the run before differs within itself.
 struct BlockPair {
   std::vector<double> before;
   std::vector<double> after;
-  double own_spread = 0;  // the larger one of both runs, nanoseconds
+  double own_ratio = 0;  // the natural logarithm of a ratio
 };
 
-inline constexpr std::size_t kLeastBlocks = 10;  // fewer can't show anything once there are many tests
+// How to cut. A run needs at least `least_blocks` of `least_length` samples.
+struct BlockRule {
+  double share = 0.5;  // the quantile that is the value of a block
+  std::size_t least_length = 5;
+  std::size_t least_blocks = 10;
+};
 
-// `share`: the quantile that is the value of a block. `least_length`: samples of a block, at least. nullopt when a run
-// has too few samples.
+// nullopt when a run has too few samples.
 std::optional<BlockPair> cut_into_blocks(const std::vector<std::int64_t>& before,
-                                         const std::vector<std::int64_t>& after, double share,
-                                         std::size_t least_length);
+                                         const std::vector<std::int64_t>& after, const BlockRule& rule);
 
 }  // namespace tracing::compare

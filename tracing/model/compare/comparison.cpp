@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/model/compare/comparison.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -18,8 +21,10 @@ namespace {
 using Key = std::tuple<Kind, std::string, std::string>;
 using Found = std::vector<const Measurement*>;  // of one side, one for each run that has it
 
-std::map<Key, Found> by_key(const Runs& side) {
-  std::map<Key, Found> found;
+using AllFound = std::map<Key, Found>;
+
+AllFound by_key(const Runs& side) {
+  AllFound found;
   for (const RunSummary& run : side.runs) {
     for (const Measurement& one : run.measurements) {
       found[{one.kind, one.subject, one.quantity}].push_back(&one);
@@ -41,15 +46,49 @@ bool is_doubtful(const Found& side) {
 }
 
 double share_of(Statistic statistic) {
-  return statistic == Statistic::kMedian ? 0.5 : 0.9;
+  constexpr double kShares[] = {0.1, 0.5, 0.9};
+  return kShares[static_cast<std::size_t>(statistic)];
 }
 
-// Late calls are no change of a rate, and a busy machine has many of them.
+// `samples`: of the run that has fewer. The lowest of two or three samples is seldom one that was disturbed.
+BlockRule rule_of(Statistic statistic, std::size_t samples) {
+  switch (statistic) {
+    case Statistic::kP10:
+      return {share_of(statistic), samples < 30 ? std::size_t{2} : std::size_t{3}, 8};
+    case Statistic::kMedian:
+      return {share_of(statistic), 5, 10};
+    case Statistic::kP90:
+      break;
+  }
+  return {share_of(statistic), 10, 10};
+}
+
+// Late calls are no change of a rate, and a busy machine has many of them. How long a callback waited or slept explains
+// its duration, and is not tested.
 std::vector<Statistic> statistics_of(const std::string& quantity) {
   if (quantity == "interval") {
     return {Statistic::kMedian};
   }
-  return {Statistic::kMedian, Statistic::kP90};
+  if (quantity == kWaiting || quantity == kBlocked) {
+    return {};
+  }
+  return {Statistic::kP10, Statistic::kMedian, Statistic::kP90};
+}
+
+// How much longer the machine makes callbacks, as the logarithm of a ratio: from the 10th to the 90th percentile of the
+// durations of each callback; of these the one that a fifth of the callbacks exceeds. The lengths of a callback's own
+// work are in it, too.
+double disturbance_of(const RunSummary& run) {
+  constexpr std::size_t kEnough = 20;
+  std::vector<double> ratios;
+  for (const Measurement& one : run.measurements) {
+    if (one.kind == Kind::kCallback && one.quantity == "duration" && one.samples.size() >= kEnough) {
+      std::vector<double> samples(one.samples.begin(), one.samples.end());
+      const double high = quantile(samples, 0.9);
+      ratios.push_back(std::log(std::max(high, 1.0) / std::max(quantile(samples, 0.1), 1.0)));
+    }
+  }
+  return ratios.empty() ? 0 : quantile(ratios, 0.8);
 }
 
 // One statistic of a quantity in one run before and one run after.
@@ -57,6 +96,8 @@ struct PairTest {
   BlockPair blocks;
   double before = 0;
   double shift = 0;
+  double ratio = 0;        // its logarithm
+  double disturbance = 0;  // of the run that was disturbed more
 };
 
 // One statistic of a quantity that both sides have.
@@ -66,55 +107,85 @@ struct Tested {
   const Found* after = nullptr;
   Statistic statistic = Statistic::kMedian;
   std::vector<PairTest> pairs;  // every run before with every run after
-  double more = 0;              // the probability that the value is not larger by more than what counts
-  double less = 0;
+  // The probability that the value is not larger (or smaller) by more than what counts; `likely`: than half of what the
+  // runs may differ.
+  struct Sides {
+    double more = 0;
+    double less = 0;
+    double of_either() const { return std::min(1.0, 2 * std::min(more, less)); }
+  };
+  Sides certain;
+  Sides likely;
+
+  // The fastest runs of a callback are those that nothing delayed, and the kernel knows how long each of them ran.
+  bool is_undisturbed() const {
+    return std::get<Kind>(key) == Kind::kCallback && (statistic == Statistic::kP10 || std::get<2>(key) == kRunning);
+  }
 };
 
 // Returns false when a run has too few samples.
-bool cut(Tested& tested) {
-  const std::size_t least_length = tested.statistic == Statistic::kMedian ? 5 : 10;
+bool cut(Tested& tested, const std::map<const Measurement*, double>& disturbance) {
   for (const Measurement* earlier : *tested.before) {
     for (const Measurement* later : *tested.after) {
-      std::optional<BlockPair> blocks =
-          cut_into_blocks(earlier->samples, later->samples, share_of(tested.statistic), least_length);
+      const BlockRule rule = rule_of(tested.statistic, std::min(earlier->samples.size(), later->samples.size()));
+      std::optional<BlockPair> blocks = cut_into_blocks(earlier->samples, later->samples, rule);
       if (!blocks) {
         return false;
       }
       std::vector<double> before = blocks->before;
       std::vector<double> after = blocks->after;
-      PairTest pair{std::move(*blocks), quantile(before, 0.5), 0};
-      pair.shift = quantile(after, 0.5) - pair.before;
+      PairTest pair{std::move(*blocks), quantile(before, 0.5)};
+      const double now = quantile(after, 0.5);
+      pair.shift = now - pair.before;
+      pair.ratio = std::log(std::max(now, 1.0) / std::max(pair.before, 1.0));
+      pair.disturbance = std::max(disturbance.at(earlier), disturbance.at(later));
       tested.pairs.push_back(std::move(pair));
     }
   }
   return true;
 }
 
-std::vector<double> moved(std::vector<double> values, double by) {
-  for (double& value : values) {
-    value += by;
+// What two runs may differ without a change that counts: the larger one of a ratio (its logarithm) and a time.
+struct Noise {
+  double ratio = 0;
+  double ns = 0;
+};
+
+// `least`: what the user cares for, as the logarithm of a ratio.
+void test_sides(Tested::Sides& sides, const PairTest& pair, double usual, const Noise& noise, double least) {
+  const double larger = std::exp(std::max(usual, 0.0) + std::max(noise.ratio, least));
+  const double smaller = std::exp(std::max(-usual, 0.0) + std::max(noise.ratio, least));
+  std::vector<double> lowered;
+  std::vector<double> raised;
+  for (const double value : pair.blocks.after) {
+    lowered.push_back(std::min(value / larger, value - noise.ns));
+    raised.push_back(std::max(value * smaller, value + noise.ns));
   }
-  return values;
+  sides.more = std::max(sides.more, rank_probability(pair.blocks.before, lowered));
+  sides.less = std::max(sides.less, rank_probability(raised, pair.blocks.before));
 }
 
 // Tests one pair of runs of quantities that are of one sort, `place` of their pairs.
 void test_pair(const std::vector<Tested*>& sort, std::size_t place, const CompareOptions& options) {
   // So many times the spread of others are reached by chance less often than the confidence allows, even if the
   // distribution has more outliers than a normal one.
-  constexpr double kSpreads = 6;
+  constexpr double kSpreads = 8;
+  // A delay that a fifth of the callbacks has sometimes may hit the same one each time.
+  constexpr double kDisturbances = 2;
   std::vector<Shifted> shifts;
   for (const Tested* tested : sort) {
-    shifts.push_back({tested->pairs[place].before, tested->pairs[place].shift});
+    shifts.push_back({tested->pairs[place].before, tested->pairs[place].ratio});
   }
   const std::vector<PeerShift> peers = shifts_of_peers(shifts);
   for (std::size_t i = 0; i < sort.size(); ++i) {
     const PairTest& pair = sort[i]->pairs[place];
-    const double least = std::max({options.least_ratio * std::abs(pair.before), static_cast<double>(options.least_ns),
-                                   pair.blocks.own_spread, kSpreads * peers[i].spread});
-    const double raised = std::max(peers[i].usual, 0.0) + least;
-    const double lowered = std::max(-peers[i].usual, 0.0) + least;
-    sort[i]->more = std::max(sort[i]->more, rank_probability(pair.blocks.before, moved(pair.blocks.after, -raised)));
-    sort[i]->less = std::max(sort[i]->less, rank_probability(moved(pair.blocks.after, lowered), pair.blocks.before));
+    const double least =
+        std::log1p(std::max(options.least_ratio, static_cast<double>(options.least_ns) / std::max(pair.before, 1.0)));
+    const double of_machine = sort[i]->is_undisturbed() ? 0 : kDisturbances * pair.disturbance;
+    const double of_runs = std::max(kSpreads * peers[i].spread, of_machine);
+    const double ns = kSpreads * peers[i].spread_ns;
+    test_sides(sort[i]->certain, pair, peers[i].usual, {std::max(of_runs, pair.blocks.own_ratio), ns}, least);
+    test_sides(sort[i]->likely, pair, peers[i].usual, {std::max(of_runs / 2, pair.blocks.own_ratio), ns / 2}, least);
   }
 }
 
@@ -130,6 +201,48 @@ void test_all(std::vector<Tested>& tests, const CompareOptions& options) {
       test_pair(members, place, options);
     }
   }
+}
+
+double mean_of(const Found& side) {
+  double sum = 0;
+  double count = 0;
+  for (const Measurement* one : side) {
+    sum = std::accumulate(one->samples.begin(), one->samples.end(), sum);
+    count += static_cast<double>(one->samples.size());
+  }
+  return sum / std::max(count, 1.0);
+}
+
+// What the mean of a callback's duration has changed by: its time on a processor, its waits for one, or its sleep.
+std::string cause_of(const Key& key, bool slower, const AllFound& before, const AllFound& after) {
+  const auto& [kind, subject, quantity] = key;
+  if (kind != Kind::kCallback || quantity != "duration") {
+    return "";
+  }
+  const auto change = [&, &name = subject](const char* part) -> std::optional<double> {
+    const auto earlier = before.find({Kind::kCallback, name, part});
+    const auto later = after.find({Kind::kCallback, name, part});
+    if (earlier == before.end() || later == after.end()) {
+      return std::nullopt;
+    }
+    return (mean_of(later->second) - mean_of(earlier->second)) * (slower ? 1 : -1);
+  };
+  const std::optional<double> running = change(kRunning);
+  const std::optional<double> waiting = change(kWaiting);
+  const std::optional<double> blocked = change(kBlocked);
+  const double all = running.value_or(0) + waiting.value_or(0) + blocked.value_or(0);
+  if (!running || !waiting || !blocked || all <= 0) {
+    return "";
+  }
+  const char* const direction = slower ? "more" : "less";
+  if (*running >= all / 2) {
+    return fmt::format("{} running time", direction);
+  }
+  const char* const same = *running <= all / 10 ? ", same running time" : "";
+  if (*waiting >= all / 2) {
+    return fmt::format("{} waiting for a processor{}", direction, same);
+  }
+  return *blocked >= all / 2 ? fmt::format("{} sleeping or waiting for something else{}", direction, same) : "";
 }
 
 Change change_of(const Tested& tested, double probability, const CompareOptions& options) {
@@ -175,7 +288,8 @@ std::optional<Overall> overall_of(const std::vector<Tested>& tests, const Compar
   overall.callbacks = ratios.size();
   overall.slower =
       static_cast<std::size_t>(std::count_if(ratios.begin(), ratios.end(), [](double r) { return r > 0; }));
-  if (ratios.size() < kLeastPeers) {
+  constexpr std::size_t kEnough = 10;
+  if (ratios.size() < kEnough) {
     return std::nullopt;
   }
   overall.ratio = quantile(ratios, 0.5);
@@ -238,9 +352,18 @@ void find_changed_steps(std::vector<Change>& changes, const Runs& before) {
 
 Comparison compare(const Runs& before, const Runs& after, const CompareOptions& options) {
   Comparison result;
-  const std::map<Key, Found> earlier = by_key(before);
-  const std::map<Key, Found> later = by_key(after);
+  const AllFound earlier = by_key(before);
+  const AllFound later = by_key(after);
   std::set<std::pair<Kind, std::string>> subjects;
+  std::map<const Measurement*, double> disturbance;  // of its run
+  for (const Runs* side : {&before, &after}) {
+    for (const RunSummary& run : side->runs) {
+      const double of_run = disturbance_of(run);
+      for (const Measurement& one : run.measurements) {
+        disturbance[&one] = of_run;
+      }
+    }
+  }
   std::vector<Tested> tests;
   for (const auto& [key, found] : earlier) {
     const auto other = later.find(key);
@@ -249,10 +372,11 @@ Comparison compare(const Runs& before, const Runs& after, const CompareOptions& 
     }
     const auto& [kind, subject, quantity] = key;
     subjects.insert({kind, subject});
-    bool enough = false;
-    for (const Statistic statistic : statistics_of(quantity)) {
+    const std::vector<Statistic> statistics = statistics_of(quantity);
+    bool enough = statistics.empty();
+    for (const Statistic statistic : statistics) {
       Tested tested{key, &found, &other->second, statistic};
-      if (!cut(tested)) {
+      if (!cut(tested, disturbance)) {
         continue;
       }
       enough = true;
@@ -266,18 +390,35 @@ Comparison compare(const Runs& before, const Runs& after, const CompareOptions& 
   result.tests = tests.size();
 
   test_all(tests, options);
-  std::vector<double> probabilities;
+  std::vector<double> certain;
+  std::vector<double> likely;
   for (const Tested& tested : tests) {
-    probabilities.push_back(std::min(1.0, 2 * std::min(tested.more, tested.less)));
+    certain.push_back(tested.certain.of_either());
+    likely.push_back(tested.likely.of_either());
   }
-  probabilities = corrected_for_many(probabilities);
+  certain = corrected_for_many(certain);
+  likely = corrected_for_many(likely);
+  const auto change = [&](std::size_t test, double probability) {
+    Change one = change_of(tests[test], probability, options);
+    one.cause = cause_of(tests[test].key, one.is_slower(), earlier, later);
+    return one;
+  };
+  std::set<std::pair<Kind, std::string>> changed;
   for (std::size_t i = 0; i < tests.size(); ++i) {
-    if (probabilities[i] > 1 - options.confidence) {
-      continue;
+    if (certain[i] <= 1 - options.confidence) {
+      result.changes.push_back(change(i, certain[i]));
+      changed.insert({result.changes.back().kind, result.changes.back().subject});
     }
-    result.changes.push_back(change_of(tests[i], probabilities[i], options));
+  }
+  constexpr double kLikely = 0.1;
+  for (std::size_t i = 0; i < tests.size(); ++i) {
+    const auto& [kind, subject, quantity] = tests[i].key;
+    if (likely[i] <= kLikely && !changed.contains({kind, subject})) {
+      result.likely.push_back(change(i, likely[i]));
+    }
   }
   find_changed_steps(result.changes, before);
+  find_changed_steps(result.likely, before);
   result.overall = overall_of(tests, options);
   result.gone = lone_subjects(before, after);
   result.added = lone_subjects(after, before);

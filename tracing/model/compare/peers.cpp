@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "tracing/model/compare/rank_test.hpp"
 
@@ -13,16 +14,15 @@ namespace {
 
 constexpr std::size_t kPeers = 20;
 
-PeerShift spread_of(std::vector<double> shifts) {
-  PeerShift result;
-  result.usual = quantile(shifts, 0.5);
+constexpr std::size_t kNearest = 8;
+
+// How far four fifths of the shifts are from `usual` at most, as a standard deviation. The last fifth may have changed.
+double spread_of(std::vector<double> shifts, double usual) {
   for (double& shift : shifts) {
-    shift = std::abs(shift - result.usual);
+    shift = std::abs(shift - usual);
   }
-  // Four fifths of a normal distribution lie within so many standard deviations. The last fifth may have changed.
-  constexpr double kOfNormalDistribution = 1.2816;
-  result.spread = quantile(shifts, 0.8) / kOfNormalDistribution;
-  return result;
+  constexpr double kOfNormalDistribution = 1.2816;  // four fifths of it lie within so many
+  return quantile(shifts, 0.8) / kOfNormalDistribution;
 }
 
 }  // namespace
@@ -46,21 +46,25 @@ std::vector<PeerShift> shifts_of_peers(const std::vector<Shifted>& quantities) {
           first > 0 && (last == order.size() || size(place) - size(first - 1) <= size(last) - size(place));
       takes_lower ? --first : ++last;
     }
-    const double before = std::max(quantities[order[place]].before, 1.0);
-    std::vector<double> shifts;
-    std::vector<double> scaled;  // to the size of this quantity
+    std::vector<double> ratios;
+    std::vector<std::pair<double, double>> times;  // how far away the peer is, and its shift
     for (std::size_t peer = first; peer < last; ++peer) {
       if (peer == place) {
         continue;
       }
       const Shifted& other = quantities[order[peer]];
-      shifts.push_back(other.shift);
-      scaled.push_back(other.shift / std::max(other.before, 1.0) * before);
+      ratios.push_back(other.ratio);
+      times.emplace_back(std::abs(size(peer) - size(place)), std::max(other.before, 1.0) * std::expm1(other.ratio));
     }
-    // Larger peers would hide changes of a small quantity, smaller ones those of a large quantity.
-    const PeerShift as_it_is = spread_of(std::move(shifts));
-    const PeerShift to_scale = spread_of(std::move(scaled));
-    result[order[place]] = as_it_is.spread <= to_scale.spread ? as_it_is : to_scale;
+    std::stable_sort(times.begin(), times.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<double> nearest;
+    for (std::size_t peer = 0; peer < std::min(times.size(), kNearest); ++peer) {
+      nearest.push_back(times[peer].second);
+    }
+    PeerShift& shift = result[order[place]];
+    shift.usual = quantile(ratios, 0.5);
+    shift.spread = spread_of(std::move(ratios), shift.usual);
+    shift.spread_ns = spread_of(nearest, quantile(nearest, 0.5));
   }
   return result;
 }

@@ -4,7 +4,8 @@
 // Runs of one system differ for their whole length, because timers have other phases, memory lies elsewhere, or the
 // machine is slower. One quantity of two runs can't tell this from a change. But it concerns most quantities, and a
 // change few of them: how far the shifts of the others are spread tells how much a shift means (Efron's empirical
-// null).
+// null). Shifts are ratios, because a machine that is slower makes all times longer by a part of them, and times: a
+// small quantity may differ by as much as those that are a little larger.
 #pragma once
 
 #include <cstddef>
@@ -15,16 +16,17 @@ namespace tracing::compare {
 // One quantity in two runs.
 struct Shifted {
   double before = 0;
-  double shift = 0;  // after - before
+  double ratio = 0;  // the natural logarithm of after / before
 };
 
-// What the shift of a quantity may be without a change: `usual`, and `spread` more or less.
+// What the shift of a quantity may be without a change, as logarithms of ratios: `usual`, and `spread` more or less.
 struct PeerShift {
   double usual = 0;
-  double spread = 0;  // comparable with a standard deviation
+  double spread = 0;     // comparable with a standard deviation
+  double spread_ns = 0;  // of the nearest ones, as times
 };
 
-inline constexpr std::size_t kLeastPeers = 10;
+inline constexpr std::size_t kLeastPeers = 5;
 
 // For each quantity, from those of the others whose values before are nearest to its own. All zero if there are fewer
 // than kLeastPeers others.

@@ -20,6 +20,7 @@
 #include "tracing/model/analysis/trace_analysis.hpp"
 #include "tracing/model/compare/kept_samples.hpp"
 #include "tracing/model/compare/run_summary.hpp"
+#include "tracing/model/execution/thread_map.hpp"
 #include "tracing/model/messages/chain_tracker.hpp"
 
 namespace tracing::compare {
@@ -32,6 +33,7 @@ class RunRecorder : public ExecutionSink {
   void on_message(const MessageFlow& message) override;
   void on_message_link(const MessageLink& link) override { chains_.on_message_link(link); }
   void on_call(const ServiceCall& call) override;
+  void on_thread_state(const ThreadInterval& interval) override;
 
   // To be called once, after the analysis has finished. Directory and remark are left to the caller.
   RunSummary finish(const TraceAnalysis& analysis, const TraceResults& results);
@@ -45,6 +47,21 @@ class RunRecorder : public ExecutionSink {
     KeptSamples durations;
     KeptSamples intervals;
     std::int64_t last_begin_ns = 0;
+    // With events of the kernel's scheduler: the parts of the duration.
+    KeptSamples running;
+    KeptSamples waiting;
+    KeptSamples blocked;
+  };
+  // A callback that runs.
+  struct Active {
+    ObjectId callback = kNoObject;
+    std::int64_t begin_ns = 0;
+    std::int64_t waiting_ns = 0;
+    std::int64_t blocked_ns = 0;
+  };
+  struct Thread {
+    std::vector<Active> active;  // innermost last
+    bool is_scheduled = false;   // the kernel has told of it
   };
   struct Hop {
     KeptSamples latency;
@@ -56,6 +73,7 @@ class RunRecorder : public ExecutionSink {
   std::vector<Hop> hops_;                                       // by ObjectId of the subscription
   std::map<std::pair<ObjectId, ObjectId>, KeptSamples> calls_;  // by client and service
   Chains chains_;
+  ThreadMap<Thread> threads_;
 };
 
 }  // namespace tracing::compare

@@ -15,6 +15,11 @@ constexpr const char* kind_name(Kind kind) {
   return kKindNames[static_cast<std::size_t>(kind)];
 }
 
+// Parts of a callback's duration, from events of the kernel's scheduler.
+inline constexpr const char* kRunning = "running";
+inline constexpr const char* kWaiting = "waiting for a processor";
+inline constexpr const char* kBlocked = "blocked";
+
 // One quantity of one subject. Kind, subject and quantity together name it in every run: they hold no process numbers
 // and no addresses.
 struct Measurement {
@@ -22,7 +27,7 @@ struct Measurement {
   // "/sensor, timer 10 ms"; "/scan to /filter"; "/sensor (timer 10 ms) -> /filter (/scan)"; "/add, asked by /client".
   // A second one with the same name has " #2" at the end.
   std::string subject;
-  std::string quantity;               // "duration", "interval", "latency", "response", …
+  std::string quantity;               // "duration", "interval", "running", "latency", "response", …
   std::vector<std::string> steps;     // of a chain: the subjects of its callbacks
   std::uint64_t count = 0;            // of all samples
   std::vector<std::int64_t> samples;  // nanoseconds, in the order of time; KeptSamples::kMost at most

@@ -155,8 +155,7 @@ bool ServiceMatcher::is_in_flight(const Call& call, std::int64_t end_ns, std::in
   if (call.worked && !call.answered_ns && call.worked_ns.value_or(end_ns) >= client_end_ns) {
     // Nobody works in a process that has ended.
     const ObjectId node = call.service == kNoObject ? kNoObject : model_.services()[call.service].node;
-    const auto ended =
-        node == kNoObject ? ended_processes_.end() : ended_processes_.find(model_.nodes()[node].process);
+    const auto ended = node == kNoObject ? ended_processes_.end() : ended_processes_.find(model_.nodes()[node].process);
     if (ended == ended_processes_.end() || ended->second >= client_end_ns) {
       return true;
     }

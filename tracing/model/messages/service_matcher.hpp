@@ -76,7 +76,7 @@ class ServiceMatcher {
     std::optional<std::int64_t> taken_ns;
     std::optional<std::int64_t> answered_ns;
     std::optional<std::int64_t> received_ns;
-    bool worked = false;                   // the callback of the service has begun
+    bool worked = false;                    // the callback of the service has begun
     std::optional<std::int64_t> worked_ns;  // and ended
   };
 

@@ -123,7 +123,7 @@ ComparisonOutcome compare_runs(const ComparisonArguments& arguments, const std::
   }
   if (report.comparison.tests == 0) {
     throw std::runtime_error(fmt::format(
-        "{} and {} have too few samples to compare anything: a callback or message must occur 50 times in each run",
+        "{} and {} have too few samples to compare anything: a callback or message must occur 16 times in each run",
         report.before.source, report.after.source));
   }
   const std::vector<std::string> failed = failures(report, arguments.fail_on);

@@ -67,7 +67,14 @@ std::string result_line(const ComparisonReport& report, bool color) {
     slower = slower || change.is_slower();
   }
   if (changed.empty()) {
-    return styled("no change holds", Style::kGood, color);
+    std::set<std::pair<Kind, std::string>> likely;
+    for (const Change& change : comparison.likely) {
+      likely.insert({change.kind, change.subject});
+    }
+    return styled("no change holds", Style::kGood, color) +
+           (likely.empty()
+                ? ""
+                : "; " + plural(likely.size(), "subject has", "subjects have") + " changed with less confidence");
   }
   return styled(plural(changed.size(), "subject has", "subjects have") + " changed",
                 slower ? Style::kBad : Style::kGood, color) +
@@ -103,13 +110,11 @@ std::string head(const ComparisonReport& report, bool color) {
   return text;
 }
 
-// The changes of one kind: each subject with its quantities, the subject with the largest change first.
-std::string section(Kind kind, const std::vector<Change>& all, const ReportOptions& options) {
-  std::map<std::string, std::vector<const Change*>> by_subject;
-  for (const Change& change : all) {
-    if (change.kind == kind) {
-      by_subject[change.subject].push_back(&change);
-    }
+// Subjects with their quantities, the subject with the largest change first.
+std::string section(std::string title, const std::vector<const Change*>& all, const ReportOptions& options) {
+  std::map<std::pair<Kind, std::string>, std::vector<const Change*>> by_subject;
+  for (const Change* change : all) {
+    by_subject[{change->kind, change->subject}].push_back(change);
   }
   if (by_subject.empty()) {
     return "";
@@ -121,18 +126,18 @@ std::string section(Kind kind, const std::vector<Change>& all, const ReportOptio
     }
     return size;
   };
-  std::vector<std::pair<std::string, std::vector<const Change*>>> subjects(by_subject.begin(), by_subject.end());
+  std::vector<std::pair<std::pair<Kind, std::string>, std::vector<const Change*>>> subjects(by_subject.begin(),
+                                                                                            by_subject.end());
   std::stable_sort(subjects.begin(), subjects.end(),
                    [&](const auto& a, const auto& b) { return largest(a.second) > largest(b.second); });
   const std::size_t shown = options.top == 0 ? subjects.size() : std::min(options.top, subjects.size());
-  std::string title = kTitles[static_cast<std::size_t>(kind)];
   if (shown < subjects.size()) {
     title += fmt::format(", {} of {}", shown, subjects.size());
   }
   std::string text = fmt::format("\n{}\n", styled(title, Style::kBold, options.color));
   for (std::size_t i = 0; i < shown; ++i) {
     const auto& [subject, changes] = subjects[i];
-    text += "  " + shortened(subject, options.width - 2) + "\n";
+    text += "  " + shortened(subject.second, options.width - 2) + "\n";
     for (const Change* change : changes) {
       const std::string what =
           fmt::format("{}, {}{}", change->quantity, statistic_name(change->statistic), change->doubtful ? " *" : "");
@@ -141,6 +146,12 @@ std::string section(Kind kind, const std::vector<Change>& all, const ReportOptio
               styled(fmt::format("{:>9}", signed_duration(change->shift.estimate)),
                      change->is_slower() ? Style::kBad : Style::kGood, options.color) +
               fmt::format("  ({} to {})\n", signed_duration(change->shift.low), signed_duration(change->shift.high));
+    }
+    for (const Change* change : changes) {
+      if (!change->cause.empty()) {
+        text += "    " + change->cause + "\n";
+        break;
+      }
     }
     std::set<std::string> steps;
     for (const Change* change : changes) {
@@ -222,8 +233,19 @@ std::string comparison_text(const ComparisonReport& report, const std::vector<st
                             const ReportOptions& options) {
   std::string text = head(report, options.color);
   for (const Kind kind : {Kind::kCallback, Kind::kHop, Kind::kChain, Kind::kCall}) {
-    text += section(kind, report.comparison.changes, options);
+    std::vector<const Change*> of_kind;
+    for (const Change& change : report.comparison.changes) {
+      if (change.kind == kind) {
+        of_kind.push_back(&change);
+      }
+    }
+    text += section(kTitles[static_cast<std::size_t>(kind)], of_kind, options);
   }
+  std::vector<const Change*> likely;
+  for (const Change& change : report.comparison.likely) {
+    likely.push_back(&change);
+  }
+  text += section("Likely, with less confidence", likely, options);
   text += lone_section("Only before", report.comparison.gone, options) +
           lone_section("Only after", report.comparison.added, options);
   if (!failed.empty()) {

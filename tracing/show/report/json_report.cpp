@@ -117,6 +117,7 @@ std::string comparison_json(const ComparisonReport& report, const std::vector<st
   json("tests", comparison.tests);
   json("too_few_samples", comparison.too_few_samples);
   json("changes", comparison.changes);
+  json("likely", comparison.likely);
   json("overall", comparison.overall);
   json("gone", comparison.gone);
   json("new", comparison.added);

@@ -202,8 +202,7 @@ std::string service_table(const TraceResults& results, const ReportOptions& opti
   const Hosts hosts(results.overview);
   ResultTable<CallResult> table("Services", "p99");
   table.count("calls", &CallResult::requests);
-  table.column("unanswered",
-               [](const CallResult& call) { return count_cell(call.unanswered(), Style::kBad); });
+  table.column("unanswered", [](const CallResult& call) { return count_cell(call.unanswered(), Style::kBad); });
   table.times(&CallResult::round_trip);
   for (const CallResult& call : results.ros2.calls) {
     if (is_of_action(call.service)) {
