@@ -192,7 +192,7 @@ Diagnostic explain_rule(const std::string& rule, std::size_t at, const LocatedTe
   if (rule == UNKNOWN_TOKEN) {
     return diagnostic(fmt::format("a text can't start with '{}'", text.substr(at, 1)), "quote the text");
   }
-  if (rule == UNKNOWN_ANCHOR) {
+  if (rule.starts_with(UNKNOWN_ANCHOR)) {  // yaml-cpp 0.8 adds its name
     return diagnostic("the alias refers to no anchor that stands before it", "define it with &NAME");
   }
   return diagnostic(fmt::format("invalid YAML: {}", rule));

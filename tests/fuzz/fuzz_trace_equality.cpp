@@ -44,7 +44,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::filesystem::remove_all(trace);
   testing::write_random_trace(trace, InputNumbers(data, size));
   const std::vector<std::string> expected = testing::trace_text(trace, TraceReader::Decoder::kBabeltrace);
-  const std::vector<std::string> seen = testing::trace_text(trace, TraceReader::Decoder::kDirect);
+  const std::vector<std::string> seen =
+      testing::lines_of_babeltrace(testing::trace_text(trace, TraceReader::Decoder::kDirect));
   if (seen == expected) {
     return 0;
   }

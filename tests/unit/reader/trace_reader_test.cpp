@@ -253,8 +253,7 @@ TEST(TraceReader, NamesTheTraceWhoseMetadataAreDamaged) {
   RecordingSink sink;
   const TraceReadError error = error_of(directory.path(), sink);
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
-  EXPECT_EQ(error.what(), "cannot read the trace '" + directory.path().string() + "': Cannot create trace for `" +
-                              directory.path().string() + "`.");
+  EXPECT_EQ(error.what(), "cannot read the trace '" + directory.path().string() + "': metadata, line 1: not CTF 1.8");
   EXPECT_EQ(error.remedy(),
             "its metadata are damaged or not those of CTF 1.8; a full disk or a killed session daemon cuts them");
   EXPECT_NE(error.details(), "");

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <optional>
 
+#include "tracing/decode/ctf/metadata_text.hpp"
+#include "tracing/decode/ctf/trace_class.hpp"
 #include "tracing/decode/reader/babeltrace.hpp"
 #include "tracing/decode/reader/message_translator.hpp"
 #include "tracing/decode/reader/trace_discovery.hpp"
@@ -34,6 +36,17 @@ std::string remedy_of(const fs::path& trace) {
   return "its metadata are damaged or not those of CTF 1.8; a full disk or a killed session daemon cuts them";
 }
 
+// Why our own decoder does not know the metadata; empty if it does. libbabeltrace2 says it in other words in each
+// version.
+std::string complaint_about_metadata(const fs::path& trace) {
+  try {
+    ctf::parse_metadata(ctf::read_metadata(trace / "metadata"));
+  } catch (const ctf::UnsupportedTrace& unsupported) {
+    return unsupported.what();
+  }
+  return {};
+}
+
 void add_source(babeltrace::MessageGraph& graph, const TraceDirectories& directories) {
   const babeltrace::Value parameters(bt_value_map_create());
   bt_value* inputs = nullptr;
@@ -41,9 +54,16 @@ void add_source(babeltrace::MessageGraph& graph, const TraceDirectories& directo
   for (const fs::path& directory : directories) {
     babeltrace::check(bt_value_array_append_string_element(inputs, directory.c_str()), "bt_value_array_append");
   }
-  graph.add_source(directories.front(), parameters.get(),
-                   fmt::format("cannot read the trace '{}'", directories.front().string()),
-                   remedy_of(directories.front()));
+  const fs::path& trace = directories.front();
+  const std::string what = fmt::format("cannot read the trace '{}'", trace.string());
+  try {
+    graph.add_source(trace, parameters.get(), what, remedy_of(trace));
+  } catch (const TraceReadError& error) {
+    if (const std::string complaint = complaint_about_metadata(trace); !complaint.empty()) {
+      throw TraceReadError(fmt::format("{}: {}", what, complaint), error.remedy(), error.details());
+    }
+    throw;
+  }
 }
 
 }  // namespace
