@@ -86,7 +86,7 @@ project_part(TRACEPOINTS "tracepoints of launcher and stack" NEEDS LTTNG_UST_FOU
 project_part(STACK "${stack}" NEEDS
   FAST_DDS "libfastdds-dev (Debian 12: libfastrtps-dev, from 2.9 on)" fastcdr_FOUND libfastcdr-dev LIBYAML_FOUND libyaml-dev)
 project_part(LAUNCH_TEST "tests in launch files: launch test")
-project_part(PYTHON "Python: launch files, bindings, \$(eval …)" NEEDS
+project_part(PYTHON "Python: launch files, bindings, \$(eval)" NEEDS
   PYTHON_EMBED_FOUND python3-dev PYBIND11_INCLUDE_DIR pybind11-dev)
 project_part(MAN_PAGES "manual pages" NEEDS
   WITH_STACK "the stack" WITH_LAUNCH_TEST "tests in launch files")

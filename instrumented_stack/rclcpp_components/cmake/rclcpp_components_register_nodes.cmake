@@ -64,10 +64,19 @@ function(rclcpp_components_register_node target)
   add_executable(${program} ${source})
   set_target_properties(${program} PROPERTIES OUTPUT_NAME ${ARG_EXECUTABLE})
   _stack_place(${program} lib/${pkg} "$ORIGIN/..")
-  # The program calls no function of the library. It links it for its registrations.
-  target_link_libraries(${program} PRIVATE
-    rclcpp_components::rclcpp_components "$<LINK_LIBRARY:NEEDED_COMPONENT,${target}>")
+  _rclcpp_components_needed(needed ${target})
+  target_link_libraries(${program} PRIVATE rclcpp_components::rclcpp_components ${needed})
   install(TARGETS ${program} RUNTIME DESTINATION lib/${pkg})
+endfunction()
+
+# _rclcpp_components_needed(<result> <target>): what a program links that calls no function of the library, and wants its
+# registrations.
+function(_rclcpp_components_needed result target)
+  if(CMAKE_VERSION VERSION_LESS 3.24)
+    set(${result} -Wl,--push-state,--no-as-needed ${target} -Wl,--pop-state PARENT_SCOPE)
+  else()
+    set(${result} "$<LINK_LIBRARY:NEEDED_COMPONENT,${target}>" PARENT_SCOPE)
+  endif()
 endfunction()
 
 set(CMAKE_LINK_LIBRARY_USING_NEEDED_COMPONENT
