@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <set>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "launch_trace_testing/matchers.hpp"
@@ -43,8 +44,8 @@ Events thread_of(const Trace& trace, const std::string& process) {
   return events;
 }
 
-const Event& publisher_of(const Trace& trace, const std::string& process, const std::string& topic) {
-  return only(trace, of_main_thread(process, "rcl_publisher_init").with("topic_name", topic));
+const Event& publisher_of(const Trace& trace, std::string_view process, std::string_view topic) {
+  return only(trace, of_main_thread(std::string(process), "rcl_publisher_init").with("topic_name", std::string(topic)));
 }
 
 struct Subscription {

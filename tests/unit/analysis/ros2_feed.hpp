@@ -5,6 +5,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -66,13 +67,13 @@ class Feed {
   std::unique_ptr<Ros2Analysis> analysis_ = std::make_unique<Ros2Analysis>();
 };
 
-inline const TopicResult& topic(const Ros2Results& results, const std::string& name) {
+inline const TopicResult& topic(const Ros2Results& results, std::string_view name) {
   for (const TopicResult& result : results.topics) {
     if (result.name == name) {
       return result;
     }
   }
-  throw std::runtime_error("no topic " + name);
+  throw std::runtime_error("no topic " + std::string(name));
 }
 
 }  // namespace tracing::testing

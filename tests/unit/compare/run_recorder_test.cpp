@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "tests/support/trace_writer/example_system.hpp"
 #include "tests/support/trace_writer/temporary_directory.hpp"
@@ -25,12 +26,12 @@ RunSummary recorded(std::uint64_t cycles) {
   return recorder.finish(analysis, results);
 }
 
-const Measurement& find(const RunSummary& run, const std::string& subject, const std::string& quantity) {
+const Measurement& find(const RunSummary& run, std::string_view subject, std::string_view quantity) {
   const auto found = std::find_if(run.measurements.begin(), run.measurements.end(), [&](const Measurement& one) {
     return one.subject == subject && one.quantity == quantity;
   });
   if (found == run.measurements.end()) {
-    throw std::runtime_error("no " + quantity + " of " + subject);
+    throw std::runtime_error("no " + std::string(quantity) + " of " + std::string(subject));
   }
   return *found;
 }
