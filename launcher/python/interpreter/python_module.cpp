@@ -38,7 +38,8 @@ python::Runtime* load_module() {
   void* const module = ::dlopen(path.c_str(), RTLD_NOW | RTLD_GLOBAL);
   void* const symbol = module == nullptr ? nullptr : ::dlsym(module, python::kGetRuntimeSymbol);
   if (symbol == nullptr) {
-    throw std::runtime_error(fmt::format("can't load Python: {}; install libpython3.11", ::dlerror()));
+    throw std::runtime_error(
+        fmt::format("can't load Python: {}; install libpython" LAUNCH_PYTHON_VERSION, ::dlerror()));
   }
   return reinterpret_cast<python::GetRuntime>(symbol)();
 }

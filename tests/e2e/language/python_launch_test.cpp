@@ -225,6 +225,12 @@ TEST_F(PythonLaunch, ABuildWithoutPythonSaysWhatToInstall) {
                             "' does not exist; install python3-dev and pybind11-dev and build again\n"
                             "    1 | import launch\n"
                             "      | ^\n");
+
+  // Where the library of the interpreter is missing, its version is the one of the build.
+  fs::create_directories(sandbox_.directory() / "lib" / "launch");
+  write("lib/launch/liblaunch_python.so", "damaged");
+  EXPECT_THAT(run_command({program.string(), "--dry-run", path}).err,
+              AllOf(HasSubstr(": error: can't load Python: "), HasSubstr("; install libpython" PYTHON_VERSION "\n")));
 }
 
 TEST_F(PythonLaunch, AnInstalledRos2IsNotInTheWay) {
