@@ -109,6 +109,14 @@ def page(text, records):
     return f'{text[:before]}\n{table(records)}\n{text[after:]}'
 
 
+def commit_of_sources():
+    try:
+        described = subprocess.run(['git', 'describe', '--always', '--dirty', '--abbrev=40', '--exclude=*'], capture_output=True, text=True)
+    except FileNotFoundError:  # a machine without git
+        return 'unknown'
+    return described.stdout.strip() or 'unknown'
+
+
 def main(arguments):
     parser = argparse.ArgumentParser(prog='./dev bench', description=__doc__.strip().splitlines()[0])
     parser.add_argument('what', choices=('record', 'compare', 'page'))
@@ -125,8 +133,7 @@ def main(arguments):
     except BenchmarkError as error:
         print(f'dev bench: error: {error}', file=sys.stderr)
         return 1
-    commit = subprocess.run(['git', 'describe', '--always', '--dirty', '--abbrev=40', '--exclude=*'], capture_output=True, text=True).stdout.strip()
-    record = record_of(figures, commit or 'unknown', datetime.date.today().isoformat())
+    record = record_of(figures, commit_of_sources(), datetime.date.today().isoformat())
     if options.what == 'record':
         with options.figures.open('a') as file:
             file.write(json.dumps(record) + '\n')
