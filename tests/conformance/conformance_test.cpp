@@ -88,6 +88,10 @@ TEST_P(Conformance, PlansAgreeWithTheReferenceButForDeliberateDifferences) {
         << difference.first << " (" << row["variant"] << ") " << difference.second << ": " << row["text"];
   }
   for (const Difference& difference : deliberate) {
+    // The nodes of these files are of the stack, which a build may lack.
+    if (!HAS_STACK && difference.first.find("/tracetools_launch/") != std::string::npos) {
+      continue;
+    }
     EXPECT_TRUE(found.contains(difference))
         << difference.first << " agrees in " << difference.second << ": remove it from the deliberate differences";
   }

@@ -98,6 +98,8 @@ class Arrows(unittest.TestCase):
         links, linked = link_errors((BUILD / 'link_graph.tsv').read_text().splitlines(), arrows)
         self.assertGreater(len(linked), 100, 'the links are found')
         self.assertEqual(errors + links, [])
+        if os.environ.get('HAS_ALL_PARTS') == '0':
+            self.skipTest('a build without all parts does not have all links')
         unused = [f'{room}: nothing in it uses {target}' for room, targets in arrows.items() for target in targets
                   if (room, target) not in used | linked]
         self.assertEqual(unused, [])
