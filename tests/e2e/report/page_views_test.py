@@ -194,7 +194,7 @@ class FurtherResults(page_case.PageTest):
 
     def test_services_and_actions_have_their_times(self):
         self.draw('services', f"""{{
-          calls: [{{service: "/add", client: "/sensor", server: "", requests: 5, responses: 4, round_trip: {self.TIMES}, request: null, in_service: {self.TIMES}, response: null}}],
+          calls: [{{service: "/add", client: "/sensor", server: "", requests: 5, responses: 3, in_flight: 1, round_trip: {self.TIMES}, request: null, in_service: {self.TIMES}, response: null}}],
           actions: [{{name: "/fibonacci", client: "/filter", server: "/display", goals: 2, answers: 2, results: 1, cancels: 1, feedback: 9, acceptance: {self.TIMES}, execution: {self.TIMES}}}]}}""")
         self.assertEqual([row.split('\t') for row in self.texts('tbody tr')], [
             ['/add', '/sensor', '?', '5', '1', '1.00 ms', '2.00 ms', '3.00 ms', '–', '1.00 ms', '–'],

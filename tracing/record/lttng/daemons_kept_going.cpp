@@ -4,11 +4,9 @@
 #include <fmt/core.h>
 #include <signal.h>
 
-#include <atomic>
 #include <chrono>
 #include <utility>
 
-#include "base/processes/process_stat.hpp"
 #include "tracing/record/lttng/consumer_priority.hpp"
 #include "tracing/record/lttng/session_daemon.hpp"
 
@@ -17,19 +15,10 @@ namespace {
 
 // Nobody tells of a process that is stopped, but to its parent.
 constexpr std::chrono::milliseconds kKeepInterval{100};
-constexpr std::chrono::milliseconds kGoesInterval{1};
-constexpr std::chrono::seconds kLongestStop{1};
-
-std::atomic<int> keepers = 0;
-
-bool is_stopped(pid_t pid) {
-  return launch::read_process_stat(pid).state == 'T';
-}
 
 }  // namespace
 
 DaemonsKeptGoing::DaemonsKeptGoing() {
-  ++keepers;
   look();
   thread_ = std::thread([this] {
     std::unique_lock lock(mutex_);
@@ -42,7 +31,6 @@ DaemonsKeptGoing::DaemonsKeptGoing() {
 }
 
 DaemonsKeptGoing::~DaemonsKeptGoing() {
-  --keepers;
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
@@ -90,17 +78,6 @@ void DaemonsKeptGoing::continue_process(pid_t pid, const char* what) {
     continued_.try_emplace(
         pid, fmt::format("{} (process {}) was stopped; it was continued, so that the session could end", what, pid));
   }
-}
-
-bool is_kept_going(pid_t pid) {
-  const auto latest = std::chrono::steady_clock::now() + kLongestStop;
-  while (is_stopped(pid)) {
-    if (keepers == 0 || std::chrono::steady_clock::now() > latest) {
-      return false;
-    }
-    std::this_thread::sleep_for(kGoesInterval);
-  }
-  return true;
 }
 
 }  // namespace tracing

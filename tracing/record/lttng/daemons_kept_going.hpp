@@ -13,6 +13,8 @@
 #include <thread>
 #include <vector>
 
+#include "tracing/record/lttng/kept_going.hpp"
+
 namespace tracing {
 
 // Continues the session daemon and its consumers, as far as this user may, if they are stopped now or later in the life
@@ -34,6 +36,7 @@ class DaemonsKeptGoing {
   void look();
   void continue_process(pid_t pid, const char* what);
 
+  const KeepsGoing keeps_going_;
   std::function<std::vector<pid_t>()> relay_daemons_;
   std::map<pid_t, std::string> continued_;
   mutable std::mutex mutex_;
@@ -41,9 +44,5 @@ class DaemonsKeptGoing {
   bool stop_ = false;
   std::thread thread_;
 };
-
-// Returns once the process is not stopped any more, if somebody in this program keeps daemons going, or after a second.
-// False if it is stopped.
-bool is_kept_going(pid_t pid);
 
 }  // namespace tracing

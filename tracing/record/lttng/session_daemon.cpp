@@ -26,7 +26,7 @@
 #include "base/processes/process_stat.hpp"
 #include "base/processes/spawn.hpp"
 #include "tracing/record/lttng/consumer_priority.hpp"
-#include "tracing/record/lttng/daemons_kept_going.hpp"
+#include "tracing/record/lttng/kept_going.hpp"
 #include "tracing/record/lttng/lttng_ctl.hpp"
 #include "tracing/record/plan/trace_error.hpp"
 

@@ -100,17 +100,28 @@ bool HeldUpStreams::is_ours(const OpenPacket& packet) const {
   return !has_metadata && !others_without && !is_older;
 }
 
-std::vector<HeldUpStream> find_held_up_streams(const std::string& lttng_session_name) {
-  HeldUpStreams streams(lttng_session_name, consumers_of(session_daemon_pid()));
-  std::vector<HeldUpStream> found = streams.look().held_up;
+SessionDetails with_held_up_streams(SessionDetails session) {
+  const std::string& name = session.summary.name;
+  if (has_buffers_of_processes(name)) {
+    return session;
+  }
+  HeldUpStreams streams(name, consumers_of(session_daemon_pid()));
+  const auto look = [&] {
+    const std::vector<HeldUpStream> held_up = streams.look().held_up;
+    const std::uint64_t time = now();
+    for (const HeldUpStream& stream : held_up) {
+      double& seconds = session.held_up[stream.processor];
+      seconds = std::max(seconds, time > stream.since ? static_cast<double>(time - stream.since) / 1e9 : 0);
+    }
+  };
+  look();
   const std::uint64_t latest = now() + 2 * nanoseconds(HeldUpStreams::kLongestEvent);
   // LTTng tells nobody of an event that was completed.
   while (!streams.is_sure() && now() < latest) {
     std::this_thread::sleep_for(kLookInterval);
-    const std::vector<HeldUpStream> more = streams.look().held_up;
-    found.insert(found.end(), more.begin(), more.end());
+    look();
   }
-  return found;
+  return session;
 }
 
 }  // namespace tracing

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tracing/record/lttng/ring_buffers.hpp"
+#include "tracing/record/session/session_details.hpp"
 
 namespace tracing {
 
@@ -57,8 +58,8 @@ class HeldUpStreams {
   std::map<OpenPacket, Suspicion> suspicions_;
 };
 
-// The streams of the session that are held up now. Takes no time if none may be, else kLongestEvent. None where each
-// process has buffers of its own.
-std::vector<HeldUpStream> find_held_up_streams(const std::string& lttng_session_name);
+// The session with SessionDetails::held_up filled with what is held up now. Takes no time if nothing may be, else
+// kLongestEvent. Nothing is where each process has buffers of its own.
+SessionDetails with_held_up_streams(SessionDetails session);
 
 }  // namespace tracing

@@ -34,6 +34,7 @@
 #include "tracing/record/plan/trace_config.hpp"
 #include "tracing/record/plan/trace_error.hpp"
 #include "tracing/record/session/event_watch.hpp"
+#include "tracing/record/session/held_up_streams.hpp"
 #include "tracing/record/session/run_watch.hpp"
 #include "tracing/record/session/session_details.hpp"
 #include "tracing/record/session/session_end.hpp"
@@ -193,7 +194,7 @@ class LttngTracer : public Tracer {
   void resume(const std::string& lttng_session_name) override;
   std::string record_snapshot(const std::string& lttng_session_name) override;
   std::vector<SessionSummary> sessions() override { return list_sessions(); }
-  SessionDetails status(const std::string& lttng_session_name) override { return describe_session(lttng_session_name); }
+  SessionDetails status(const std::string& name) override { return with_held_up_streams(describe_session(name)); }
   TraceableEvents traceable_events() override { return list_traceable_events(); }
   std::vector<std::string> unreachable_processes() override { return unreachable_process_warnings(); }
   void save(const std::string& lttng_session_name, const std::string& directory) override {

@@ -11,7 +11,6 @@
 #include <set>
 #include <string_view>
 
-#include "base/monotonic_clock.hpp"
 #include "tracing/record/account/loss_counters.hpp"
 #include "tracing/record/account/stream_packets.hpp"
 #include "tracing/record/checks/kernel_checks.hpp"
@@ -22,7 +21,6 @@
 #include "tracing/record/plan/channel_plan.hpp"
 #include "tracing/record/plan/context_fields.hpp"
 #include "tracing/record/plan/trace_error.hpp"
-#include "tracing/record/session/held_up_streams.hpp"
 
 namespace tracing {
 namespace {
@@ -142,15 +140,14 @@ SessionDetails describe_session(const std::string& name) {
       details.channels.push_back(std::move(channel));
     }
   }
-  if (std::none_of(domains.begin(), domains.end(),
-                   [](const lttng_domain& domain) { return domain.buf_type == LTTNG_BUFFER_PER_PID; })) {
-    const auto now = static_cast<std::uint64_t>(launch::monotonic_time());
-    for (const HeldUpStream& stream : find_held_up_streams(name)) {
-      double& seconds = details.held_up[stream.processor];
-      seconds = std::max(seconds, now > stream.since ? to_seconds(now - stream.since) : 0);
-    }
-  }
   return details;
+}
+
+bool has_buffers_of_processes(const std::string& name) {
+  const LttngList<lttng_domain> domains(fmt::format("list the domains of session '{}'", name), lttng_list_domains,
+                                        name.c_str());
+  return std::any_of(domains.begin(), domains.end(),
+                     [](const lttng_domain& domain) { return domain.buf_type == LTTNG_BUFFER_PER_PID; });
 }
 
 TraceableEvents list_traceable_events() {

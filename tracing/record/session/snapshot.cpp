@@ -22,7 +22,6 @@
 #include "tracing/record/lttng/answer_limit.hpp"
 #include "tracing/record/lttng/lttng_ctl.hpp"
 #include "tracing/record/lttng/lttng_error.hpp"
-#include "tracing/record/lttng/lttng_list.hpp"
 #include "tracing/record/lttng/session_daemon.hpp"
 #include "tracing/record/session/session_listing.hpp"
 
@@ -61,13 +60,6 @@ std::uint64_t record(const std::string& name, bool clear) {
     take_kernel_snapshot(*directory, snapshots.back(), clear);
   }
   return asked;
-}
-
-bool has_buffers_of_processes(const std::string& name) {
-  const LttngList<lttng_domain> domains(fmt::format("list the domains of session '{}'", name), lttng_list_domains,
-                                        name.c_str());
-  return std::any_of(domains.begin(), domains.end(),
-                     [](const lttng_domain& domain) { return domain.buf_type == LTTNG_BUFFER_PER_PID; });
 }
 
 }  // namespace
