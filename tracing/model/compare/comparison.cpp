@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "tracing/model/compare/blocks.hpp"
+#include "tracing/model/compare/change_cause.hpp"
 #include "tracing/model/compare/peers.hpp"
 
 namespace tracing::compare {
@@ -203,48 +204,6 @@ void test_all(std::vector<Tested>& tests, const CompareOptions& options) {
   }
 }
 
-double mean_of(const Found& side) {
-  double sum = 0;
-  double count = 0;
-  for (const Measurement* one : side) {
-    sum = std::accumulate(one->samples.begin(), one->samples.end(), sum);
-    count += static_cast<double>(one->samples.size());
-  }
-  return sum / std::max(count, 1.0);
-}
-
-// What the mean of a callback's duration has changed by: its time on a processor, its waits for one, or its sleep.
-std::string cause_of(const Key& key, bool slower, const AllFound& before, const AllFound& after) {
-  const auto& [kind, subject, quantity] = key;
-  if (kind != Kind::kCallback || quantity != "duration") {
-    return "";
-  }
-  const auto change = [&, &name = subject](const char* part) -> std::optional<double> {
-    const auto earlier = before.find({Kind::kCallback, name, part});
-    const auto later = after.find({Kind::kCallback, name, part});
-    if (earlier == before.end() || later == after.end()) {
-      return std::nullopt;
-    }
-    return (mean_of(later->second) - mean_of(earlier->second)) * (slower ? 1 : -1);
-  };
-  const std::optional<double> running = change(kRunning);
-  const std::optional<double> waiting = change(kWaiting);
-  const std::optional<double> blocked = change(kBlocked);
-  const double all = running.value_or(0) + waiting.value_or(0) + blocked.value_or(0);
-  if (!running || !waiting || !blocked || all <= 0) {
-    return "";
-  }
-  const char* const direction = slower ? "more" : "less";
-  if (*running >= all / 2) {
-    return fmt::format("{} running time", direction);
-  }
-  const char* const same = *running <= all / 10 ? ", same running time" : "";
-  if (*waiting >= all / 2) {
-    return fmt::format("{} waiting for a processor{}", direction, same);
-  }
-  return *blocked >= all / 2 ? fmt::format("{} sleeping or waiting for something else{}", direction, same) : "";
-}
-
 Change change_of(const Tested& tested, double probability, const CompareOptions& options) {
   Change change;
   std::tie(change.kind, change.subject, change.quantity) = tested.key;
@@ -400,7 +359,9 @@ Comparison compare(const Runs& before, const Runs& after, const CompareOptions& 
   likely = corrected_for_many(likely);
   const auto change = [&](std::size_t test, double probability) {
     Change one = change_of(tests[test], probability, options);
-    one.cause = cause_of(tests[test].key, one.is_slower(), earlier, later);
+    if (one.kind == Kind::kCallback && one.quantity == "duration") {
+      one.cause = cause_of(one.subject, one.is_slower(), before, after);
+    }
     return one;
   };
   std::set<std::pair<Kind, std::string>> changed;
