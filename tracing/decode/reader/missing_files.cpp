@@ -147,7 +147,11 @@ std::optional<std::uint64_t> recorded_bytes(const fs::path& trace) {
   using nlohmann::json;
   std::ifstream stream(trace / "verdict.json");
   const json verdict = json::parse(stream, nullptr, false);
-  if (!verdict.is_object() || verdict.contains("reasons") || verdict.value("damage", json("")) != "") {
+  if (!verdict.is_object() || verdict.contains("reasons")) {
+    return std::nullopt;
+  }
+  const json damage = verdict.value("damage", json(std::string()));
+  if (!damage.is_string() || !damage.get_ref<const std::string&>().empty()) {
     return std::nullopt;
   }
   const json channels = verdict.value("channels", json());

@@ -6,9 +6,9 @@
 
 #include <sys/types.h>
 
-#include <compare>
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace tracing {
@@ -21,7 +21,11 @@ struct OpenPacket {
   std::uint32_t processor = 0;  // of the stream
   std::uint64_t begin = 0;      // of the packet, trace clock
 
-  auto operator<=>(const OpenPacket&) const = default;
+  bool operator==(const OpenPacket&) const = default;
+  bool operator<(const OpenPacket& other) const {
+    return std::tie(buffer, position, trace, processor, begin) <
+           std::tie(other.buffer, other.position, other.trace, other.processor, other.begin);
+  }
 };
 
 // The open packets of all sessions of these consumers. A busy thread leaves its event within a microsecond, so a packet
