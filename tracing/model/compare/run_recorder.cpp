@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <tuple>
 
 #include "tracing/model/compare/subject_names.hpp"
@@ -64,7 +63,7 @@ void RunRecorder::Chains::on_response(PathId path, std::int64_t response_ns) {
 
 void RunRecorder::on_callback_begin(const CallbackInstance& instance) {
   chains_.on_callback_begin(instance);
-  threads_[instance.thread].active.push_back({instance.callback, instance.begin_ns});
+  active_.begin(instance);
   Callback& callback = at(callbacks_, instance.callback);
   if (callback.last_begin_ns != 0) {
     callback.intervals.add(instance.begin_ns - callback.last_begin_ns);
@@ -75,35 +74,18 @@ void RunRecorder::on_callback_begin(const CallbackInstance& instance) {
 void RunRecorder::on_callback(const CallbackInstance& instance) {
   chains_.on_callback(instance);
   Callback& callback = at(callbacks_, instance.callback);
-  const std::int64_t duration_ns = instance.end_ns - instance.begin_ns;
   if (instance.finished) {
-    callback.durations.add(duration_ns);
+    callback.durations.add(instance.end_ns - instance.begin_ns);
   }
-  Thread& thread = threads_[instance.thread];
-  const auto active = std::find_if(thread.active.rbegin(), thread.active.rend(),
-                                   [&](const Active& one) { return one.callback == instance.callback; });
-  if (active == thread.active.rend()) {
-    return;
+  if (const auto parts = active_.end(instance)) {
+    callback.running.add(parts->running_ns);
+    callback.waiting.add(parts->runnable_ns);
+    callback.blocked.add(parts->blocked_ns);
   }
-  if (instance.finished && thread.is_scheduled) {
-    callback.running.add(duration_ns - active->waiting_ns - active->blocked_ns);
-    callback.waiting.add(active->waiting_ns);
-    callback.blocked.add(active->blocked_ns);
-  }
-  thread.active.erase(std::next(active).base());
 }
 
-// The thread runs whenever a callback begins or ends, so that other intervals lie within callbacks as a whole.
 void RunRecorder::on_thread_state(const ThreadInterval& interval) {
-  Thread& thread = threads_[interval.thread];
-  thread.is_scheduled = true;
-  if (interval.state == ThreadInterval::State::kRunning) {
-    return;
-  }
-  for (Active& active : thread.active) {
-    const std::int64_t took = interval.end_ns - std::max(interval.begin_ns, active.begin_ns);
-    (interval.state == ThreadInterval::State::kBlocked ? active.blocked_ns : active.waiting_ns) += took;
-  }
+  active_.add(interval, [](ObjectId, std::int64_t) {});
 }
 
 void RunRecorder::on_message(const MessageFlow& message) {

@@ -20,7 +20,7 @@
 #include "tracing/model/analysis/trace_analysis.hpp"
 #include "tracing/model/compare/kept_samples.hpp"
 #include "tracing/model/compare/run_summary.hpp"
-#include "tracing/model/execution/thread_map.hpp"
+#include "tracing/model/execution/active_callbacks.hpp"
 #include "tracing/model/messages/chain_tracker.hpp"
 
 namespace tracing::compare {
@@ -52,17 +52,6 @@ class RunRecorder : public ExecutionSink {
     KeptSamples waiting;
     KeptSamples blocked;
   };
-  // A callback that runs.
-  struct Active {
-    ObjectId callback = kNoObject;
-    std::int64_t begin_ns = 0;
-    std::int64_t waiting_ns = 0;
-    std::int64_t blocked_ns = 0;
-  };
-  struct Thread {
-    std::vector<Active> active;  // innermost last
-    bool is_scheduled = false;   // the kernel has told of it
-  };
   struct Hop {
     KeptSamples latency;
     KeptSamples transport;
@@ -73,7 +62,7 @@ class RunRecorder : public ExecutionSink {
   std::vector<Hop> hops_;                                       // by ObjectId of the subscription
   std::map<std::pair<ObjectId, ObjectId>, KeptSamples> calls_;  // by client and service
   Chains chains_;
-  ThreadMap<Thread> threads_;
+  ActiveCallbacks active_;
 };
 
 }  // namespace tracing::compare

@@ -20,7 +20,7 @@ std::int64_t CallbackTiming::period_of(ObjectId id) const {
 }
 
 void CallbackTiming::on_callback_begin(const CallbackInstance& instance) {
-  threads_[instance.thread].active.push_back({instance.callback, instance.begin_ns, 0, 0});
+  active_.begin(instance);
   CallbackTimingRecord& timing = record(instance.callback);
   if (timing.begins++ == 0) {
     timing.first_begin_ns = timing.last_begin_ns = instance.begin_ns;
@@ -45,53 +45,34 @@ void CallbackTiming::on_callback(const CallbackInstance& instance) {
       period > 0 && instance.finished && instance.end_ns - instance.begin_ns > period) {
     ++record(instance.callback).overruns;
   }
-  Thread& thread = threads_[instance.thread];
-  const auto innermost = std::find_if(thread.active.rbegin(), thread.active.rend(),
-                                      [&](const Active& active) { return active.callback == instance.callback; });
-  if (innermost == thread.active.rend()) {
-    return;
-  }
-  if (thread.is_scheduled && instance.finished) {
+  if (const auto parts = active_.end(instance)) {
     CallbackTimingRecord& timing = record(instance.callback);
-    timing.running.add(instance.end_ns - instance.begin_ns - innermost->runnable_ns - innermost->blocked_ns);
-    timing.runnable.add(innermost->runnable_ns);
-    timing.blocked.add(innermost->blocked_ns);
+    timing.running.add(parts->running_ns);
+    timing.runnable.add(parts->runnable_ns);
+    timing.blocked.add(parts->blocked_ns);
   }
-  thread.active.erase(std::next(innermost).base());
 }
 
 void CallbackTiming::on_allocation(const Allocation& allocation) {
   has_allocations_ = true;
-  const Thread* const thread = threads_.find(allocation.thread);
-  if (thread == nullptr || thread->active.empty()) {
+  const ObjectId callback = active_.innermost(allocation.thread);
+  if (callback == kNoObject) {
     return;
   }
-  CallbackTimingRecord& timing = record(thread->active.back().callback);
+  CallbackTimingRecord& timing = record(callback);
   ++timing.allocations;
   timing.allocated_bytes += allocation.bytes;
 }
 
-// The thread runs whenever a callback begins or ends, so that other intervals lie within callbacks as a whole.
 void CallbackTiming::on_thread_state(const ThreadInterval& interval) {
-  Thread& thread = threads_[interval.thread];
-  thread.is_scheduled = true;
-  if (interval.state == ThreadInterval::State::kRunning) {
-    return;
-  }
-  for (Active& active : thread.active) {
-    const std::int64_t took = interval.end_ns - std::max(interval.begin_ns, active.begin_ns);
-    if (interval.state == ThreadInterval::State::kBlocked) {
-      active.blocked_ns += took;
-      continue;
-    }
-    active.runnable_ns += took;
-    CallbackTimingRecord& timing = record(active.callback);
+  active_.add(interval, [&](ObjectId callback, std::int64_t took) {
+    CallbackTimingRecord& timing = record(callback);
     if (took > timing.longest_runnable_ns) {
       timing.longest_runnable_ns = took;
       timing.ran_instead = interval.other_name;
       timing.ran_instead_ns = std::min(interval.other_ns, took);
     }
-  }
+  });
 }
 
 }  // namespace tracing

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "tracing/model/execution/active_callbacks.hpp"
 #include "tracing/model/execution/duration_statistics.hpp"
 #include "tracing/model/execution/execution_sink.hpp"
-#include "tracing/model/execution/thread_map.hpp"
 
 namespace tracing {
 
@@ -47,24 +47,13 @@ class CallbackTiming : public ExecutionSink {
   bool has_allocations() const { return has_allocations_; }
 
  private:
-  struct Active {
-    ObjectId callback = kNoObject;
-    std::int64_t begin_ns = 0;
-    std::int64_t runnable_ns = 0;
-    std::int64_t blocked_ns = 0;
-  };
-  struct Thread {
-    std::vector<Active> active;  // innermost last
-    bool is_scheduled = false;   // the kernel has told of it
-  };
-
   CallbackTimingRecord& record(ObjectId callback);
   // Of a timer; 0 for any other callback.
   std::int64_t period_of(ObjectId callback) const;
 
   const ObjectModel& model_;
   std::vector<CallbackTimingRecord> records_;
-  ThreadMap<Thread> threads_;
+  ActiveCallbacks active_;
   bool has_allocations_ = false;
 };
 

@@ -99,10 +99,21 @@ std::vector<std::string> main_events(const TraceConfig& config) {
   return left;
 }
 
-ChannelPlan userspace_plan(const TraceConfig& config) {
+// Without events.
+ChannelPlan channel_of_programs(const TraceConfig& config, const char* name) {
   ChannelPlan plan{config.ust};
   plan.buffers = config.buffers_ust;
-  plan.channel = kUserspaceChannel;
+  plan.channel = name;
+  plan.context_fields = config.context_fields_ust;
+  plan.switch_timer = config.switch_timer();
+  plan.overwrite = config.overwrite_ust.value_or(config.records_snapshots());
+  plan.tracefile_size = config.tracefile_size;
+  plan.tracefile_count = config.tracefile_count;
+  return plan;
+}
+
+ChannelPlan userspace_plan(const TraceConfig& config) {
+  ChannelPlan plan = channel_of_programs(config, kUserspaceChannel);
   plan.events = rules(main_events(config));
   if (!plan.events.empty()) {
     for (EventRule& rule : rules(config.further_events_ust)) {
@@ -117,11 +128,6 @@ ChannelPlan userspace_plan(const TraceConfig& config) {
   if (config.dual_runtime && !plan.events.empty()) {
     plan.events.push_back({.pattern = kNoStateDump});
   }
-  plan.context_fields = config.context_fields_ust;
-  plan.switch_timer = config.switch_timer();
-  plan.overwrite = config.overwrite_ust.value_or(config.records_snapshots());
-  plan.tracefile_size = config.tracefile_size;
-  plan.tracefile_count = config.tracefile_count;
   return plan;
 }
 
@@ -158,16 +164,9 @@ std::vector<EventRule> python_rules(const std::vector<std::string>& texts) {
 }
 
 ChannelPlan python_plan(const TraceConfig& config) {
-  ChannelPlan plan{config.ust};
+  ChannelPlan plan = channel_of_programs(config, kPythonChannel);
   plan.python = true;
-  plan.buffers = config.buffers_ust;
-  plan.channel = kPythonChannel;
   plan.events = python_rules(config.events_python);
-  plan.context_fields = config.context_fields_ust;
-  plan.switch_timer = config.switch_timer();
-  plan.overwrite = config.overwrite_ust.value_or(config.records_snapshots());
-  plan.tracefile_size = config.tracefile_size;
-  plan.tracefile_count = config.tracefile_count;
   return plan;
 }
 

@@ -165,8 +165,7 @@ std::string RunWatch::streams_are_held_up(const std::vector<HeldUpStream>& strea
       seen > since ? fmt::format("since {:.1f} s before", static_cast<double>(seen - since) / 1e9) : "from now on";
   return fmt::format(
       "{} died within an event: what {} records is lost {}, also of other processes; start the launch anew to record "
-      "it "
-      "again; with buffers-ust=\"pid\" such a death costs only events of its own process",
+      "it again; with buffers-ust=\"pid\" such a death costs only events of its own process",
       who, processors_of(streams), from);
 }
 
