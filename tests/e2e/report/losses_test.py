@@ -3,6 +3,7 @@
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -33,6 +34,7 @@ class Losses(unittest.TestCase):
         run = subprocess.run([os.environ['LAUNCH_PROGRAM'], '--isolate', file], env=self.environment, text=True,
                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=PATIENCE)
         self.assertEqual(run.returncode, 0, run.stdout)
+        self.started = {int(pid) for pid in re.findall(r'process started with pid \[(\d+)\]', run.stdout)}
         return next((self.directory / 'traces').glob(f'{name}-*'))
 
     def report(self, trace, *words, code=0):
@@ -41,17 +43,20 @@ class Losses(unittest.TestCase):
         self.assertEqual(done.returncode, code, done.stderr)
         return done
 
+    def subscriptions(self, trace):
+        """Those of the recorded launch. Programs of other tests are in the trace, too."""
+        report = json.loads(self.report(trace, '--json').stdout)
+        return [one for one in report['subscriptions'] if report['processes'][one['process']]['vpid'] in self.started]
+
     def test_a_message_that_is_overwritten_within_the_process(self):
         trace = self.record_worker('within')
-        subscriptions = json.loads(self.report(trace, '--json').stdout)['subscriptions']
-        of_topic = [one for one in subscriptions if one['topic'] == '/topic']
+        of_topic = [one for one in self.subscriptions(trace) if one['topic'] == '/topic']
         self.assertEqual(sum(one['overwritten_in_buffer'] for one in of_topic), 1)
         self.assertEqual(sum(one['not_executed'] for one in of_topic), 0)
 
     def test_the_feedback_of_an_action_arrives(self):
         trace = self.record(EXAMPLES / '10_action.launch.xml', 'action')
-        subscriptions = json.loads(self.report(trace, '--json').stdout)['subscriptions']
-        feedback = [one for one in subscriptions if one['topic'].endswith('/_action/feedback')]
+        feedback = [one for one in self.subscriptions(trace) if one['topic'].endswith('/_action/feedback')]
         self.assertTrue(feedback)
         for subscription in feedback:
             self.assertGreater(subscription['delivered'], 0)
