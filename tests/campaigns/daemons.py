@@ -39,8 +39,8 @@ def run(place, random, name, act):
     process = place.start_launch(place.trace_tag(**where),
                                  place.app_tag(0, threads=2, burst=20, pause=2000, bytes=20),
                                  place.app_tag(1, threads=1, burst=20, pause=2000, bytes=20))
-    moment = begin + random.uniform(0, 3)
     asked = begin + random.uniform(1, 2.5)  # Ctrl-C
+    moment = random.uniform(begin, asked + 0.05)  # an end in which nothing happens takes about as long
     acted = None
     while process.poll() is None and (acted is None or asked is not None):
         now = time.monotonic()

@@ -22,6 +22,7 @@
 #include "tests/unit/session/trace_reading.hpp"
 #include "tracing/record/account/loss_account.hpp"
 #include "tracing/record/account/loss_text.hpp"
+#include "tracing/record/lttng/answer_limit.hpp"
 #include "tracing/record/plan/trace_config.hpp"
 #include "tracing/record/plan/trace_error.hpp"
 #include "tracing/record/session/tracer.hpp"
@@ -170,6 +171,27 @@ TEST_F(NetworkSession, AStoppedRelayDaemonIsAnErrorAndIsContinuedAtTheEnd) {
                                 "the relay daemon \\(process [0-9]+\\) was stopped; it was continued, so that the "
                                 "session could end")));
   EXPECT_EQ(read_trace(relayed()).events.at("ros2:rclcpp_callback_register"), 25);
+}
+
+// The session daemon connects to it for a new session, and waits.
+TEST_F(NetworkSession, ARelayDaemonThatIsStoppedBeforeTheStartIsNamed) {
+  if (geteuid() != 0) {
+    GTEST_SKIP() << "skipped, because without root the daemons of the machine can't be told apart";
+  }
+  start_relay_daemon();
+  ASSERT_EQ(run_command({"lttng-sessiond", "--daemonize"}).exit_code, 0);
+  signal_relay_daemon(SIGSTOP);
+  tracing::set_longest_silence(std::chrono::milliseconds(1000));
+  try {
+    tracer->start(config());
+    ADD_FAILURE() << "no error";
+  } catch (const TraceError& error) {
+    EXPECT_THAT(error.what(), testing::EndsWith(": LTTng does not answer, it was waited for 10 s"));
+    EXPECT_THAT(error.remedy(),
+                testing::MatchesRegex("the relay daemon is stopped: continue it with `kill -CONT [0-9]+`"));
+  }
+  tracing::set_longest_silence(tracing::kLongestSilence);
+  EXPECT_EQ(trace_test::listed_sessions(), "");
 }
 
 TEST_F(NetworkSession, SnapshotsAreRelayed) {

@@ -6,11 +6,13 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <vector>
 
 #include "base/processes/process_stat.hpp"
 #include "tracing/record/lttng/answer_limit.hpp"
 #include "tracing/record/lttng/consumer_priority.hpp"
 #include "tracing/record/lttng/lttng_ctl.hpp"
+#include "tracing/record/lttng/relay_connection.hpp"
 #include "tracing/record/lttng/session_daemon.hpp"
 #include "tracing/record/plan/trace_error.hpp"
 
@@ -63,6 +65,11 @@ std::string remedy_for_silence() {
     if (launch::read_process_stat(consumer).state == 'T') {
       return fmt::format("LTTng's consumer is stopped: continue it with `kill -CONT {}`", consumer);
     }
+  }
+  // The session daemon itself makes the connection for a new session.
+  const std::vector<pid_t> relay_daemons = stopped_relay_daemons(daemon);
+  if (!relay_daemons.empty()) {
+    return fmt::format("the relay daemon is stopped: continue it with `kill -CONT {}`", relay_daemons.front());
   }
   return ending_the_daemon("kill -9", "LTTng's session daemon") +
          " with all its sessions; the next trace starts a new one";

@@ -95,11 +95,11 @@ bool is_this_machine(const std::string& peer) {
                           : peer == "00000000000000000000000001000000" || peer.ends_with("FFFF00000100007F");
 }
 
-// The relay daemons in the consumer's network namespace that are stopped; none if another one runs there: which of them
-// it is, is unknown.
-std::vector<pid_t> stopped_relay_daemons(pid_t consumer) {
+}  // namespace
+
+std::vector<pid_t> stopped_relay_daemons(pid_t process) {
   std::error_code error;
-  const fs::path network = fs::read_symlink(fmt::format("/proc/{}/ns/net", consumer), error);
+  const fs::path network = fs::read_symlink(fmt::format("/proc/{}/ns/net", process), error);
   if (error) {
     return {};
   }
@@ -110,23 +110,21 @@ std::vector<pid_t> stopped_relay_daemons(pid_t consumer) {
     if (pid <= 0) {
       continue;
     }
-    const launch::ProcessStat process = launch::read_process_stat(pid);
-    if (process.name != kRelayDaemon || process.state == 'Z') {
+    const launch::ProcessStat found = launch::read_process_stat(pid);
+    if (found.name != kRelayDaemon || found.state == 'Z') {
       continue;
     }
     std::error_code hidden;
     if (fs::read_symlink(entry->path() / "ns/net", hidden) != network || hidden) {
       continue;
     }
-    if (process.state != 'T' && process.state != 't') {
+    if (found.state != 'T' && found.state != 't') {
       return {};
     }
     stopped.push_back(pid);
   }
   return stopped;
 }
-
-}  // namespace
 
 RelayPorts relay_ports(const std::string& address) {
   RelayPorts ports;

@@ -21,6 +21,10 @@ struct RelayPorts {
 // "tcp4://HOST:CONTROL/… [data: DATA]". What is not given is the default.
 RelayPorts relay_ports(const std::string& address);
 
+// The relay daemons in the network namespace of `process` that are stopped (SIGSTOP); none if another one runs there:
+// which of them is connected, is unknown.
+std::vector<pid_t> stopped_relay_daemons(pid_t process);
+
 // The connections of consumers to the relay daemon at these ports. A session that sends its trace there has them from
 // the creation of its first channel on.
 class RelayConnection {

@@ -109,7 +109,10 @@ NewSession::~NewSession() {
   // The set-up may have failed because one of them is stopped.
   DaemonsKeptGoing daemons;
   if (!relay_daemon_.empty()) {
-    const RelayConnection connection(relay_ports(relay_daemon_), consumers_of(session_daemon_pid()));
+    // A connection is made by the session daemon, and given to the consumer then.
+    std::vector<pid_t> connected = consumers_of(session_daemon_pid());
+    connected.push_back(session_daemon_pid());
+    const RelayConnection connection(relay_ports(relay_daemon_), connected);
     daemons.keep_relay_daemons([connection] { return connection.stopped_daemons(); });
   }
   if (directory_.empty()) {
