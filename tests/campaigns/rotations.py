@@ -36,6 +36,9 @@ def run(place, random):
     rotation = subprocess.Popen(('lttng', 'rotate', 'trace', *(() if waits else ('--no-wait',))),
                                 stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     time.sleep(random.uniform(0.3, 1.5) + (delay if rotate_first else 0))
+    # On a busy machine it may not have come to its last event yet.
+    while 'process has' not in place.path('launch.log').read_text(encoding='utf-8') and time.monotonic() < until:
+        time.sleep(0.01)
     begin = time.monotonic()
     process.send_signal(2)
     launch = place.end_launch(process, 60)
