@@ -164,7 +164,7 @@ int print_report(const Arguments& arguments) {
   tracing::TraceAnalysis analysis(nullptr, named_chains(arguments.paths));
   tracing::Report report{arguments.paths.front(), {}, ""};
   report.verdict = tracing::read_verdicts(arguments.paths);
-  tracing::TraceReader reader(arguments.paths);
+  tracing::TraceReader reader(arguments.paths, tracing::TraceReader::Clocks::kOne);
   report.open = reader.open_directories();
   ExitCode exit_code = kSuccess;
   try {
@@ -187,6 +187,7 @@ int print_report(const Arguments& arguments) {
     }
   }
   report.lacks_descriptions = reader.lacks_descriptions();
+  report.clocks = reader.clock_notes();
   report.sessions = tracing::several_sessions(reader.traces());
   print_out(arguments.json ? json_report(report) : text_report(report, text_options(arguments)));
   return exit_code;

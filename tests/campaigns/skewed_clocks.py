@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """
 Clocks that differ: each process of a recording has a trace of its own, and the clock of one of them is put forward or back
-by up to an hour, as it is when the wall clock of a host jumps between two sessions.
+by up to an hour, as it is when the wall clock of a machine is set in the middle of a session.
 
-The report has all events and callbacks, no time is negative, and a message that was taken before it was published is said.
+The report has all events and callbacks, no time is negative, and it says by how much the clock was set: no message is taken
+before it was published. When the trace comes from another machine instead, such a message is said.
 """
 
 import json
@@ -30,7 +31,7 @@ def runs(place, random, count):
         (skewed / 'verdict.json').unlink()
         name = random.choice(['talker', 'listener'])
         skew = random.choice((-1, 1)) * random.choice(SKEWS)
-        yield judge(place, plain, skewed, name, skew)
+        yield judge(place, plain, skewed, name, skew, other_machine=random.random() < 0.5)
 
 
 def report(place, directory):
@@ -38,13 +39,16 @@ def report(place, directory):
     return done.returncode, json.loads(done.stdout) if done.stdout else {}, done.stderr
 
 
-def put(file, skew):
-    """Changes the offset of the clock in the metadata, which stay as long as they are."""
+def put(file, skew, other_machine):
+    """Changes the clock in the metadata, which stay as long as they are: its offset, and the boot that it belongs to."""
     def later(match):
         return match[1] + str(int(match[2]) + skew).encode().rjust(len(match[2]), b'0')
     data = file.read_bytes()
     changed, count = re.subn(rb'(\boffset = )(\d{10,})', later, data)
     assert count == 1 and len(changed) == len(data), file
+    if other_machine:
+        changed, count = re.subn(rb'(clock \{[^}]*?uuid = ")[0-9a-f]{8}', rb'\g<1>01234567', changed)
+        assert count == 1 and len(changed) == len(data), file
     file.write_bytes(changed)
 
 
@@ -59,11 +63,11 @@ def negative_times(value, path=''):
         yield f'{path}: {value}'
 
 
-def judge(place, plain, skewed, name, skew):
+def judge(place, plain, skewed, name, skew, other_machine):
     for file in skewed.glob(f'ust/pid/{name}-*/**/metadata'):
-        put(file, skew)
+        put(file, skew, other_machine)
     code, seen, errors = report(place, skewed)
-    outcome = Outcome(f'{name} by {skew / 1e9:g} s')
+    outcome = Outcome(f'{name} by {skew / 1e9:g} s' + (', another machine' if other_machine else ''))
     if code != plain[0] or not seen:
         outcome.wrong.append(f'{name} by {skew} ns: exit code {code}: {errors}')
         return outcome
@@ -77,6 +81,13 @@ def judge(place, plain, skewed, name, skew):
             outcome.wrong.append(f'{name} by {skew} ns: other {table}: {rows}')
     before = (skew > 0) == (name == 'talker')
     early = sum(topic['early'] for topic in seen['topics'])
+    if not other_machine:
+        was_set = f'was set while it was recorded, by {abs(skew) / 1e9:.3f} s'
+        if abs(skew) >= 20_000_000 and not any(was_set in clock for clock in seen['clocks']):
+            outcome.wrong.append(f'{name} by {skew} ns: not said: {seen["clocks"]}')
+        if early:
+            outcome.wrong.append(f'{name} by {skew} ns: {early} messages are taken before they are published')
+        return outcome
     if before and abs(skew) >= 1_000_000_000 and early == 0:
         outcome.wrong.append(f'{name} by {skew} ns: messages are taken before they are published, and nothing is said')
     return outcome

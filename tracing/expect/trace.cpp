@@ -107,7 +107,7 @@ TraceStore::TraceStore(const std::vector<std::filesystem::path>& paths, const Re
   tracing::TraceAnalysis analysis(&recorder);
   tracing::timeline::Timeline timeline;
   try {
-    tracing::TraceReader reader(paths);
+    tracing::TraceReader reader(paths, tracing::TraceReader::Clocks::kOne);
     while (const tracing::TraceItem item = reader.next()) {
       if (item.loss != nullptr) {
         losses.push_back(loss_of(*item.loss));

@@ -12,6 +12,7 @@
 #include "tracing/decode/ctf/packet.hpp"
 #include "tracing/decode/ctf/stream_cursor.hpp"
 #include "tracing/decode/ctf/trace_class.hpp"
+#include "tracing/decode/reader/one_clock.hpp"
 #include "tracing/decode/reader/stream_class.hpp"
 #include "tracing/decode/reader/trace_read_error.hpp"
 
@@ -157,7 +158,7 @@ TraceItem DirectReader::OpenStream::give() {
 }
 
 DirectReader::DirectReader(const fs::path& directory, const std::vector<fs::path>& traces,
-                           const std::vector<fs::path>& open)
+                           const std::vector<fs::path>& open, bool one_clock)
     : directory_(directory) {
   std::map<std::string, std::size_t> by_identity;
   std::vector<std::size_t> length;  // of the metadata that each trace uses
@@ -190,10 +191,17 @@ DirectReader::DirectReader(const fs::path& directory, const std::vector<fs::path
     }
   }
 
+  std::vector<ClockOfTrace> clocks;
+  for (const auto& trace : traces_) {
+    trace->recording = recording_of_trace(trace->declarations);
+    clocks.push_back({trace->recording, trace->declarations});
+  }
+  if (one_clock) {
+    clock_notes_ = put_on_one_clock(clocks);
+  }
   std::size_t next_class = 0;
   for (const auto& each : traces_) {
     Trace& trace = *each;
-    trace.recording = recording_of_trace(trace.declarations);
     descriptions_[trace.number].uuid = trace.declarations.uuid;
     descriptions_[trace.number].environment = trace.declarations.environment;
     for (const auto& [id, stream] : trace.declarations.streams) {

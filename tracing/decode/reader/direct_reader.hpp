@@ -17,9 +17,10 @@ namespace tracing {
 class DirectReader {
  public:
   // `traces` are the directories with metadata below `directory`; `open` are those among them that are being written.
+  // With `one_clock`, the traces of each session are put on one clock (one_clock.hpp).
   // Throws ctf::UnsupportedTrace when another reader must read them, TraceReadError when no reader can.
   DirectReader(const std::filesystem::path& directory, const std::vector<std::filesystem::path>& traces,
-               const std::vector<std::filesystem::path>& open);
+               const std::vector<std::filesystem::path>& open, bool one_clock);
   ~DirectReader();
 
   // Adds a line to damage().
@@ -32,6 +33,7 @@ class DirectReader {
   TraceItem next();
   void throw_damage() const;
   const std::vector<std::string>& damage() const { return damage_; }
+  const std::vector<std::string>& clock_notes() const { return clock_notes_; }
   std::uint64_t content_bytes() const { return content_bytes_; }
   bool lacks_descriptions() const { return lacks_descriptions_; }
   const std::deque<TraceDescription>& traces() const { return descriptions_; }
@@ -53,6 +55,7 @@ class DirectReader {
   OpenStream* earliest_ = nullptr;  // the stream whose item is given
   std::vector<OpenStream*> later_;  // a heap of the others with something left; the first one has the next item
   std::vector<std::string> damage_;
+  std::vector<std::string> clock_notes_;
   bool lacks_descriptions_ = false;
   std::uint64_t content_bytes_ = 0;
   std::optional<std::uint64_t> expected_bytes_;

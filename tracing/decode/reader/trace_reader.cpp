@@ -22,7 +22,7 @@ struct TraceReader::Implementation {
 TraceReader::TraceReader(const std::filesystem::path& directory, Decoder decoder)
     : TraceReader(std::vector{directory}, decoder) {}
 
-TraceReader::TraceReader(const std::vector<std::filesystem::path>& directories, Decoder decoder)
+TraceReader::TraceReader(const std::vector<std::filesystem::path>& directories, Decoder decoder, Clocks clocks)
     : implementation_(std::make_unique<Implementation>()) {
   std::vector<std::filesystem::path> traces;
   std::vector<std::string> missing;
@@ -50,7 +50,7 @@ TraceReader::TraceReader(const std::vector<std::filesystem::path>& directories, 
   }
   if (decoder != Decoder::kBabeltrace) {
     try {
-      implementation_->direct = std::make_unique<DirectReader>(names, traces, open);
+      implementation_->direct = std::make_unique<DirectReader>(names, traces, open, clocks == Clocks::kOne);
       for (const std::string& line : missing) {
         implementation_->direct->note(line);
       }
@@ -102,6 +102,10 @@ void TraceReader::throw_damage() const {
   } else {
     implementation_->babeltrace->throw_damage();
   }
+}
+
+std::vector<std::string> TraceReader::clock_notes() const {
+  return implementation_->direct ? implementation_->direct->clock_notes() : std::vector<std::string>();
 }
 
 const std::vector<std::string>& TraceReader::damage() const {

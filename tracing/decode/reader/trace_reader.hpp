@@ -26,10 +26,20 @@ class TraceReader {
     kBabeltrace,  // libbabeltrace2
   };
 
+  // The times of a session of which several traces were recorded, while the wall clock of the machine was set.
+  enum class Clocks {
+    kAsRecorded,  // as babeltrace2 shows them: each trace has the distance from the epoch that LTTng has measured for
+                  // it
+    kOne,         // all traces of the session have the same, with our own decoder
+  };
+
   // Finds the traces. Throws TraceReadError when there is none.
   explicit TraceReader(const std::filesystem::path& directory, Decoder decoder = Decoder::kAny);
   // Several directories, merged as one.
-  explicit TraceReader(const std::vector<std::filesystem::path>& directories, Decoder decoder = Decoder::kAny);
+  explicit TraceReader(const std::vector<std::filesystem::path>& directories, Decoder decoder = Decoder::kAny,
+                       Clocks clocks = Clocks::kAsRecorded);
+  TraceReader(const std::vector<std::filesystem::path>& directories, Clocks clocks)
+      : TraceReader(directories, Decoder::kAny, clocks) {}
   ~TraceReader();
   TraceReader(const TraceReader&) = delete;
   TraceReader& operator=(const TraceReader&) = delete;
@@ -43,6 +53,8 @@ class TraceReader {
   TraceItem next();
   void throw_damage() const;
 
+  // What Clocks::kOne has changed, a sentence each.
+  std::vector<std::string> clock_notes() const;
   // What could not be read so far, a line each. Files that are missing are known before the first item.
   const std::vector<std::string>& damage() const;
   // Directories with files that a program was writing when the reading began. Such a trace ends with the last packet

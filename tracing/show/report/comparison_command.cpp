@@ -34,7 +34,7 @@ std::optional<std::pair<double, std::string>> number_and_unit(const std::string&
 compare::RunSummary read_run(const std::vector<fs::path>& directories) {
   compare::RunRecorder recorder;
   TraceAnalysis analysis(&recorder);
-  TraceReader reader(directories);
+  TraceReader reader(directories, TraceReader::Clocks::kOne);
   std::string error;
   TraceResults results;
   try {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <string_view>
 
@@ -190,6 +191,9 @@ std::string notes(const Report& report) {
         fmt::format("{} sessions of one machine are read as one, from the first event to the last: {}. Loads count the "
                     "time between them, too.",
                     report.sessions.size(), printable(fmt::format("{}", fmt::join(report.sessions, ", ")))));
+  }
+  for (const std::string& clock : report.clocks) {
+    note(fmt::format("{}{}.", static_cast<char>(std::toupper(clock.front())), printable(clock.substr(1))));
   }
   const auto has_event = [&results](std::string_view begin) {
     const auto fits = [begin](const EventCount& count) { return count.name.starts_with(begin); };

@@ -77,7 +77,7 @@ TracedSystem read(const std::vector<fs::path>& directories, const OutputFiles& f
   system.directory = fs::weakly_canonical(directories.front());
   timeline::TimelineRecorder recorder;
   TraceAnalysis analysis(&recorder, chains);
-  TraceReader reader(directories);
+  TraceReader reader(directories, TraceReader::Clocks::kOne);
   system.open = reader.open_directories();
   system.verdict = read_verdicts(directories);
   const std::unique_ptr<AnalysisModelWriter> model = model_writer(files);

@@ -20,6 +20,7 @@ struct Report {
   std::vector<std::filesystem::path> open = {};  // traces that were still being written
   bool lacks_descriptions = false;               // TraceReader::lacks_descriptions()
   std::vector<std::string> sessions = {};        // of one machine, if it has several
+  std::vector<std::string> clocks = {};          // TraceReader::clock_notes()
 };
 
 // What was not there: the sentences of the verdicts, and chains with names that never were gone through.

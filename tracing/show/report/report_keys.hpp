@@ -33,6 +33,7 @@ void visit_report(const Report& report, Visit& visit) {
   visit("absent", report.verdict.absences);
   visit("overwritten", report.verdict.overwritten);
   visit("open", open);
+  visit("clocks", report.clocks);
   visit("event_counts", overview.event_counts);
   visit("findings", find_worth_a_look(report.results));
   visit("callbacks", ros2.callbacks);
