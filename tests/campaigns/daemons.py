@@ -143,9 +143,11 @@ def left_behind(place, launch):
             listed = lttng('list').stdout
         except subprocess.TimeoutExpired:
             listed = 'the session daemon does not answer'
-        if 'trace' in listed or 'answer' in listed:
+        # A consumer that is killed while it gets a new channel leaves the session daemon waiting for it for ever.
+        if ('trace' in listed or 'answer' in listed) and 'kill -9' not in launch.output:
             left.append(f'a session is left: {listed}')
-    elif launch.code is not None and 'trace stop' not in launch.output and 'trace is' not in launch.output:
+    elif launch.code is not None and not any(
+            said in launch.output for said in ('trace stop', 'trace is', 'tracing setup failed')):
         left.append('the session daemon is stopped, and nothing says how to end its session')
     left += [f'{path} is left' for path in Path('/dev/shm').glob('launch-event-counters*')]
     return left
