@@ -102,7 +102,7 @@ void TraceScope::record(const LaunchRecord& record) {
   }
   run_.request_snapshot(record.value < 0 ? fmt::format("{} died of SIG{}", record.name, ::sigabbrev_np(-record.value))
                                          : fmt::format("{} ended with exit code {}", record.name, record.value),
-                        true);
+                        record.name);
 }
 
 void TraceScope::end(EventLoop& loop, Tell tell, Completion done) {

@@ -60,6 +60,13 @@ TEST(LttngCtl, ADaemonThatDoesNotAnswerIsAnError) {
     }
   }
   EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::seconds(9));
+  // A set-up that has failed ends its session, and looks whether it has gone.
+  set_longest_silence(std::chrono::milliseconds(2000));
+  const auto begin = std::chrono::steady_clock::now();
+  list();
+  lttng_destroy_session_no_wait("run");
+  list();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(1500));
   set_longest_silence(kLongestSilence);
   close(silent);
   std::filesystem::remove(socket_path);

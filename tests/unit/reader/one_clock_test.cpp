@@ -34,9 +34,10 @@ std::int64_t epoch(const tracing::ctf::TraceClass& trace) {
 TEST(OneClock, TracesFromBeforeTheClockWasSetAreMoved) {
   tracing::ctf::TraceClass before = trace_at(5, 7);
   tracing::ctf::TraceClass after = trace_at(3605, 8);
-  EXPECT_THAT(put_on_one_clock({{kRun, before}, {kRun, after}}),
-              ElementsAre("the wall clock of robot was set while it was recorded, by 3600.000 s: the times of 1 of 2 traces "
-                          "were moved, so that all are on one clock"));
+  EXPECT_THAT(
+      put_on_one_clock({{kRun, before}, {kRun, after}}),
+      ElementsAre("the wall clock of robot was set while it was recorded, by 3600.000 s: the times of 1 of 2 traces "
+                  "were moved, so that all are on one clock"));
   EXPECT_EQ(epoch(before), 3'605'000'000'008);
   EXPECT_EQ(epoch(after), 3'605'000'000'008);
 }
@@ -53,8 +54,9 @@ TEST(OneClock, OtherSessionsAndMachinesKeepTheirTimes) {
   const Recording other_boot{.host = "robot", .machine = "boot-2", .session = "run 1"};
   const Recording unknown{.host = "robot", .machine = "", .session = "run 1"};
   std::vector<tracing::ctf::TraceClass> traces{trace_at(1), trace_at(2), trace_at(3), trace_at(4)};
-  EXPECT_THAT(put_on_one_clock({{kRun, traces[0]}, {other_session, traces[1]}, {other_boot, traces[2]}, {unknown, traces[3]}}),
-              IsEmpty());
+  EXPECT_THAT(
+      put_on_one_clock({{kRun, traces[0]}, {other_session, traces[1]}, {other_boot, traces[2]}, {unknown, traces[3]}}),
+      IsEmpty());
   for (std::size_t i = 0; i < traces.size(); ++i) {
     EXPECT_EQ(epoch(traces[i]), static_cast<std::int64_t>(i + 1) * 1'000'000'000);
   }

@@ -27,7 +27,9 @@ std::vector<std::string> put_on_one_clock(const std::vector<ClockOfTrace>& trace
   }
   std::vector<std::string> notes;
   for (const auto& [identity, of_session] : sessions) {
-    const auto clock = [](const ClockOfTrace* trace) -> ctf::Clock& { return trace->declarations.clocks.begin()->second; };
+    const auto clock = [](const ClockOfTrace* trace) -> ctf::Clock& {
+      return trace->declarations.clocks.begin()->second;
+    };
     const auto [least, most] = std::minmax_element(
         of_session.begin(), of_session.end(),
         [&clock](const auto* a, const auto* b) { return clock(a).nanoseconds(0) < clock(b).nanoseconds(0); });
@@ -48,10 +50,11 @@ std::vector<std::string> put_on_one_clock(const std::vector<ClockOfTrace>& trace
     }
     if (moved > 0) {
       const std::string& host = of_session.front()->recording.host;
-      notes.push_back(fmt::format(
-          "the wall clock of {} was set while it was recorded, by {:.3f} s: the times of {} of {} traces were moved, so "
-          "that all are on one clock",
-          host.empty() ? "a machine" : host, static_cast<double>(set_by) / 1e9, moved, of_session.size()));
+      notes.push_back(
+          fmt::format("the wall clock of {} was set while it was recorded, by {:.3f} s: the times of {} of {} traces "
+                      "were moved, so "
+                      "that all are on one clock",
+                      host.empty() ? "a machine" : host, static_cast<double>(set_by) / 1e9, moved, of_session.size()));
     }
   }
   return notes;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The traces of one session on one clock. A session has several traces when each process has buffers of its own, or when
-// kernel events are recorded beside. All of them read the same clock of the machine, but LTTng measures its distance from
-// the epoch anew for each. So their times differ when the wall clock was set meanwhile, as it is soon after a robot has
-// started. Private to the reader.
+// The traces of one session on one clock. A session has several traces when each process has buffers of its own, or
+// when kernel events are recorded beside. All of them read the same clock of the machine, but LTTng measures its
+// distance from the epoch anew for each. So their times differ when the wall clock was set meanwhile, as it is soon
+// after a robot has started. Private to the reader.
 #pragma once
 
 #include <string>

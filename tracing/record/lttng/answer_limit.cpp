@@ -88,8 +88,8 @@ class Watcher {
     {
       const std::lock_guard lock(mutex_);
       const std::chrono::milliseconds longest = silence_limit;
-      limit_ = cut_ ? longest / 10 : longest;
       silent_since_ = Clock::now();
+      limit_ = silent_since_ < short_until_ ? longest / 10 : longest;
       processor_time_ = 0;
       cut_ = false;
       calls_ = true;
@@ -128,6 +128,7 @@ class Watcher {
     }
     cut_ = true;
     silent_since_ = Clock::now();  // the call may make another connection
+    short_until_ = silent_since_ + 3 * silence_limit.load();
     for (const int connection : connections) {
       shutdown(connection, SHUT_RDWR);
     }
@@ -142,7 +143,8 @@ class Watcher {
   Clock::time_point silent_since_;
   std::uint64_t processor_time_ = 0;  // of the daemon at the last look
   bool calls_ = false;
-  bool cut_ = false;  // the call, or the one before
+  bool cut_ = false;  // the call
+  Clock::time_point short_until_;
 };
 
 // A process that was forked has no thread of its parent's.

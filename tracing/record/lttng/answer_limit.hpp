@@ -11,7 +11,7 @@ inline constexpr std::chrono::seconds kLongestSilence{10};
 
 // Make one for the time of a call, while holding lttng_lock(). When the session daemon does not answer, and has used
 // no processor time, for kLongestSilence, its connections are shut down, so that the call returns with an error. After
-// that, calls have a tenth of the time until the daemon answers one.
+// that, calls have a tenth of the time, for three times as long: the end of a session makes several.
 class AnswerLimit {
  public:
   AnswerLimit();

@@ -26,10 +26,12 @@ FlightRecorder::~FlightRecorder() {
   thread_.join();
 }
 
-void FlightRecorder::request(const std::string& reason, bool after_death) {
+void FlightRecorder::request(const std::string& reason, const std::string& died) {
   {
     const std::lock_guard lock(mutex_);
-    after_death_ = after_death_ || after_death;
+    if (!died.empty()) {
+      died_.push_back(died);
+    }
     if (std::find(requested_.begin(), requested_.end(), reason) != requested_.end()) {
       return;
     }
@@ -46,14 +48,14 @@ void FlightRecorder::work() {
       return;
     }
     std::vector<std::string> reasons = std::exchange(requested_, {});
-    const bool after_death = std::exchange(after_death_, false);
+    std::vector<std::string> died = std::exchange(died_, {});
     lock.unlock();
-    told_(take(std::move(reasons), after_death));
+    told_(take(std::move(reasons), std::move(died)));
     lock.lock();
   }
 }
 
-TakenSnapshot FlightRecorder::take(std::vector<std::string> reasons, bool after_death) {
+TakenSnapshot FlightRecorder::take(std::vector<std::string> reasons, std::vector<std::string> died) {
   TakenSnapshot taken{.reasons = std::move(reasons), .directory = {}, .damage = {}, .error = {}};
   try {
     const std::uint64_t asked = record_snapshot(config_.lttng_session_name());
@@ -66,7 +68,7 @@ TakenSnapshot FlightRecorder::take(std::vector<std::string> reasons, bool after_
     }
     taken.directory = snapshots.back();
     taken.damage = judge_snapshot(taken.directory, config_.lttng_session_name(), config_.event_counters, taken.reasons,
-                                  {.asked = asked, .after_death = after_death});
+                                  {.asked = asked, .died = std::move(died)});
     for (std::size_t oldest = 0; snapshots.size() - oldest > config_.snapshot_limit; ++oldest) {
       fs::remove_all(snapshots[oldest]);
     }

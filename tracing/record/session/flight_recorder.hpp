@@ -33,19 +33,20 @@ class FlightRecorder {
 
   // From any thread; does not block. A reason that is requested again before its snapshot begins is kept once. The
   // snapshot holds every event that was fired before, as far as the buffers reach back. When there are more than
-  // TraceConfig::snapshot_limit, the oldest snapshot is removed. `after_death`: the reason is that a process has died.
-  void request(const std::string& reason, bool after_death = false);
+  // TraceConfig::snapshot_limit, the oldest snapshot is removed. `died`: the process whose death is the reason; "":
+  // none.
+  void request(const std::string& reason, const std::string& died = "");
 
  private:
   void work();
-  TakenSnapshot take(std::vector<std::string> reasons, bool after_death);
+  TakenSnapshot take(std::vector<std::string> reasons, std::vector<std::string> died);
 
   TraceConfig config_;
   std::function<void(const TakenSnapshot&)> told_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<std::string> requested_;
-  bool after_death_ = false;  // of one of them
+  std::vector<std::string> died_;  // processes
   bool stop_ = false;
   std::thread thread_;
 };

@@ -136,7 +136,7 @@ std::string judge_snapshot(const fs::path& snapshot, const std::string& name, co
     std::vector<Absence> ended = absent_from_snapshot(counts, streams);
     const bool is_empty =
         std::all_of(streams.begin(), streams.end(), [](const Stream& stream) { return stream.packets.empty(); });
-    if (ended.empty() && (counters.empty() || moment.after_death || is_empty)) {
+    if (ended.empty() && (counters.empty() || !moment.died.empty() || is_empty)) {
       ended.push_back({"each process has buffers of its own: programs that had ended are not in the snapshot"});
     }
     std::move(ended.begin(), ended.end(), std::back_inserter(account.absences));
@@ -145,7 +145,8 @@ std::string judge_snapshot(const fs::path& snapshot, const std::string& name, co
   for (UnwrittenRange& range : account.unwritten) {
     range.after_losses = false;  // buffers that overwrite are never full
   }
-  account.damage = describe_unfinished(account.unwritten, killed_processes(counts));
+  const std::vector<std::string> killed = killed_processes(counts);
+  account.damage = describe_unfinished(account.unwritten, killed.empty() ? moment.died : killed);
   write_snapshot_verdict(snapshot, name, account, streams);
   const std::string lost = describe_snapshot_losses(streams);
   return account.damage + (account.damage.empty() || lost.empty() ? "" : "; ") + lost;

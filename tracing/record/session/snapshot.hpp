@@ -28,8 +28,8 @@ std::vector<std::filesystem::path> snapshots_in(const std::filesystem::path& dir
 std::string recorder_directory(const std::string& lttng_session_name);
 
 struct SnapshotMoment {
-  std::uint64_t asked = 0;   // the result of record_snapshot()
-  bool after_death = false;  // it was taken because a process of the session has died
+  std::uint64_t asked = 0;             // the result of record_snapshot()
+  std::vector<std::string> died = {};  // the processes whose deaths are its reasons
 };
 
 // Writes the verdict of a snapshot into its directory. `counters` is where the processes of the session count their

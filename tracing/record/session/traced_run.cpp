@@ -188,10 +188,10 @@ void TracedRun::stop_flight_recorder() {
   recorder.swap(flight_recorder_);
 }
 
-void TracedRun::request_snapshot(const std::string& reason, bool after_death) {
+void TracedRun::request_snapshot(const std::string& reason, const std::string& died) {
   const std::lock_guard lock(watchers_mutex_);
   if (flight_recorder_) {
-    flight_recorder_->request(reason, after_death);
+    flight_recorder_->request(reason, died);
   }
 }
 

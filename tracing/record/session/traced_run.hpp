@@ -77,8 +77,8 @@ class TracedRun {
   // 200 ms at the end of the session (programs/trace_probe/trace_probe.c), and warns of programs that can't be
   // recorded, for which it searches all of /proc.
   void look_around(const Tell& tell);
-  // Does nothing if there is no flight recorder at the time.
-  void request_snapshot(const std::string& reason, bool after_death = false);
+  // Does nothing if there is no flight recorder at the time. `died`: as of FlightRecorder::request().
+  void request_snapshot(const std::string& reason, const std::string& died = "");
   // A process of the run has ended: with a session that records, look whether it has died within an event.
   void process_ended(const std::string& name);
   // The user is in a hurry: a finish() under way ends at once, with the data that is there.
