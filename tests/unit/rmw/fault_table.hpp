@@ -13,6 +13,7 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -79,7 +80,7 @@ class FaultTable : public testing::Environment {
     ::rmdir(directory_.c_str());
   }
 
-  static Fault& of(const std::string& topic) {
+  static Fault& of(std::string_view topic) {
     return *std::find_if(table->faults(), table->faults() + table->count,
                          [&](const Fault& fault) { return fault.topic == topic; });
   }
