@@ -90,6 +90,15 @@ install_packages() {
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}" >&2
 }
 
+# libraries_for PROCESSOR: the packages of libraries that a build for another processor links, a line each: `libfmt-dev:arm64`.
+# Packages of headers alone are the same for all. Of Python the library is wanted, not a second interpreter.
+libraries_for() {
+  rows_of build "$(own_system)" | sed -n 's/^\(module\|header\):[^ ]* //p' | grep -v '^-$' | sort -u | while read -r name; do
+    [ "$name" != python3-dev ] || name=libpython3-dev
+    [ "$(apt-cache show --no-all-versions "$name" | sed -n 's/^Architecture: //p' | head -n 1)" = all ] || echo "$name:$1"
+  done
+}
+
 # need GROUP...: sees to it that what the groups need is there. On a system that is not in the table it only looks, and the
 # command ends if something is missing.
 need() {
@@ -112,6 +121,11 @@ need() {
     mapfile -t -O ${#names[@]} names < <(packages_of "$group" "$system")
   done
   install_packages "${names[@]}"
+  if [ -n "${LAUNCH_CROSS:-}" ]; then
+    install_packages "crossbuild-essential-$LAUNCH_CROSS"
+    mapfile -t names < <(libraries_for "$LAUNCH_CROSS")
+    install_packages "${names[@]}"
+  fi
   [ ${#missing[@]} = 0 ] || say "$system has no package for ${missing[*]}"
 }
 

@@ -131,6 +131,16 @@ class Need(unittest.TestCase):
         self.assertEqual(result.returncode, 0)
 
 
+    def test_for_another_processor_it_installs_the_compiler_and_the_libraries_of_that_processor(self):
+        result = bash('own_system() { echo debian:13; }; is_there() { true; }; install_packages() { printf "%s\\n" "$@"; };'
+                      'apt-cache() { case $3 in libcli11-dev) echo "Architecture: all" ;; *) echo "Architecture: amd64" ;; esac; };'
+                      'need build', environment={'LAUNCH_CROSS': 'arm64'})
+        self.assertEqual(result.returncode, 0, result.stderr)
+        packages = set(result.stdout.split())
+        self.assertLessEqual({'ninja-build', 'libfmt-dev', 'crossbuild-essential-arm64', 'libfmt-dev:arm64', 'libpython3-dev:arm64'}, packages)
+        self.assertEqual(packages & {'libcli11-dev:arm64', 'python3-dev:arm64', 'ninja-build:arm64'}, set())
+
+
 class On(unittest.TestCase):
 
     def on(self, *words):
@@ -145,6 +155,11 @@ class On(unittest.TestCase):
         result = self.on('debian:12/vax', 'build')
         self.assertEqual(result.returncode, 2)
         self.assertEqual(result.stderr, "dev on: error: unknown processor 'vax'; there are amd64 and arm64\n")
+
+    def test_a_processor_without_a_cross_compiler(self):
+        result = self.on('debian:13/cross-vax', 'build')
+        self.assertEqual(result.returncode, 2)
+        self.assertEqual(result.stderr, "dev on: error: there is no cross compiler for 'vax' here; there is one for arm64\n")
 
     def test_without_a_command_it_prints_its_usage(self):
         result = self.on('debian:12')
