@@ -126,6 +126,7 @@ TEST_F(Deliveries, DontDivideTheTimeWithoutAnExecutorThatTells) {
 }
 
 TEST_F(Deliveries, TellWhereMessagesGotLost) {
+  feed.in(72, 72).at(10)(ros2::RclcppExecutorWaitForWork{-1}).at(20)(ros2::RclcppExecutorGetNextReady{});
   publish(100, 1);  // before the subscription is connected
   publish(200, 2);
   receive(250, 2);
@@ -171,6 +172,20 @@ TEST_F(Deliveries, ReachAProgramThatTakesThemItself) {
   EXPECT_EQ(subscription.not_executed, 1u) << "the executor took it for a callback, which did not run";
 }
 
+// The callback of message 1 takes 2 and 3, and gets 4 with the next look for work.
+TEST_F(Deliveries, ReachACallbackThatTakesTheRestItself) {
+  for (const std::int64_t number : {1, 2, 3, 4}) {
+    publish(1'000 + number, number);
+  }
+  feed.in(72, 72).at(1'100)(ros2::RclcppExecutorExecute{12})(ros2::RmwTake{2, 9, 1, true});
+  feed(ros2::CallbackStart{0xcb, false})(ros2::RmwTake{2, 9, 2, true})(ros2::RmwTake{2, 9, 3, true});
+  feed(ros2::CallbackEnd{0xcb})(ros2::RclcppExecutorGetNextReady{})(ros2::RclcppExecutorExecute{12});
+  feed(ros2::RmwTake{2, 9, 4, true})(ros2::CallbackStart{0xcb, false})(ros2::CallbackEnd{0xcb});
+  const SubscriptionResult subscription = result();
+  EXPECT_EQ(subscription.delivered, 4u);
+  EXPECT_EQ(subscription.not_executed, 0u);
+}
+
 // Message 2 gets lost although the queue of the subscription has room.
 class LostMessage : public Deliveries {
  protected:
@@ -209,8 +224,21 @@ TEST_F(LostMessage, OfABestEffortSideGotLostInTheTransport) {
 TEST_F(LostMessage, MayBeFiltered) {
   has_qos({true, 10, false}, {true, 2, true});
   const SubscriptionResult subscription = after_loss();
-  EXPECT_EQ(subscription.lost, 1u);
-  EXPECT_EQ(subscription.lost_unplaced(), 1u);
+  EXPECT_EQ(subscription.filtered, 1u);
+  EXPECT_EQ(subscription.lost, 0u);
+  EXPECT_EQ(subscription.dropped(), 0u) << "that is what the filter is for";
+}
+
+TEST_F(LostMessage, OfAFilterIsNotPushedOut) {
+  has_qos({true, 10, false}, {true, 1, true});
+  for (const std::int64_t number : {1, 2, 3}) {
+    publish(100 * number, number);
+  }
+  receive(350, 1);
+  receive(360, 3);
+  const SubscriptionResult subscription = result();
+  EXPECT_EQ(subscription.overwritten, 0u);
+  EXPECT_EQ(subscription.filtered, 1u);
 }
 
 TEST_F(LostMessage, IsNotPlacedIfOneSideIsUnknown) {

@@ -180,6 +180,36 @@ std::string bytes(std::initializer_list<std::uint64_t> values) {
   return result;
 }
 
+// LTTng records a truth value as a signed number.
+TEST(EndpointQosDecoder, ReadsTruthValuesAndNumbers) {
+  const TemporaryDirectory directory;
+  TraceWriter writer(directory.path());
+  const std::uint16_t id = writer.declare("ros2_ext:rmw_subscription_qos",
+                                          "\t\tinteger { size = 64; align = 8; signed = 0; base = 16; } _handle;\n"
+                                          "\t\tinteger { size = 32; align = 8; signed = 1; } _reliable;\n"
+                                          "\t\tinteger { size = 64; align = 8; signed = 0; } _history_depth;\n"
+                                          "\t\tinteger { size = 32; align = 8; signed = 1; } _is_filtered;\n");
+  const std::string handle("\x08\x07\x06\x05\x04\x03\x02\x01", 8);
+  const std::string yes("\x01\0\0\0", 4);
+  const std::string seven("\x07\0\0\0\0\0\0\0", 8);
+  writer.write_raw(0, 1, kThread, id, handle + yes + seven + yes);
+  writer.finish();
+
+  class Sink : public TraceSink {
+   public:
+    void on_event(const Event& event) override {
+      if (decoder.decode(event)) {
+        qos = ros2::EndpointQosEvent::qos(event);
+      }
+    }
+    void on_loss(const Loss&) override {}
+    ros2::EndpointQosDecoder decoder;
+    std::optional<ros2::EndpointQos> qos;
+  } sink;
+  TraceReader(directory.path()).read(sink);
+  EXPECT_EQ(sink.qos, (ros2::EndpointQos{true, 7, true}));
+}
+
 TEST(Ros2Decoder, ReportsAMissingFieldOnceAndDecodesTheRest) {
   const TemporaryDirectory directory;
   TraceWriter writer(directory.path());

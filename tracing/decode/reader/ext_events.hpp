@@ -134,7 +134,7 @@ struct EndpointQosEvent {
   static EndpointQos qos(const Event& event) {
     const auto number = [&event](std::string_view name) {
       const std::optional<FieldValue> value = event.field(name);
-      return value ? value->unsigned_integer().value_or(0) : 0;
+      return static_cast<std::uint64_t>(value ? value->integer().value_or(0) : 0);
     };
     return {number("reliable") != 0, number("history_depth"), number("is_filtered") != 0};
   }

@@ -81,7 +81,13 @@ void DeliveryStatistics::find_gaps(const MessageFlow& message) {
   if (place <= last->second) {
     return;
   }
-  const std::uint64_t depth = queue_depth(model_.subscriptions()[message.subscription]);
+  const EndpointObject& subscription = model_.subscriptions()[message.subscription];
+  if (subscription.qos && subscription.qos->is_filtered) {
+    record.filtered += place - last->second - 1;
+    last->second = place;
+    return;
+  }
+  const std::uint64_t depth = queue_depth(subscription);
   const std::uint64_t topic_count = at(topic_counts_, message.publication.topic);
   std::uint64_t lost = 0;
   for (std::uint64_t missing = last->second + 1; missing < place; ++missing) {
@@ -104,7 +110,7 @@ void DeliveryStatistics::count_lost(DeliveryRecord& record, const MessageFlow& m
   record.lost += count;
   const std::optional<ros2::EndpointQos>& publisher = model_.publishers()[message.publication.publisher].qos;
   const std::optional<ros2::EndpointQos>& subscription = model_.subscriptions()[message.subscription].qos;
-  if (!publisher || !subscription || subscription->is_filtered) {
+  if (!publisher || !subscription) {
     return;
   }
   (publisher->reliable && subscription->reliable ? record.lost_by_publisher : record.lost_in_transport) += count;
@@ -124,8 +130,7 @@ void DeliveryStatistics::on_message(const MessageFlow& message) {
   const bool is_known = publication.number != 0;
   DeliveryRecord& record = at(subscriptions_, message.subscription);
   if (is_second_copy(message)) {
-    find_gaps(message);
-    return;
+    return;  // if others of these are pushed out of the queue, nobody misses them
   }
   ++record.received;
   if (publication.intra_process) {

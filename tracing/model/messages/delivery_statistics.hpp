@@ -26,9 +26,12 @@ struct DeliveryRecord {
 
   // Messages of publishers from which the subscription also got others.
   std::uint64_t overwritten = 0;  // pushed out of the full history of the reader by newer messages
-  std::uint64_t lost = 0;         // on the way: in the history of the writer, in the network, or by a filter
-  // Parts of lost, if the trace has the quality of service of both sides and the subscription has no filter. Reliable
-  // messages are repeated until they arrive, unless the writer has replaced them in its history.
+  std::uint64_t lost = 0;         // on the way: in the history of the writer, or in the network
+  // Instead of these, if the subscription has a filter: most were not meant to come, and nothing tells the others
+  // apart.
+  std::uint64_t filtered = 0;
+  // Parts of lost, if the trace has the quality of service of both sides. Reliable messages are repeated until they
+  // arrive, unless the writer has replaced them in its history.
   std::uint64_t lost_by_publisher = 0;  // both sides are reliable
   std::uint64_t lost_in_transport = 0;  // one of them is not: in the network, or in the shared memory
   std::uint64_t before_first = 0;       // published before the first message that came: not connected yet

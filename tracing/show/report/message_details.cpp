@@ -89,6 +89,7 @@ std::string delivery_section(const TraceResults& results) {
         {subscription.lost_by_publisher, "pushed out of the full queue of the publisher"},
         {subscription.lost_in_transport, "lost in the network or in shared memory: not reliable"},
         {subscription.lost_unplaced(), "lost on the way, or filtered"},
+        {subscription.filtered, "not let through by the filter of the subscription, or lost"},
         {subscription.not_executed, "taken, but given to no callback"},
         {subscription.before_first, "published before the first one that came"},
         {subscription.after_last, "published after the last one that came"},

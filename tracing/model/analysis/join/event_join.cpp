@@ -32,6 +32,7 @@ void EventJoin::on(const Origin& origin, const ros2::CallbackStart& event) {
   callbacks_.start({origin.process, origin.vtid}, running.active_callbacks,
                    {event.callback, id, origin.time_ns, event.is_intra_process});
   messages_.on_callback(origin, running, id, event.is_intra_process);
+  running.executed = 0;  // what it takes from now on is not taken by the executor
   waits_.begin_callback(origin, running.waits, id);
   if (model_.callbacks()[id].owner == CallbackObject::Owner::kService) {
     calls_.begin_work(origin);

@@ -64,6 +64,8 @@ void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::RmwT
   } else {
     const ObjectId topic = model_.subscriptions()[subscription.id].topic;
     thread.taken = messages_.take(subscription.id, topic, event.source_timestamp, origin.time_ns);
+    // Asked now: when it is clear that no callback runs, the subscription may be gone.
+    thread.taken_for = thread.executed == 0 ? kNoObject : model_.subscription(origin.process, thread.executed);
   }
 }
 
@@ -126,12 +128,12 @@ void MessageJoin::give_to_none(const Origin& origin, ThreadState& thread) {
 }
 
 // A waitable handles the messages of its subscription itself, such as those of an action client: rclcpp has no object
-// around it. A program may also take messages of any subscription where it likes; an executor says whom it executes.
-bool MessageJoin::needs_no_callback(const Origin& origin, const ThreadState& thread) const {
+// around it. A program may also take messages of any subscription where it likes, even in a callback; an executor says
+// whom it executes, or at least that it looks for work.
+bool MessageJoin::needs_no_callback(const ThreadState& thread) const {
   const ObjectId subscription = thread.taken->subscription;
-  return model_.rclcpp_objects(subscription) == 0 ||
-         (tells_executions_ &&
-          (thread.executed == 0 || model_.subscription(origin.process, thread.executed) != subscription));
+  const bool executed = tells_executions_ ? thread.taken_for == subscription : thread.waits.is_known;
+  return model_.rclcpp_objects(subscription) == 0 || !executed;
 }
 
 void MessageJoin::tell_taken(const Origin& origin, ThreadState& thread, ObjectId callback) {
@@ -144,7 +146,7 @@ void MessageJoin::tell_taken(const Origin& origin, ThreadState& thread, ObjectId
                                             thread.taken->publication.published_ns, thread.taken->taken_ns),
        .callback = callback,
        .callback_begin_ns = callback == kNoObject ? 0 : origin.time_ns,
-       .needs_no_callback = callback == kNoObject && needs_no_callback(origin, thread)});
+       .needs_no_callback = callback == kNoObject && needs_no_callback(thread)});
   thread.taken.reset();
 }
 

@@ -64,7 +64,7 @@ class MessageJoin {
  private:
   // The thread gives its message to `callback`, or to none.
   void tell_taken(const Origin& origin, ThreadState& thread, ObjectId callback);
-  bool needs_no_callback(const Origin& origin, const ThreadState& thread) const;
+  bool needs_no_callback(const ThreadState& thread) const;
   void tell_buffered(const Origin& origin, ThreadState& thread, ObjectId callback);
   void link(const Origin& origin, const std::vector<ros2::Handle>& subscriptions,
             const std::vector<ros2::Handle>& publishers);

@@ -21,7 +21,8 @@ struct ThreadState {
 
   // Of the executor that spins in this thread.
   ThreadWaits waits;
-  ros2::Handle executed = 0;  // rcl's handle of the timer or subscription that it executed last, since its last wait
+  // rcl's handle of the timer or subscription that it executes: since its last wait, and until the callback begins.
+  ros2::Handle executed = 0;
 
   // The thread's last rclcpp_publish and rcl_publish, which its rmw_publish follows.
   ros2::Handle rclcpp_message = 0;
@@ -33,6 +34,7 @@ struct ThreadState {
 
   // Messages that are not yet given to a callback.
   std::optional<TakenMessage> taken;
+  ObjectId taken_for = kNoObject;           // the subscription that the executor executed then
   std::optional<BufferedMessage> buffered;  // from a ring buffer
   std::int64_t buffered_ns = 0;
 };

@@ -64,6 +64,7 @@ struct SubscriptionResult {
   std::uint64_t lost = 0;
   std::uint64_t lost_by_publisher = 0;
   std::uint64_t lost_in_transport = 0;
+  std::uint64_t filtered = 0;
   std::uint64_t before_first = 0;
   std::uint64_t after_last = 0;
   DurationSummary latency;
@@ -96,6 +97,10 @@ inline constexpr Field<SubscriptionResult> SubscriptionResult::kFields[] = {
     {"lost_by_publisher", &SubscriptionResult::lost_by_publisher,
      "part of `lost`, if the trace has the quality of service: pushed out of the publisher's queue"},
     {"lost_in_transport", &SubscriptionResult::lost_in_transport, "likewise: in the network or in shared memory"},
+    {"filtered", &SubscriptionResult::filtered,
+     "of a subscription with a filter, if the trace has the quality of service: its filter did not let them through, "
+     "or "
+     "they were lost"},
     {"before_first", &SubscriptionResult::before_first, "published before the first one that came"},
     {"after_last", &SubscriptionResult::after_last, "published after the last one that came"},
     {"latency", &SubscriptionResult::latency, "from the first publish function to `callback_start`; its parts follow"},

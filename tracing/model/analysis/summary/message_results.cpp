@@ -98,6 +98,7 @@ std::vector<SubscriptionResult> subscription_results(const Subjects& subjects, c
     result.overwritten = record.overwritten;
     result.overwritten_in_buffer = overwritten_in_buffer[id];
     result.lost = record.lost;
+    result.filtered = record.filtered;
     result.lost_by_publisher = record.lost_by_publisher;
     result.lost_in_transport = record.lost_in_transport;
     result.before_first = record.before_first;
