@@ -31,7 +31,7 @@ OTHER_PAGES = {
     'instrumented_stack/tracetools/README.md': 'tracetools_package.md',
     'instrumented_stack/rosidl/README.md': 'rosidl.md',
 }
-STUBS = REPOSITORY / 'tracing/decode/python_api/launch_trace-stubs/__init__.pyi'
+STUBS = REPOSITORY / 'tracing/decode/python_api/launch_trace/_events.pyi'
 CPP_HEADERS = ['tracing/decode/cpp_api/include', 'tracing/expect/include']
 
 

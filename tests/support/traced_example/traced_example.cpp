@@ -11,6 +11,7 @@ TracedSystem traced_example(std::uint64_t cycles, ExampleEvents events) {
   write_example_system(directory.path() / "trace", cycles, events);
   timeline::TimelineRecorder recorder;
   TraceAnalysis analysis(&recorder);
+  recorder.record_details(analysis);
   TraceReader reader(directory.path());
   reader.read(analysis);
   TracedSystem system;

@@ -9,6 +9,7 @@
 #include "tests/support/traced_example/traced_example.hpp"
 #include "tracing/show/export/export.hpp"
 #include "tracing/show/export/output_file.hpp"
+#include "tracing/show/tables/tables.hpp"
 
 namespace tracing {
 namespace {
@@ -33,21 +34,25 @@ TEST(CsvExport, WritesAFileForEachTable) {
   for (const auto& entry : fs::directory_iterator(tables)) {
     files.insert(entry.path().filename());
   }
-  EXPECT_THAT(files, ::testing::ElementsAre("callback_instances.csv", "callbacks.csv", "event_counts.csv",
-                                            "lifecycle_states.csv", "losses.csv", "messages.csv", "nodes.csv",
-                                            "processes.csv", "publishers.csv", "starts.csv", "subscriptions.csv",
-                                            "thread_states.csv", "threads.csv", "topics.csv", "trace.csv"));
+  std::set<std::string> tables_of_system;
+  for (const Table& table : tables_of({})) {
+    tables_of_system.insert(table.name + ".csv");
+  }
+  EXPECT_EQ(files, tables_of_system);
+  EXPECT_THAT(lines_of(tables / "schema_version.csv"), ::testing::ElementsAre("version", "1"));
   EXPECT_THAT(lines_of(tables / "callback_instances.csv"),
               ::testing::ElementsAre("id,callback,thread,start_ns,duration_ns,intra_process,message",
                                      "0,0,0,1767225600020000000,200000,0,", "1,1,1,1767225600020300000,400000,0,0",
                                      "2,2,2,1767225600020800000,50000,0,1"));
   EXPECT_EQ(lines_of(tables / "messages.csv")[1],
-            "0,0,0,0,0,1767225600020095000,1767225600020100000,0,1767225600020250000,1,1767225600020300000,0");
+            "0,0,0,0,0,1767225600020095000,1767225600020100000,0,1767225600020250000,1,1767225600020300000,0,"
+            "1767225600020095000,1767225600020097000,,0,0,,");
   EXPECT_EQ(lines_of(tables / "callbacks.csv")[2],
-            "1,2,1,subscription,0,,,265,Filter::on_scan(sensor_msgs::msg::LaserScan const&)");
+            "1,2,1,subscription,0,,,265,Filter::on_scan(sensor_msgs::msg::LaserScan const&),0");
   EXPECT_THAT(
       lines_of(tables / "starts.csv"),
-      ::testing::Contains("0,101,sensor-1,/examples/system.launch.xml,3,1767225599970000000,30010000,40000000"));
+      ::testing::Contains("0,101,sensor-1,/examples/"
+                          "system.launch.xml,3,1767225599970000000,30010000,40000000,,30000000,50000000,50100000"));
 }
 
 TEST(CsvExport, HasTheStatesOfThreads) {

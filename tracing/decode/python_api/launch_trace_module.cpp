@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The module `launch_trace` of Python: reads traces, event by event or into columns.
+// The module `launch_trace._events` of Python: reads traces, event by event or into columns.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -81,7 +81,7 @@ py::object add_error(py::module_& module) {
 
 }  // namespace
 
-PYBIND11_MODULE(launch_trace, module) {
+PYBIND11_MODULE(_events, module) {
   module.doc() =
       "Reads the traces of LTTng: the events and losses of one or several directories, in the order of time.\n\n"
       "    trace = launch_trace.Trace('traces/run')\n"

@@ -56,6 +56,9 @@ class Ros2Analysis {
                      const std::vector<ProcessResult>& processes = {});
 
   const ObjectModel& model() const { return model_; }
+  // Before the first event: also keeps what ChainTracker::passages() and hops() give.
+  void keep_chain_passages() { chains_.keep_passages(); }
+  const ChainTracker& chains() const { return chains_; }
   const FirstActivity& first_activity() const { return first_activity_; }
   // So far, by ObjectId; maybe shorter than the model's lists. Periods in which the timer of a callback did not call
   // it, and messages that a subscription missed (SubscriptionResult::dropped()).

@@ -38,6 +38,10 @@ class TraceAnalysis : public TraceSink {
   std::vector<std::uint64_t> missed_periods() const { return ros2_.missed_periods(); }
   std::vector<std::uint64_t> dropped_messages() const { return ros2_.dropped_messages(); }
 
+  // As those of Ros2Analysis.
+  void keep_chain_passages() { ros2_.keep_chain_passages(); }
+  const ChainTracker& chains() const { return ros2_.chains(); }
+
   // What the ids of the sink refer to.
   const ObjectModel& objects() const { return ros2_.model(); }
   const std::vector<ProcessObject>& processes() const { return overview_.processes().processes(); }

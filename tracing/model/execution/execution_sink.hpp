@@ -58,6 +58,7 @@ struct Publication {
   std::int64_t rclcpp_ns = 0;
   std::int64_t rcl_ns = 0;
   std::int64_t published_ns = 0;  // rmw_publish, or rclcpp_intra_publish
+  std::int64_t written_ns = 0;    // dds:write, if it came before the message was taken; 0: not in the trace
   bool intra_process = false;
 };
 
@@ -75,6 +76,8 @@ struct MessageFlow {
   // Without a callback: the message has arrived nevertheless. A waitable has taken it, such as a client of an action,
   // or the program, which has asked for it.
   bool needs_no_callback = false;
+  // The trace does not tell which publication it is: the order of the messages says so.
+  bool is_by_order = false;
 };
 
 // A request to a service and its response. Told when the response is taken.
@@ -153,6 +156,9 @@ class ExecutionSink {
   virtual void on_message(const MessageFlow&) {}
   virtual void on_message_link(const MessageLink&) {}
   virtual void on_call(const ServiceCall&) {}
+  // A call of which the trace does not hold the request or the taken response: what is not there is 0. Told at the end,
+  // or when it is forgotten.
+  virtual void on_open_call(const ServiceCall&) {}
   virtual void on_executor_wait(const ExecutorWait&) {}
   virtual void on_executor_look(const ExecutorLook&) {}
   virtual void on_lifecycle_state(const LifecycleInterval&) {}

@@ -20,6 +20,7 @@ class SinkList : public ExecutionSink {
   void on_message(const MessageFlow& message) override { tell(&ExecutionSink::on_message, message); }
   void on_message_link(const MessageLink& link) override { tell(&ExecutionSink::on_message_link, link); }
   void on_call(const ServiceCall& call) override { tell(&ExecutionSink::on_call, call); }
+  void on_open_call(const ServiceCall& call) override { tell(&ExecutionSink::on_open_call, call); }
   void on_executor_wait(const ExecutorWait& wait) override { tell(&ExecutionSink::on_executor_wait, wait); }
   void on_executor_look(const ExecutorLook& look) override { tell(&ExecutionSink::on_executor_look, look); }
   void on_lifecycle_state(const LifecycleInterval& state) override { tell(&ExecutionSink::on_lifecycle_state, state); }

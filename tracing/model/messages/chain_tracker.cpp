@@ -43,10 +43,18 @@ PathId ChainTracker::path_of(PathId parent, ObjectId topic, ObjectId callback) {
   return found->second;
 }
 
-void ChainTracker::begin_chain(Trails& trails, ObjectId callback, std::int64_t begin_ns) {
+std::uint32_t ChainTracker::hop_of(std::uint32_t before, const ThreadId& thread, std::int64_t begin_ns) {
+  if (!keeps_passages_) {
+    return ChainHop::kNone;
+  }
+  hops_.push_back({before, thread.process, thread.vtid, begin_ns});
+  return static_cast<std::uint32_t>(hops_.size() - 1);
+}
+
+void ChainTracker::begin_chain(const ThreadId& thread, Trails& trails, ObjectId callback, std::int64_t begin_ns) {
   const PathId path = path_of(kNoPath, kNoObject, callback);
   if (path != kNoPath) {
-    trails.push_back({path, begin_ns, begin_ns});
+    trails.push_back({path, hop_of(ChainHop::kNone, thread, begin_ns), begin_ns, begin_ns});
   }
 }
 
@@ -123,7 +131,7 @@ void ChainTracker::on_message(const MessageFlow& message) {
     return;
   }
   if (begins_named_chain(active.callback)) {
-    begin_chain(active.trails, active.callback, active.begin_ns);
+    begin_chain(message.taking_thread, active.trails, active.callback, active.begin_ns);
   }
   const bool is_named_begin = !active.trails.empty();
   if (message.publication.number != 0 && !sent_.empty()) {
@@ -141,7 +149,8 @@ void ChainTracker::on_message(const MessageFlow& message) {
         if (waited_ns) {
           paths_[path].executor.add(*waited_ns);
         }
-        active.trails.push_back({path, cause.input_ns, active.begin_ns});
+        active.trails.push_back(
+            {path, hop_of(cause.hop, message.taking_thread, active.begin_ns), cause.input_ns, active.begin_ns});
       }
     }
   }
@@ -151,7 +160,7 @@ void ChainTracker::on_message(const MessageFlow& message) {
   if (const auto latest = latest_.find(message.subscription); latest != latest_.end()) {
     latest->second = active.trails;
     if (latest->second.empty()) {
-      begin_chain(latest->second, active.callback, active.begin_ns);
+      begin_chain(message.taking_thread, latest->second, active.callback, active.begin_ns);
       for (const Trail& trail : latest->second) {
         paths_[trail.path].is_natural = true;
       }
@@ -169,7 +178,7 @@ void ChainTracker::on_publication(const Publication& publication) {
   if (std::vector<Active>* const running = active_.find(publication.thread); running != nullptr && !running->empty()) {
     Active& active = running->back();
     if (active.trails.empty()) {
-      begin_chain(active.trails, active.callback, active.begin_ns);
+      begin_chain(publication.thread, active.trails, active.callback, active.begin_ns);
       for (const Trail& trail : active.trails) {
         paths_[trail.path].is_natural = true;
       }
@@ -217,6 +226,9 @@ void ChainTracker::end(const Trail& trail, std::int64_t end_ns) {
   ChainRecord& chain = paths_[trail.path];
   if (chain.last_input_ns != 0 && trail.input_ns < chain.last_input_ns) {
     return;  // overtaken by a newer input
+  }
+  if (keeps_passages_ && chain.parent != kNoPath) {
+    passages_.push_back({trail.path, trail.hop, trail.input_ns, end_ns, trail.input_ns != chain.last_input_ns});
   }
   if (trail.input_ns != chain.last_input_ns) {
     const std::int64_t response = end_ns - trail.input_ns;

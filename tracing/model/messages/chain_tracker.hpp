@@ -66,6 +66,24 @@ struct ChainRecord {
   std::int64_t last_output_ns = 0;
 };
 
+// A callback on the way of something through a chain. Ways that begin alike share their hops.
+struct ChainHop {
+  static constexpr std::uint32_t kNone = 0xffffffff;
+  std::uint32_t before = kNone;  // index in ChainTracker::hops(); kNone: the chain begins here
+  ProcessId process = kNoProcess;
+  std::int64_t vtid = 0;
+  std::int64_t begin_ns = 0;  // of the callback
+};
+
+// One way through the chain that `path` ends.
+struct ChainPassage {
+  PathId path = kNoPath;
+  std::uint32_t last_hop = ChainHop::kNone;
+  std::int64_t input_ns = 0;
+  std::int64_t output_ns = 0;
+  bool is_first = false;  // the first output of its input, which ChainRecord::response counts
+};
+
 class ChainTracker : public ExecutionSink {
  public:
   // At most this many paths, trails of one message, and publications whose trails are remembered.
@@ -79,6 +97,11 @@ class ChainTracker : public ExecutionSink {
     definitions_ = std::move(definitions);
   }
   const std::vector<ChainDefinition>& definitions() const { return definitions_; }
+  // Also keeps each passage, and the hops of all: 32 bytes for each callback and each of its causes. To be called
+  // before anything happens.
+  void keep_passages() { keeps_passages_ = true; }
+  const std::vector<ChainPassage>& passages() const { return passages_; }  // in the order of their outputs
+  const std::vector<ChainHop>& hops() const { return hops_; }
 
   void on_callback_begin(const CallbackInstance& instance) override;
   void on_callback(const CallbackInstance& instance) override;
@@ -98,6 +121,7 @@ class ChainTracker : public ExecutionSink {
   // One cause of something, back to the begin of its chain.
   struct Trail {
     PathId path = kNoPath;
+    std::uint32_t hop = ChainHop::kNone;
     std::int64_t input_ns = 0;
     std::int64_t callback_ns = 0;  // begin of the callback at the end of the path
   };
@@ -131,7 +155,8 @@ class ChainTracker : public ExecutionSink {
 
   PathId path_of(PathId parent, ObjectId topic, ObjectId callback);
   // The begin of a chain whose cause is not known.
-  void begin_chain(Trails& trails, ObjectId callback, std::int64_t begin_ns);
+  void begin_chain(const ThreadId& thread, Trails& trails, ObjectId callback, std::int64_t begin_ns);
+  std::uint32_t hop_of(std::uint32_t before, const ThreadId& thread, std::int64_t begin_ns);
   std::string node_of(ObjectId callback) const;
   bool begins_named_chain(ObjectId callback);
   void compare_with_definitions(PathId path);
@@ -145,6 +170,9 @@ class ChainTracker : public ExecutionSink {
   std::vector<ChainRecord> paths_;
   std::map<std::tuple<PathId, ObjectId, ObjectId>, PathId> index_;
   bool is_full_ = false;
+  bool keeps_passages_ = false;
+  std::vector<ChainPassage> passages_;
+  std::vector<ChainHop> hops_;
   ThreadMap<std::vector<Active>> active_;            // innermost last
   std::vector<Sent> sent_;                           // by number, modulo its size
   std::map<ObjectId, std::vector<ObjectId>> links_;  // publisher to subscriptions

@@ -184,13 +184,16 @@ void ServiceMatcher::finish(std::int64_t end_ns) {
 }
 
 CallRecord& ServiceMatcher::end(const Call& call) {
+  const ServiceCall told{.client = call.client,
+                         .service = call.service,
+                         .sent_ns = call.sent_ns.value_or(0),
+                         .taken_ns = call.taken_ns.value_or(0),
+                         .answered_ns = call.answered_ns.value_or(0),
+                         .received_ns = call.received_ns.value_or(0)};
   if (call.sent_ns && call.received_ns) {
-    sink_.on_call({.client = call.client,
-                   .service = call.service,
-                   .sent_ns = *call.sent_ns,
-                   .taken_ns = call.taken_ns.value_or(0),
-                   .answered_ns = call.answered_ns.value_or(0),
-                   .received_ns = *call.received_ns});
+    sink_.on_call(told);
+  } else {
+    sink_.on_open_call(told);
   }
   CallRecord& record = records_[{call.client, call.service}];
   ++record.requests;

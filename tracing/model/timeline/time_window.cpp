@@ -47,6 +47,26 @@ void cut(std::vector<Interval>& intervals, const Timeline& timeline) {
   }
 }
 
+// What refers to instances loses those that are gone.
+void keep_details(Details& details, std::int64_t begin_ns, std::int64_t end_ns, const std::size_t (&instances)[2],
+                  const std::size_t (&messages)[2]) {
+  if (!details.messages.empty()) {
+    keep(details.messages, messages[0], std::max(messages[0], messages[1]));
+  }
+  const auto is_outside = [&](std::int64_t time_ns) { return time_ns < begin_ns || time_ns >= end_ns; };
+  std::erase_if(details.calls, [&](const Call& call) { return is_outside(call.begin_ns()); });
+  std::erase_if(details.waits, [&](const Wait& wait) { return is_outside(wait.begin_ns); });
+  std::erase_if(details.passages, [&](const ChainPassage& passage) { return is_outside(passage.input_ns); });
+  const auto is_gone = [&](Index instance) { return instance < instances[0] || instance >= instances[1]; };
+  std::erase_if(details.memory, [&](const InstanceMemory& memory) { return is_gone(memory.instance); });
+  for (InstanceMemory& memory : details.memory) {
+    memory.instance -= static_cast<Index>(instances[0]);
+  }
+  for (ChainHop& hop : details.hops) {
+    hop.instance = is_gone(hop.instance) ? kNone : hop.instance - static_cast<Index>(instances[0]);
+  }
+}
+
 }  // namespace
 
 void keep_window(Timeline& timeline, std::int64_t begin_ns, std::int64_t end_ns) {
@@ -69,6 +89,7 @@ void keep_window(Timeline& timeline, std::int64_t begin_ns, std::int64_t end_ns)
     moved(message.publishing_instance, instances);
     moved(message.receiving_instance, instances);
   }
+  keep_details(timeline.details, begin_ns, behind_ns, instances, messages);
   timeline.begin_ns = std::max(timeline.begin_ns, begin_ns);
   timeline.end_ns = std::max(timeline.begin_ns, std::min(timeline.end_ns, end_ns));
   cut(timeline.lifecycle, timeline);

@@ -3,7 +3,8 @@
 // state of a thread.
 //
 // Objects refer to one another by their index. Times are nanoseconds since the epoch on the tracer's clock. The memory
-// grows with the number of instances, messages and states, 32 to 64 bytes for each.
+// grows with the number of instances, messages and states, 32 to 64 bytes for each. `Details` is empty unless it was
+// asked for; it has 24 to 48 bytes for each of what it lists.
 #pragma once
 
 #include <cstdint>
@@ -39,12 +40,25 @@ struct Node {
 struct Endpoint {  // publisher or subscription
   Index node = kNone;
   Index topic = kNone;
+  std::uint64_t queue_depth = 0;
+  std::optional<ros2::EndpointQos> qos = std::nullopt;
+};
+
+struct Timer {
+  Index node = kNone;
+  std::int64_t period_ns = 0;
+};
+
+struct ServiceEnd {  // service or client
+  Index node = kNone;
+  std::string name;  // of the service
 };
 
 struct Callback {
   Index process = kNone;
   Index node = kNone;
   CallbackResult::Owner owner = CallbackResult::Owner::kUnknown;
+  Index owner_id = kNone;      // in the list of its kind: subscriptions, timers, services, clients
   Index topic = kNone;         // of a subscription
   std::string service;         // of a service or client
   std::int64_t period_ns = 0;  // of a timer
@@ -102,6 +116,63 @@ struct OtherThread {
   std::string name;
 };
 
+// What Message has no place for.
+struct MessageDetail {
+  std::int64_t rclcpp_ns = 0;  // rclcpp_publish, rcl_publish, dds:write; 0: not in the trace
+  std::int64_t rcl_ns = 0;
+  std::int64_t written_ns = 0;
+  std::optional<std::int64_t> waited_ns;  // MessageFlow::executor_waited_ns
+  bool intra_process = false;
+  bool is_by_order = false;
+};
+
+// A request to a service; 0 for what the trace does not hold.
+struct Call {
+  Index client = kNone;
+  Index service = kNone;
+  std::int64_t sent_ns = 0;
+  std::int64_t taken_ns = 0;
+  std::int64_t answered_ns = 0;
+  std::int64_t received_ns = 0;
+
+  std::int64_t begin_ns() const { return sent_ns != 0 ? sent_ns : taken_ns != 0 ? taken_ns : received_ns; }
+};
+
+struct Wait {  // of an executor, for work
+  std::int64_t begin_ns = 0;
+  std::int64_t end_ns = 0;
+  Index thread = kNone;
+};
+
+// What a callback asked the C library for.
+struct InstanceMemory {
+  Index instance = kNone;
+  std::uint64_t calls = 0;
+  std::uint64_t bytes = 0;
+};
+
+struct ChainHop {
+  std::uint32_t before = kNone;  // index in hops; kNone: the chain begins here
+  Index instance = kNone;
+};
+
+struct ChainPassage {
+  std::uint32_t path = 0;  // ChainResult::path
+  std::uint32_t last_hop = kNone;
+  std::int64_t input_ns = 0;
+  std::int64_t output_ns = 0;
+  bool is_first = false;
+};
+
+struct Details {
+  std::vector<MessageDetail> messages;  // as Timeline::messages
+  std::vector<Call> calls;              // by begin
+  std::vector<Wait> waits;              // by begin
+  std::vector<InstanceMemory> memory;   // by instance; those that asked for none are left out
+  std::vector<ChainHop> hops;
+  std::vector<ChainPassage> passages;  // by output
+};
+
 struct Timeline {
   std::int64_t begin_ns = 0;
   std::int64_t end_ns = 0;
@@ -111,12 +182,16 @@ struct Timeline {
   std::vector<std::string> topics;
   std::vector<Endpoint> publishers;
   std::vector<Endpoint> subscriptions;
+  std::vector<Timer> timers;
+  std::vector<ServiceEnd> services;
+  std::vector<ServiceEnd> clients;
   std::vector<Callback> callbacks;
   std::vector<Instance> instances;        // by start
   std::vector<Message> messages;          // by time of publication
   std::vector<LifecycleState> lifecycle;  // by node, then time
   std::vector<ThreadState> states;        // by begin; empty without events of the kernel's scheduler
   std::vector<OtherThread> other_threads;
+  Details details;
 };
 
 }  // namespace tracing::timeline

@@ -21,19 +21,23 @@ Callback callback_of(const CallbackObject& object, const ObjectModel& objects) {
   const ObjectId subscription = objects.subscription_of(object);
   if (subscription != kNoObject) {
     callback.owner = To::kSubscription;
+    callback.owner_id = subscription;
     callback.node = objects.subscriptions()[subscription].node;
     callback.topic = objects.subscriptions()[subscription].topic;
   } else if (object.owner == From::kTimer && object.owner_id != kNoObject) {
     callback.owner = To::kTimer;
+    callback.owner_id = object.owner_id;
     callback.node = objects.timers()[object.owner_id].node;
     callback.period_ns = objects.timers()[object.owner_id].period_ns;
   } else if (object.owner == From::kService && object.owner_id != kNoObject) {
     callback.owner = To::kService;
+    callback.owner_id = object.owner_id;
     callback.node = objects.services()[object.owner_id].node;
     callback.service = objects.services()[object.owner_id].name;
   } else if (object.owner == From::kClient) {
     callback.owner = To::kClient;
     if (object.owner_id != kNoObject) {
+      callback.owner_id = object.owner_id;
       callback.node = objects.clients()[object.owner_id].node;
       callback.service = objects.clients()[object.owner_id].name;
     }
@@ -56,14 +60,31 @@ void copy_objects(const TraceAnalysis& analysis, Timeline& timeline) {
     timeline.topics.push_back(topic.name);
   }
   for (const EndpointObject& end : objects.publishers()) {
-    timeline.publishers.push_back({end.node, end.topic});
+    timeline.publishers.push_back({end.node, end.topic, end.queue_depth, end.qos});
   }
   for (const EndpointObject& end : objects.subscriptions()) {
-    timeline.subscriptions.push_back({end.node, end.topic});
+    timeline.subscriptions.push_back({end.node, end.topic, end.queue_depth, end.qos});
+  }
+  for (const TimerObject& timer : objects.timers()) {
+    timeline.timers.push_back({timer.node, timer.period_ns});
+  }
+  for (const ServiceObject& service : objects.services()) {
+    timeline.services.push_back({service.node, service.name});
+  }
+  for (const ClientObject& client : objects.clients()) {
+    timeline.clients.push_back({client.node, client.name});
   }
   for (const CallbackObject& object : objects.callbacks()) {
     timeline.callbacks.push_back(callback_of(object, objects));
   }
+}
+
+MessageDetail detail_of(const Publication& publication) {
+  return {.rclcpp_ns = publication.rclcpp_ns,
+          .rcl_ns = publication.rcl_ns,
+          .written_ns = publication.written_ns,
+          .waited_ns = std::nullopt,
+          .intra_process = publication.intra_process};
 }
 
 }  // namespace
@@ -85,7 +106,68 @@ Index TimelineRecorder::thread_of(const ThreadId& id) {
   return last_thread_;
 }
 
+void TimelineRecorder::record_details(TraceAnalysis& analysis) {
+  with_details_ = true;
+  analysis.keep_chain_passages();
+}
+
+void TimelineRecorder::on_callback_begin(const CallbackInstance& instance) {
+  const Index thread = thread_of(instance.thread);
+  if (with_details_) {
+    if (thread >= running_.size()) {
+      running_.resize(thread + 1);
+    }
+    running_[thread].push_back({instance.callback, instance.begin_ns, 0, 0});
+  }
+}
+
+void TimelineRecorder::on_allocation(const Allocation& allocation) {
+  if (!with_details_) {
+    return;
+  }
+  const auto thread = threads_.find(allocation.thread);
+  if (thread == threads_.end() || thread->second >= running_.size() || running_[thread->second].empty()) {
+    return;
+  }
+  Memory& memory = running_[thread->second].back();
+  ++memory.calls;
+  memory.bytes += allocation.bytes;
+}
+
+void TimelineRecorder::end_memory(const CallbackInstance& instance, Index thread) {
+  if (thread >= running_.size()) {
+    return;
+  }
+  std::vector<Memory>& running = running_[thread];
+  const auto ended = std::find_if(running.rbegin(), running.rend(), [&](const Memory& memory) {
+    return memory.callback == instance.callback && memory.begin_ns == instance.begin_ns;
+  });
+  if (ended == running.rend()) {
+    return;
+  }
+  if (ended->calls > 0) {
+    memory_.push_back({thread, *ended});
+  }
+  running.erase(std::next(ended).base());
+}
+
+void TimelineRecorder::on_call(const ServiceCall& call) {
+  if (with_details_) {
+    timeline_.details.calls.push_back(
+        {call.client, call.service, call.sent_ns, call.taken_ns, call.answered_ns, call.received_ns});
+  }
+}
+
+void TimelineRecorder::on_executor_wait(const ExecutorWait& wait) {
+  if (with_details_) {
+    timeline_.details.waits.push_back({wait.begin_ns, wait.end_ns, thread_of(wait.thread)});
+  }
+}
+
 void TimelineRecorder::on_callback(const CallbackInstance& instance) {
+  if (with_details_) {
+    end_memory(instance, thread_of(instance.thread));
+  }
   timeline_.instances.push_back({.start_ns = instance.begin_ns,
                                  .end_ns = instance.end_ns,
                                  .callback = instance.callback,
@@ -112,6 +194,10 @@ Message TimelineRecorder::message_of(const Publication& publication) {
 
 void TimelineRecorder::on_publication(const Publication& publication) {
   timeline_.messages.push_back(message_of(publication));
+  if (with_details_) {
+    timeline_.messages.back().publishing_instance = static_cast<Index>(message_details_.size());
+    message_details_.push_back(detail_of(publication));
+  }
 }
 
 // Without its publication a message has no place in the timeline.
@@ -123,6 +209,12 @@ void TimelineRecorder::on_message(const MessageFlow& flow) {
   told.message.subscription = flow.subscription;
   told.message.taking_thread = thread_of(flow.taking_thread);
   told.message.taken_ns = flow.taken_ns;
+  if (with_details_) {
+    told.message.publishing_instance = static_cast<Index>(message_details_.size());
+    message_details_.push_back(detail_of(flow.publication));
+    message_details_.back().waited_ns = flow.executor_waited_ns;
+    message_details_.back().is_by_order = flow.is_by_order;
+  }
   flows_.push_back(told);
 }
 
@@ -178,12 +270,14 @@ void TimelineRecorder::join_messages() {
 }
 
 // Finds the instances in which messages were published, and those that got them.
-void TimelineRecorder::link_messages() {
-  const InstanceIndex index(timeline_.instances, timeline_.threads.size());
+void TimelineRecorder::link_messages(const InstanceIndex& index) {
   timeline_.messages.clear();
   timeline_.messages.reserve(flows_.size());
   for (Flow& flow : flows_) {
     Message& message = flow.message;
+    if (with_details_) {
+      timeline_.details.messages.push_back(message_details_[message.publishing_instance]);
+    }
     message.publishing_instance = index.running(message.publishing_thread, message.published_ns);
     if (flow.callback_begin_ns != 0) {
       message.receiving_instance = index.begun(message.taking_thread, flow.callback_begin_ns);
@@ -194,6 +288,31 @@ void TimelineRecorder::link_messages() {
     timeline_.messages.push_back(message);
   }
   flows_ = {};
+  message_details_ = {};
+}
+
+// Refers to the instances by their places, which are known now.
+void TimelineRecorder::finish_details(const TraceAnalysis& analysis, const InstanceIndex& index) {
+  Details& details = timeline_.details;
+  std::stable_sort(details.calls.begin(), details.calls.end(),
+                   [](const Call& left, const Call& right) { return left.begin_ns() < right.begin_ns(); });
+  std::stable_sort(details.waits.begin(), details.waits.end(),
+                   [](const Wait& left, const Wait& right) { return left.begin_ns < right.begin_ns; });
+  for (const auto& [thread, memory] : memory_) {
+    details.memory.push_back({index.begun(thread, memory.begin_ns), memory.calls, memory.bytes});
+  }
+  memory_ = {};
+  std::sort(details.memory.begin(), details.memory.end(),
+            [](const InstanceMemory& left, const InstanceMemory& right) { return left.instance < right.instance; });
+  details.hops.reserve(analysis.chains().hops().size());
+  for (const tracing::ChainHop& hop : analysis.chains().hops()) {
+    const auto thread = threads_.find({hop.process, hop.vtid});
+    details.hops.push_back({hop.before, thread == threads_.end() ? kNone : index.begun(thread->second, hop.begin_ns)});
+  }
+  details.passages.reserve(analysis.chains().passages().size());
+  for (const tracing::ChainPassage& passage : analysis.chains().passages()) {
+    details.passages.push_back({passage.path, passage.last_hop, passage.input_ns, passage.output_ns, passage.is_first});
+  }
 }
 
 Timeline TimelineRecorder::finish(const TraceAnalysis& analysis, const TraceOverview& overview) {
@@ -205,7 +324,13 @@ Timeline TimelineRecorder::finish(const TraceAnalysis& analysis, const TraceOver
   std::stable_sort(timeline_.states.begin(), timeline_.states.end(),
                    [](const ThreadState& left, const ThreadState& right) { return left.begin_ns < right.begin_ns; });
   join_messages();
-  link_messages();
+  {
+    const InstanceIndex index(timeline_.instances, timeline_.threads.size());
+    link_messages(index);
+    if (with_details_) {
+      finish_details(analysis, index);
+    }
+  }
   std::stable_sort(timeline_.lifecycle.begin(), timeline_.lifecycle.end(),
                    [](const LifecycleState& left, const LifecycleState& right) {
                      return std::tie(left.node, left.begin_ns) < std::tie(right.node, right.begin_ns);

@@ -4,7 +4,7 @@
 #include "tracing/show/export/csv_text.hpp"
 #include "tracing/show/export/export.hpp"
 #include "tracing/show/export/output_file.hpp"
-#include "tracing/show/export/tables.hpp"
+#include "tracing/show/tables/tables.hpp"
 
 namespace tracing {
 
@@ -28,6 +28,9 @@ void write_table(const Table& table, const std::filesystem::path& path) {
       }
       if (const auto* integer = std::get_if<std::int64_t>(&row[i])) {
         fmt::format_to(std::back_inserter(line), "{}", *integer);
+      }
+      if (const auto* real = std::get_if<double>(&row[i])) {
+        fmt::format_to(std::back_inserter(line), "{}", *real);
       }
       if (const auto* text = std::get_if<std::string_view>(&row[i])) {
         append_csv_text(line, *text);

@@ -17,10 +17,10 @@ namespace tracing {
 // of threads.
 void export_perfetto(const TracedSystem& system, const std::filesystem::path& file);
 
-// One CSV file for each table of tables.hpp. The directory is made if it does not exist.
+// One CSV file for each table of tracing/show/tables. The directory is made if it does not exist.
 void export_csv(const TracedSystem& system, const std::filesystem::path& directory);
 
-// An SQLite database with the tables of tables.hpp, and two views.
+// An SQLite database with the tables of tracing/show/tables, and two views.
 void export_sqlite(const TracedSystem& system, const std::filesystem::path& file);
 
 // The graph of nodes and topics for Graphviz: dot -Tsvg FILE.

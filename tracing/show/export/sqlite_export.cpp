@@ -6,7 +6,7 @@
 
 #include "tracing/show/export/export.hpp"
 #include "tracing/show/export/output_file.hpp"
-#include "tracing/show/export/tables.hpp"
+#include "tracing/show/tables/tables.hpp"
 
 namespace tracing {
 
@@ -18,6 +18,18 @@ struct CloseDatabase {
 struct FinalizeStatement {
   void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
 };
+
+const char* type_name(ColumnType type) {
+  switch (type) {
+    case ColumnType::kText:
+      return "TEXT";
+    case ColumnType::kReal:
+      return "REAL";
+    case ColumnType::kInteger:
+      break;
+  }
+  return "INTEGER";
+}
 
 class Database {
  public:
@@ -38,7 +50,7 @@ class Database {
     std::string places;
     for (const Column& column : table.columns) {
       const bool is_key = column.name == "id";
-      columns += fmt::format("{}{} {}{}", columns.empty() ? "" : ", ", column.name, column.is_text ? "TEXT" : "INTEGER",
+      columns += fmt::format("{}{} {}{}", columns.empty() ? "" : ", ", column.name, type_name(column.type),
                              is_key ? " PRIMARY KEY" : "");
       places += places.empty() ? "?" : ",?";
     }
@@ -62,8 +74,10 @@ class Database {
   void bind(sqlite3_stmt* statement, int place, const Cell& cell) {
     if (const auto* integer = std::get_if<std::int64_t>(&cell)) {
       check(sqlite3_bind_int64(statement, place, *integer));
+    } else if (const auto* real = std::get_if<double>(&cell)) {
+      check(sqlite3_bind_double(statement, place, *real));
     } else if (const auto* text = std::get_if<std::string_view>(&cell)) {
-      check(sqlite3_bind_text(statement, place, text->data(), static_cast<int>(text->size()), SQLITE_TRANSIENT));
+      check(sqlite3_bind_text(statement, place, text->data(), static_cast<int>(text->size()), SQLITE_STATIC));
     } else {
       check(sqlite3_bind_null(statement, place));
     }

@@ -7,15 +7,13 @@
 #include <iterator>
 #include <memory>
 
-#include "tracing/model/analysis/trace_analysis.hpp"
 #include "tracing/model/findings/quantity_text.hpp"
 #include "tracing/model/timeline/time_window.hpp"
-#include "tracing/model/timeline/timeline_recorder.hpp"
 #include "tracing/show/export/analysis_model.hpp"
 #include "tracing/show/export/export.hpp"
 #include "tracing/show/export/output_file.hpp"
 #include "tracing/show/page/page.hpp"
-#include "tracing/show/report/recorded_facts.hpp"
+#include "tracing/show/report/read_system.hpp"
 
 namespace tracing {
 
@@ -26,34 +24,6 @@ namespace fs = std::filesystem;
 std::int64_t absolute(const std::optional<TimeBound>& bound, std::int64_t first_ns, std::int64_t otherwise) {
   return !bound ? otherwise : bound->since_first ? first_ns + bound->ns : bound->ns;
 }
-
-// Hands each event on to those that are asked for.
-class Readers : public TraceSink {
- public:
-  Readers(TraceAnalysis& analysis, AnalysisModelWriter* model, const OutputFiles& files)
-      : analysis_(analysis), model_(model), with_analysis_(files.needs_timeline()), processes_(files.processes) {}
-  void on_event(const Event& event) override {
-    if (!processes_.empty() && event.vpid && !processes_.contains(*event.vpid)) {
-      return;
-    }
-    if (with_analysis_) {
-      analysis_.on_event(event);
-    }
-    if (model_ != nullptr) {
-      model_->on_event(event);
-    }
-    ++events_;
-  }
-  void on_loss(const Loss& loss) override { analysis_.on_loss(loss); }
-  std::uint64_t events() const { return events_; }
-
- private:
-  TraceAnalysis& analysis_;
-  AnalysisModelWriter* model_;
-  bool with_analysis_;
-  const std::set<std::int64_t>& processes_;
-  std::uint64_t events_ = 0;
-};
 
 std::unique_ptr<AnalysisModelWriter> model_writer(const OutputFiles& files) {
   if (files.analysis_model.empty()) {
@@ -73,31 +43,15 @@ std::unique_ptr<AnalysisModelWriter> model_writer(const OutputFiles& files) {
 
 TracedSystem read(const std::vector<fs::path>& directories, const OutputFiles& files,
                   const std::vector<ChainDefinition>& chains) {
-  TracedSystem system;
-  system.directory = fs::weakly_canonical(directories.front());
-  timeline::TimelineRecorder recorder;
-  TraceAnalysis analysis(&recorder, chains);
-  TraceReader reader(directories, TraceReader::Clocks::kOne);
-  system.open = reader.open_directories();
-  system.verdict = read_verdicts(directories);
   const std::unique_ptr<AnalysisModelWriter> model = model_writer(files);
-  Readers readers(analysis, model.get(), files);
-  try {
-    reader.read(readers);
-  } catch (const TraceReadError& error) {
-    if (readers.events() == 0) {
-      throw;
-    }
-    system.error = error.what();
-  }
+  TracedSystem system = read_system(directories, {.chains = chains,
+                                                  .with_details = !files.csv.empty() || !files.sqlite.empty(),
+                                                  .with_analysis = files.needs_timeline(),
+                                                  .processes = files.processes,
+                                                  .beside = model.get()});
   if (model) {
     model->finish();
   }
-  system.results = analysis.finish();
-  if (system.error.empty()) {
-    system.error = missing_content(system.verdict, reader);
-  }
-  system.timeline = recorder.finish(analysis, system.results.overview);
   return system;
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/command.hpp"
+#include "tests/support/trace_writer/example_system.hpp"
 #include "tests/support/trace_writer/temporary_directory.hpp"
 #include "tests/support/trace_writer/trace_writer.hpp"
 
@@ -71,6 +72,27 @@ TEST(PythonModule, NeedsNoNumpy) {
   write_traces(directory.path());
   const CommandResult result = run_tests(directory.path(), "numpy");
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+}
+
+// launch_trace.open(): tables, chains, plots, and the same answers as in SQL, CSV and JSON.
+void expect_tables(const std::string& without) {
+  const TemporaryDirectory directory;
+  tracing::testing::write_example_system(directory.path() / "system", 100);
+  const CommandResult result = run_command(Command{{PYTHON, "-B", PYTHON_TESTS "/test_open.py", "-v"},
+                                                   {{"PYTHONPATH", PYTHON_MODULE_DIRECTORY},
+                                                    {"SYSTEM", (directory.path() / "system").string()},
+                                                    {"REPORT", LAUNCH_REPORT},
+                                                    {"NOTEBOOK", NOTEBOOK},
+                                                    {"WITHOUT_MODULE", without}}});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+}
+
+TEST(PythonModule, GivesTheTablesOfATrace) {
+  expect_tables("");
+}
+
+TEST(PythonModule, GivesTheTablesWithoutNumpy) {
+  expect_tables("numpy,pandas,matplotlib");
 }
 
 // The types that editors and type checkers get.

@@ -13,8 +13,8 @@ from pathlib import Path
 import launch_trace
 
 TRACES = Path(os.environ['TRACES'])
-MODULES = Path(launch_trace.__file__).parent
-STUB = MODULES / 'launch_trace-stubs/__init__.pyi'
+MODULES = Path(launch_trace.__file__).parent.parent
+STUB = MODULES / 'launch_trace/_events.pyi'
 HAS_MYPY = importlib.util.find_spec('mypy') is not None
 
 PROGRAM = """
@@ -48,7 +48,7 @@ def is_public(name):
 class Stub(unittest.TestCase):
 
     def test_names_are_those_of_the_module(self):
-        self.assertEqual(sorted(classes_of_stub()), sorted(filter(is_public, dir(launch_trace))))
+        self.assertEqual(sorted(classes_of_stub()), sorted(set(launch_trace.__all__) - {'open'}))
 
     def test_members_are_those_of_the_classes(self):
         for name, node in classes_of_stub().items():
@@ -78,9 +78,9 @@ class Stub(unittest.TestCase):
         with tempfile.TemporaryDirectory() as directory:
             # The classes have the metaclass of pybind11, which has no types.
             allowed = Path(directory, 'allowed')
-            allowed.write_text('launch_trace.Loss\nlaunch_trace.Loss.__init__\nlaunch_trace.Trace\n')
+            allowed.write_text('launch_trace._events.Loss\nlaunch_trace._events.Loss.__init__\nlaunch_trace._events.Trace\n')
             result = subprocess.run(
-                [sys.executable, '-m', 'mypy.stubtest', '--allowlist', str(allowed), 'launch_trace'], cwd=directory,
+                [sys.executable, '-m', 'mypy.stubtest', '--allowlist', str(allowed), 'launch_trace._events'], cwd=directory,
                 capture_output=True, text=True, env={**os.environ, 'MYPYPATH': str(MODULES)})
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
 

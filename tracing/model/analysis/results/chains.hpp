@@ -34,6 +34,7 @@ struct ChainResult {
   std::int64_t longest_end_ns = 0;
   bool is_loop = false;
   bool doubtful = false;
+  std::uint32_t path = 0;  // PathId: index in ChainTracker::paths()
 
   static const Field<ChainResult> kFields[];
 };

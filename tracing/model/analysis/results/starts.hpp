@@ -33,11 +33,11 @@ inline constexpr Field<StartResult> StartResult::kFields[] = {
     {"ready_after_ns", &StartResult::ready_after_ns,
      "to the first event of an executor after that; at this time everything exists that the program makes before it "
      "spins"},
-    {"spawn_ns", &StartResult::spawn_ns, "when the launcher began to start it", trait::kTime | trait::kNotInTables},
-    {"init_after_ns", &StartResult::init_after_ns, "from `exec_ns` to `rcl_init`", trait::kNotInTables},
-    {"callback_after_ns", &StartResult::callback_after_ns, "to its first callback", trait::kNotInTables},
+    {"spawn_ns", &StartResult::spawn_ns, "when the launcher began to start it", trait::kTime},
+    {"init_after_ns", &StartResult::init_after_ns, "from `exec_ns` to `rcl_init`"},
+    {"callback_after_ns", &StartResult::callback_after_ns, "to its first callback"},
     {"publication_after_ns", &StartResult::publication_after_ns,
-     "to its first message on any topic but `/rosout` and `/parameter_events`", trait::kNotInTables},
+     "to its first message on any topic but `/rosout` and `/parameter_events`"},
 };
 
 // A part of the way from the begin of the launch until every process was ready.

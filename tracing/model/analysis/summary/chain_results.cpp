@@ -40,6 +40,7 @@ ChainResult chain_result(const Subjects& subjects, const ChainTracker& chains, c
   result.longest_begin_ns = last.longest_begin_ns;
   result.longest_end_ns = last.longest_end_ns;
   result.is_loop = last.is_cut;
+  result.path = static_cast<std::uint32_t>(&last - chains.paths().data());
   return result;
 }
 

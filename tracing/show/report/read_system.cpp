@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/show/report/read_system.hpp"
+
+#include "tracing/decode/reader/trace_reader.hpp"
+#include "tracing/model/analysis/trace_analysis.hpp"
+#include "tracing/model/timeline/timeline_recorder.hpp"
+#include "tracing/show/report/recorded_facts.hpp"
+
+namespace tracing {
+
+namespace {
+
+// Hands each event on to those that are asked for.
+class Readers : public TraceSink {
+ public:
+  Readers(TraceAnalysis& analysis, const SystemOptions& options) : analysis_(analysis), options_(options) {}
+  void on_event(const Event& event) override {
+    if (!options_.processes.empty() && event.vpid && !options_.processes.contains(*event.vpid)) {
+      return;
+    }
+    if (options_.with_analysis) {
+      analysis_.on_event(event);
+    }
+    if (options_.beside != nullptr) {
+      options_.beside->on_event(event);
+    }
+    ++events_;
+  }
+  void on_loss(const Loss& loss) override { analysis_.on_loss(loss); }
+  std::uint64_t events() const { return events_; }
+
+ private:
+  TraceAnalysis& analysis_;
+  const SystemOptions& options_;
+  std::uint64_t events_ = 0;
+};
+
+}  // namespace
+
+TracedSystem read_system(const std::vector<std::filesystem::path>& directories, const SystemOptions& options) {
+  TracedSystem system;
+  system.directory = std::filesystem::weakly_canonical(directories.front());
+  timeline::TimelineRecorder recorder;
+  TraceAnalysis analysis(&recorder, options.chains);
+  if (options.with_details) {
+    recorder.record_details(analysis);
+  }
+  TraceReader reader(directories);
+  system.open = reader.open_directories();
+  system.verdict = read_verdicts(directories);
+  Readers readers(analysis, options);
+  try {
+    reader.read(readers);
+  } catch (const TraceReadError& error) {
+    if (readers.events() == 0) {
+      throw;
+    }
+    system.error = error.what();
+  }
+  system.results = analysis.finish();
+  if (system.error.empty()) {
+    system.error = missing_content(system.verdict, reader);
+  }
+  system.timeline = recorder.finish(analysis, system.results.overview);
+  return system;
+}
+
+}  // namespace tracing

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads traces into what pages, exports and tables are made of.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <set>
+#include <vector>
+
+#include "tracing/decode/reader/trace_sink.hpp"
+#include "tracing/model/chains/chain_definition.hpp"
+#include "tracing/model/timeline/traced_system.hpp"
+
+namespace tracing {
+
+struct SystemOptions {
+  std::vector<ChainDefinition> chains = {};   // those that the user has named
+  bool with_details = false;                  // Timeline::details, which the tables need
+  bool with_analysis = true;                  // false: only `beside` gets the events
+  std::set<std::int64_t> processes = {};      // only userspace events of these; empty: of all
+  TraceSink* beside = nullptr;                // also gets the events
+};
+
+// Reads the traces once, as one. What ends the reading early, or is known to be missing, is TracedSystem::error. Throws
+// TraceReadError if they can't be read at all.
+TracedSystem read_system(const std::vector<std::filesystem::path>& directories, const SystemOptions& options);
+
+}  // namespace tracing
