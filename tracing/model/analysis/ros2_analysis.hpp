@@ -45,6 +45,7 @@ class Ros2Analysis {
     model_.on(origin, event, qos);
   }
   void on_execution(const Origin& origin, const ros2::ExecutionEvent& event) { join_.on_execution(origin, event); }
+  void on_write(const Origin& origin, std::int64_t source_timestamp) { join_.on_write(origin, source_timestamp); }
   void on_allocation(const Origin& origin, std::uint64_t bytes) {
     sinks_.on_allocation({{origin.process, origin.vtid}, origin.time_ns, bytes});
   }

@@ -26,6 +26,8 @@ void TraceAnalysis::on_event(const Event& event) {
     ros2_.on_endpoint_qos(origin, *endpoint, ros2::EndpointQosEvent::qos(event));
   } else if (const std::optional<std::uint64_t> bytes = allocations_.decode(event)) {
     ros2_.on_allocation(origin, *bytes);
+  } else if (const std::optional<std::int64_t> timestamp = writes_.decode(event)) {
+    ros2_.on_write(origin, *timestamp);
   } else {
     ros2_.on_kernel_event(event, process);
   }

@@ -19,6 +19,7 @@
 #include "tracing/model/analysis/ros2_analysis.hpp"
 #include "tracing/model/analysis/start_tracker.hpp"
 #include "tracing/model/execution/allocation_decoder.hpp"
+#include "tracing/model/execution/write_decoder.hpp"
 
 namespace tracing {
 
@@ -60,6 +61,7 @@ class TraceAnalysis : public TraceSink {
   ros2::LifecycleStateDecoder lifecycle_states_;
   ros2::EndpointQosDecoder endpoint_qos_;
   AllocationDecoder allocations_;
+  WriteDecoder writes_;
   bool lacks_thread_context_ = false;
 };
 

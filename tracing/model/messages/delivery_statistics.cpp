@@ -141,7 +141,7 @@ void DeliveryStatistics::on_message(const MessageFlow& message) {
   if (!is_known) {
     return;
   }
-  if (!publication.intra_process) {
+  if (!publication.intra_process && !message.is_by_order) {
     find_gaps(message);
   }
   if (message.callback == kNoObject) {

@@ -10,6 +10,11 @@ void MessageMatcher::publish(const Publication& publication, std::int64_t source
   ++topic_record.published;
   if (source_timestamp == 0) {
     ++topic_record.untimed;
+    std::deque<Publication>& untimed = flights_[publication.topic].untimed;
+    untimed.push_back(publication);
+    if (untimed.size() > kRemembered) {
+      untimed.pop_front();
+    }
     return;
   }
   Flight& flight = flights_[publication.topic];
@@ -37,6 +42,42 @@ bool MessageMatcher::was_taken_early(TopicRecord& topic_record, Flight& flight, 
   return was_taken;
 }
 
+void MessageMatcher::write(ObjectId topic, std::uint64_t number, std::int64_t source_timestamp,
+                           std::int64_t written_ns) {
+  TopicRecord& topic_record = record(topic);
+  Flight& flight = flights_[topic];
+  const auto found = std::find_if(flight.untimed.rbegin(), flight.untimed.rend(),
+                                  [&](const Publication& publication) { return publication.number == number; });
+  if (found == flight.untimed.rend()) {
+    RecentPublication* const known = flight.recent.find(source_timestamp);
+    if (known != nullptr && known->publication.number == number) {
+      known->publication.written_ns = written_ns;
+    }
+    return;
+  }
+  Publication publication = *found;
+  publication.written_ns = written_ns;
+  flight.untimed.erase(std::next(found).base());
+  --topic_record.untimed;
+  --topic_record.published;
+  publish(publication, source_timestamp);
+}
+
+const Publication* MessageMatcher::find_untimed(Flight& flight, ObjectId subscription, std::int64_t source_timestamp) {
+  for (auto publication = flight.untimed.rbegin(); publication != flight.untimed.rend(); ++publication) {
+    if (publication->published_ns > source_timestamp) {
+      continue;
+    }
+    std::uint64_t& last = flight.last[{subscription, publication->publisher}];
+    if (publication->number < last || (publication->number == last && last != 0)) {
+      return nullptr;
+    }
+    last = publication->number;
+    return &*publication;
+  }
+  return nullptr;
+}
+
 TakenMessage MessageMatcher::take(ObjectId subscription, ObjectId topic, std::int64_t source_timestamp,
                                   std::int64_t time_ns) {
   TopicRecord& topic_record = record(topic);
@@ -45,6 +86,14 @@ TakenMessage MessageMatcher::take(ObjectId subscription, ObjectId topic, std::in
   message.publication.topic = topic;
   Flight& flight = flights_[topic];
   RecentPublication* const found = flight.recent.find(source_timestamp);
+  if (found == nullptr && topic_record.untimed > 0 && source_timestamp != 0) {
+    if (const Publication* const untimed = find_untimed(flight, subscription, source_timestamp)) {
+      ++topic_record.by_order;
+      message.publication = *untimed;
+      message.is_by_order = true;
+      return message;
+    }
+  }
   if (found == nullptr) {
     ++(topic_record.untimed > 0 ? topic_record.untimed_taken : topic_record.received_only);
     if (topic_record.untimed == 0 && source_timestamp != 0) {

@@ -39,6 +39,9 @@ class EventJoin {
   void on_lifecycle_state(const Origin& origin, ros2::Handle state_machine, std::string_view state) {
     lifecycle_.state(origin, state_machine, state);
   }
+  void on_write(const Origin& origin, std::int64_t source_timestamp) {
+    messages_.on_write(origin, thread(origin), source_timestamp);
+  }
   void on_execution(const Origin& origin, const ros2::ExecutionEvent& event);
   // The process was told to end, or has ended.
   void on_process_end(ProcessId process, std::int64_t time_ns) { calls_.end_process(process, time_ns); }

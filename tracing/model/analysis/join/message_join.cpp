@@ -43,10 +43,23 @@ void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::RmwP
       publication.rclcpp_ns = thread.rclcpp_ns;
     }
     messages_.publish(publication, event.timestamp);
+    thread.written_topic = publication.topic;
+    thread.written_number = publication.number;
     sink_.on_publication(publication);
+  }
+  if (publisher.kind != RmwHandle::kKnown) {
+    thread.written_topic = kNoObject;
   }
   // The message of an earlier publication may have had the same address.
   thread.rcl_message = thread.rclcpp_message = 0;
+}
+
+void MessageJoin::on_write(const Origin& origin, ThreadState& thread, std::int64_t source_timestamp) {
+  if (thread.written_topic == kNoObject) {
+    return;  // a message of the middleware
+  }
+  messages_.write(thread.written_topic, thread.written_number, source_timestamp, origin.time_ns);
+  thread.written_topic = kNoObject;
 }
 
 void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::RmwTake& event) {
@@ -146,7 +159,8 @@ void MessageJoin::tell_taken(const Origin& origin, ThreadState& thread, ObjectId
                                             thread.taken->publication.published_ns, thread.taken->taken_ns),
        .callback = callback,
        .callback_begin_ns = callback == kNoObject ? 0 : origin.time_ns,
-       .needs_no_callback = callback == kNoObject && needs_no_callback(thread)});
+        .needs_no_callback = callback == kNoObject && needs_no_callback(thread),
+        .is_by_order = thread.taken->is_by_order});
   thread.taken.reset();
 }
 

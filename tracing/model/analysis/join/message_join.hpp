@@ -50,6 +50,9 @@ class MessageJoin {
   void on(const Origin& origin, const ros2::MessageLinkPeriodicAsync& event) { link(origin, event.subs, event.pubs); }
   void on(const Origin& origin, const ros2::MessageLinkPartialSync& event) { link(origin, event.subs, event.pubs); }
 
+  // dds:write, of middleware that records it: what the thread has published last.
+  void on_write(const Origin& origin, ThreadState& thread, std::int64_t source_timestamp);
+
   // The thread begins a callback, which gets the message that the thread has taken.
   void on_callback(const Origin& origin, ThreadState& thread, ObjectId callback, bool intra_process);
   // No callback of the thread gets what it has taken.

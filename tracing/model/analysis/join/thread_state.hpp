@@ -30,6 +30,8 @@ struct ThreadState {
   ros2::Handle rcl_publisher = 0;
   ros2::Handle rcl_message = 0;
   std::int64_t rcl_ns = 0;
+  ObjectId written_topic = kNoObject;  // of the thread's last rmw_publish, which dds:write follows; kNoObject: it has
+  std::uint64_t written_number = 0;
   std::optional<Publication> intra_process;  // the thread's last publication within the process
 
   // Messages that are not yet given to a callback.
