@@ -45,7 +45,7 @@ TracedSystem read_system(const std::vector<std::filesystem::path>& directories, 
   if (options.with_details) {
     recorder.record_details(analysis);
   }
-  TraceReader reader(directories);
+  TraceReader reader(directories, TraceReader::Clocks::kOne);
   system.open = reader.open_directories();
   system.verdict = read_verdicts(directories);
   Readers readers(analysis, options);
