@@ -12,6 +12,7 @@
 #include "base/processes/process_stat.hpp"
 #include "tests/support/command.hpp"
 #include "tests/unit/session/robust_control.hpp"
+#include "tracing/record/lttng/consumer_priority.hpp"
 #include "tracing/record/lttng/session_daemon.hpp"
 
 namespace trace_test {
@@ -139,6 +140,26 @@ TEST_F(DaemonFaults, AStoppedConsumerIsAnErrorAndIsContinuedAtTheEnd) {
   EXPECT_EQ(listed_sessions(), "");
   app.end();
   EXPECT_EQ(read_trace(config().trace_directory()).events.at("ros2:rclcpp_callback_register"), 10);
+}
+
+TEST_F(DaemonFaults, StoppedProcessesThatMakeFilesAreContinuedAtTheEnd) {
+  if (geteuid() != 0) {
+    GTEST_SKIP() << "skipped, because without root the consumers of the machine can't be told apart";
+  }
+  tracer->start(config());
+  TracedApp(10, 10).end();
+  const std::vector<pid_t> makers = tracing::file_makers_of(processes("lttng-consumerd").at(0));
+  ASSERT_THAT(makers, testing::SizeIs(1));
+  kill(makers[0], SIGSTOP);
+  while (launch::read_process_stat(makers[0]).state != 'T') {
+    std::this_thread::yield();
+  }
+  const LossAccount losses = tracer->finish(config(), never);
+  EXPECT_TRUE(losses.complete()) << losses.damage;
+  EXPECT_THAT(losses.notes, testing::ElementsAre("a process that makes files for LTTng's daemons (process " +
+                                                 std::to_string(makers[0]) +
+                                                 ") was stopped; it was continued, so that the session could end"));
+  EXPECT_EQ(listed_sessions(), "");
 }
 
 TEST_F(DaemonFaults, ADaemonThatIsStoppedInMidRunIsAnErrorAndIsContinuedAtTheEnd) {

@@ -10,13 +10,12 @@ namespace tracing {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::SizeIs;
 using testing::rows_of;
+using ::testing::SizeIs;
 
 TEST(ChainTables, HaveEachTimeThatSomethingWentThroughAChain) {
   const TracedSystem system = testing::traced_example(100);
-  ASSERT_THAT(rows_of(system, "chains", {"id", "response_count", "response_max_ns"}),
-              ElementsAre("0|98|4450000"));
+  ASSERT_THAT(rows_of(system, "chains", {"id", "response_count", "response_max_ns"}), ElementsAre("0|98|4450000"));
   EXPECT_THAT(rows_of(system, "chain_steps", {"chain", "step", "node", "callback", "topic"}),
               ElementsAre("0|0|/sensor|timer 10 ms|-", "0|1|/filter|subscription /scan|/scan",
                           "0|2|/display|subscription /points|/points"));
@@ -40,7 +39,8 @@ TEST(ChainTables, OfAPartHaveThePassagesThatBeginInIt) {
   TracedSystem system = testing::traced_example(10);
   timeline::keep_window(system.timeline, testing::kExampleFirstCycle + 2 * testing::kExamplePeriod,
                         testing::kExampleFirstCycle + 4 * testing::kExamplePeriod);
-  EXPECT_THAT(rows_of(system, "chain_instances", {"begin_ns"}), ElementsAre("1767225600040000000", "1767225600050000000"));
+  EXPECT_THAT(rows_of(system, "chain_instances", {"begin_ns"}),
+              ElementsAre("1767225600040000000", "1767225600050000000"));
   EXPECT_THAT(rows_of(system, "chain_hops", {"chain_instance", "step", "callback_instance", "message"}),
               ElementsAre("0|0|0|-", "0|1|1|0", "0|2|2|1", "1|0|3|-", "1|1|4|2", "1|2|5|3"));
   EXPECT_THAT(rows_of(system, "messages", {"rcl_ns"}), SizeIs(4));

@@ -41,12 +41,14 @@ TEST(EventTables, HaveCallsThatNobodyAnswers) {
   TraceAnalysis analysis;
   recorder.record_details(analysis);
   recorder.on_open_call({.client = 1, .service = 0, .sent_ns = 300});
-  recorder.on_call({.client = 0, .service = 0, .sent_ns = 100, .taken_ns = 120, .answered_ns = 140, .received_ns = 160});
+  recorder.on_call(
+      {.client = 0, .service = 0, .sent_ns = 100, .taken_ns = 120, .answered_ns = 140, .received_ns = 160});
   recorder.on_open_call({.service = 0, .taken_ns = 200, .answered_ns = 220});
   TracedSystem system;
   system.timeline = recorder.finish(analysis, {});
-  EXPECT_THAT(rows_of(system, "calls", {"id", "client", "service", "sent_ns", "taken_ns", "answered_ns", "received_ns"}),
-              ElementsAre("0|0|0|100|120|140|160", "1|-|0|-|200|220|-", "2|1|0|300|-|-|-"));
+  EXPECT_THAT(
+      rows_of(system, "calls", {"id", "client", "service", "sent_ns", "taken_ns", "answered_ns", "received_ns"}),
+      ElementsAre("0|0|0|100|120|140|160", "1|-|0|-|200|220|-", "2|1|0|300|-|-|-"));
 }
 
 TEST(EventTables, HaveTheMemoryThatARunOfACallbackAskedFor) {

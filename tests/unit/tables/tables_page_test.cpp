@@ -44,7 +44,8 @@ std::string described(const Table& table) {
     std::string help = column.name == "id" && column.help.empty() ? "counts from 0" : column.help;
     if (const std::size_t parts = distribution_at(table.columns, i)) {
       const std::string prefix = column.name.substr(0, column.name.size() - std::string("count").size());
-      text += fmt::format("| `{0}count` … `{0}max_ns` | a distribution{1}{2} |\n", prefix, help.empty() ? "" : ": ", help);
+      text +=
+          fmt::format("| `{0}count` … `{0}max_ns` | a distribution{1}{2} |\n", prefix, help.empty() ? "" : ": ", help);
       i += parts - 1;
       continue;
     }

@@ -83,6 +83,19 @@ std::vector<pid_t> consumers_of(pid_t daemon) {
   return consumers;
 }
 
+std::vector<pid_t> file_makers_of(pid_t daemon) {
+  std::vector<pid_t> makers;
+  const bool has_consumers = launch::read_process_stat(daemon).name == kSessionDaemon;
+  for (const fs::path& process : candidates(daemon)) {
+    // A new one has the name of its parent for a moment.
+    const launch::ProcessStat stat = launch::read_process_stat(number_of(process));
+    if (stat.parent == daemon && stat.name.starts_with("lttng-") && !(has_consumers && stat.name == kConsumer)) {
+      makers.push_back(number_of(process));
+    }
+  }
+  return makers;
+}
+
 std::string prefer_daemons(pid_t daemon) {
   if (launch::read_process_stat(daemon).name == kSessionDaemon) {
     prefer(fmt::format("/proc/{}", daemon));

@@ -17,6 +17,8 @@ std::string prefer_daemons(pid_t daemon);
 
 // The consumers that the session daemon has started.
 std::vector<pid_t> consumers_of(pid_t daemon);
+// The processes that make files for a session daemon or a consumer. It waits for them.
+std::vector<pid_t> file_makers_of(pid_t daemon);
 
 inline constexpr int kConsumerNice = -10;
 

@@ -62,9 +62,16 @@ void DaemonsKeptGoing::look() {
   if (daemon == 0) {
     return;
   }
+  constexpr const char* kFileMaker = "a process that makes files for LTTng's daemons";
   continue_process(daemon, "LTTng's session daemon");
+  for (const pid_t maker : file_makers_of(daemon)) {
+    continue_process(maker, kFileMaker);
+  }
   for (const pid_t consumer : consumers_of(daemon)) {
     continue_process(consumer, "LTTng's consumer");
+    for (const pid_t maker : file_makers_of(consumer)) {
+      continue_process(maker, kFileMaker);
+    }
   }
   if (relay_daemons_) {
     for (const pid_t relay_daemon : relay_daemons_()) {

@@ -212,6 +212,13 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
   std::vector<SessionStep> steps;
   StepTimer timer(steps);
   DaemonsKeptGoing daemons;
+  if (config.over_network()) {
+    // Its session can't even be listed while the session daemon waits for the relay daemon.
+    std::vector<pid_t> connected = consumers_of(session_daemon_pid());
+    connected.push_back(session_daemon_pid());
+    const RelayConnection connection(relay_ports(config.destination()), std::move(connected));
+    daemons.keep_relay_daemons([connection] { return connection.stopped_daemons(); });
+  }
   std::optional<SessionSummary> session;
   try {
     session = find_session(name);

@@ -41,7 +41,8 @@ class Columns {
 
   std::size_t rows() const { return table_->rows; }
 
-  // Of each column: its name, its values, the words that these are codes of or None, and which of them are none or None.
+  // Of each column: its name, its values, the words that these are codes of or None, and which of them are none or
+  // None.
   py::list parts() const {
     py::list parts;
     for (std::size_t i = 0; i < table_->columns.size(); ++i) {

@@ -14,11 +14,11 @@
 namespace tracing {
 
 struct SystemOptions {
-  std::vector<ChainDefinition> chains = {};   // those that the user has named
-  bool with_details = false;                  // Timeline::details, which the tables need
-  bool with_analysis = true;                  // false: only `beside` gets the events
-  std::set<std::int64_t> processes = {};      // only userspace events of these; empty: of all
-  TraceSink* beside = nullptr;                // also gets the events
+  std::vector<ChainDefinition> chains = {};  // those that the user has named
+  bool with_details = false;                 // Timeline::details, which the tables need
+  bool with_analysis = true;                 // false: only `beside` gets the events
+  std::set<std::int64_t> processes = {};     // only userspace events of these; empty: of all
+  TraceSink* beside = nullptr;               // also gets the events
 };
 
 // Reads the traces once, as one. What ends the reading early, or is known to be missing, is TracedSystem::error. Throws

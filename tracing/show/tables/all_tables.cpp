@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/show/tables/tables.hpp"
-
 #include "tracing/show/tables/table_rows.hpp"
+#include "tracing/show/tables/tables.hpp"
 
 namespace tracing {
 

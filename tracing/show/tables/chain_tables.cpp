@@ -58,21 +58,21 @@ Table step_table(const TracedSystem& system) {
 }
 
 Table passage_table(const TracedSystem& system) {
-  return {"chain_instances",
-          "each time that something went through a chain: from an input, a begin of the first callback, to an output, "
-          "an end of the last one; by output",
-          {{"id"},
-           {"chain", kInteger, "in `chains`"},
-           {"begin_ns", kInteger, "the input"},
-           {"end_ns", kInteger, "the output"},
-           {"first", kInteger,
-            "1: the first output of this input; `end_ns - begin_ns` is its response. 0: a further one"}},
-          [&system](const Emit& emit) {
-            std::int64_t id = 0;
-            for_each_passage(system, [&](std::int64_t chain, const ChainPassage& passage) {
-              emit({id++, chain, passage.input_ns, passage.output_ns, number(passage.is_first)});
-            });
-          }};
+  return {
+      "chain_instances",
+      "each time that something went through a chain: from an input, a begin of the first callback, to an output, "
+      "an end of the last one; by output",
+      {{"id"},
+       {"chain", kInteger, "in `chains`"},
+       {"begin_ns", kInteger, "the input"},
+       {"end_ns", kInteger, "the output"},
+       {"first", kInteger, "1: the first output of this input; `end_ns - begin_ns` is its response. 0: a further one"}},
+      [&system](const Emit& emit) {
+        std::int64_t id = 0;
+        for_each_passage(system, [&](std::int64_t chain, const ChainPassage& passage) {
+          emit({id++, chain, passage.input_ns, passage.output_ns, number(passage.is_first)});
+        });
+      }};
 }
 
 // The hops of a passage from the first one on.

@@ -20,7 +20,8 @@ Table instance_table(System system) {
       "callback_instances", "each run of a callback, by start", system, system.timeline.instances,
       {{"callback", kInteger, [](System, const Instance& instance) { return reference(instance.callback); },
         "in `callbacks`"},
-       {"thread", kInteger, [](System, const Instance& instance) { return reference(instance.thread); }, "in `threads`"},
+       {"thread", kInteger, [](System, const Instance& instance) { return reference(instance.thread); },
+        "in `threads`"},
        {"start_ns", kInteger, [](System, const Instance& instance) { return Cell{instance.start_ns}; }},
        {"duration_ns", kInteger,
         [](System, const Instance& instance) {
@@ -63,8 +64,9 @@ Cell callback_time(System system, const Message& message) {
 
 Table message_table(System system) {
   return table_of<Message>(
-      "messages", "each message on its way to each subscription, by publication. One without its publication in the "
-                  "trace is not here",
+      "messages",
+      "each message on its way to each subscription, by publication. One without its publication in the "
+      "trace is not here",
       system, system.timeline.messages,
       {{"topic", kInteger, [](System, const Message& message) { return reference(message.topic); }, "in `topics`"},
        {"publisher", kInteger, [](System, const Message& message) { return reference(message.publisher); },
@@ -90,8 +92,7 @@ Table message_table(System system) {
         "1: the row above has the same publication, taken by another subscription"},
        {"rclcpp_ns", kInteger, detail_time<&MessageDetail::rclcpp_ns>, "`rclcpp_publish`"},
        {"rcl_ns", kInteger, detail_time<&MessageDetail::rcl_ns>, "`rcl_publish`"},
-       {"written_ns", kInteger, detail_time<&MessageDetail::written_ns>,
-        "`dds:write`, of middleware that records it"},
+       {"written_ns", kInteger, detail_time<&MessageDetail::written_ns>, "`dds:write`, of middleware that records it"},
        {"intra_process", kInteger, detail_flag<&MessageDetail::intra_process>, "1: without the middleware"},
        {"by_order", kInteger, detail_flag<&MessageDetail::is_by_order>,
         "1: the trace has no timestamps of publications. The order of messages says which one it is, which is not "
@@ -105,9 +106,8 @@ Table message_table(System system) {
        {"executor_ns", kInteger,
         [](System all, const Message& message) {
           const MessageDetail* detail = detail_of(all, message);
-          return has_executor(detail, message)
-                     ? Cell{message.taken_ns - message.published_ns - *detail->waited_ns}
-                     : Cell{};
+          return has_executor(detail, message) ? Cell{message.taken_ns - message.published_ns - *detail->waited_ns}
+                                               : Cell{};
         },
         "likewise: waiting for the executor"}});
 }

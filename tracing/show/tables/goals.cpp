@@ -65,9 +65,9 @@ std::vector<Goal> goals_of(const Timeline& timeline) {
       continue;
     }
     const std::vector<std::size_t>& places = known->second;
-    const auto after = std::upper_bound(places.begin(), places.end(), call.sent_ns, [&](std::int64_t sent, std::size_t place) {
-      return sent < goals[place].answered_ns;
-    });
+    const auto after =
+        std::upper_bound(places.begin(), places.end(), call.sent_ns,
+                         [&](std::int64_t sent, std::size_t place) { return sent < goals[place].answered_ns; });
     if (after == places.begin() || goals[*(after - 1)].result_call != kNone) {
       continue;
     }

@@ -15,17 +15,17 @@ const ProcessResult* result_of(System system, const timeline::Process& process) 
 }
 
 std::vector<ColumnOf<Endpoint>> endpoint_columns() {
-  return {{"node", kInteger, [](System, const Endpoint& end) { return reference(end.node); }, "in `nodes`"},
-          {"topic", kInteger, [](System, const Endpoint& end) { return reference(end.topic); }, "in `topics`"},
-          {"queue_depth", kInteger, [](System, const Endpoint& end) { return number(end.queue_depth); },
-           "as the program asked for it"},
-          {"reliable", kInteger,
-           [](System, const Endpoint& end) { return end.qos ? number(end.qos->reliable) : Cell{}; },
-           "1 or 0; this and what follows is the quality of service that the middleware has agreed to, if the trace "
-           "has it"},
-          {"history_depth", kInteger,
-           [](System, const Endpoint& end) { return end.qos ? number(end.qos->history_depth) : Cell{}; },
-           "0: all messages are kept"}};
+  return {
+      {"node", kInteger, [](System, const Endpoint& end) { return reference(end.node); }, "in `nodes`"},
+      {"topic", kInteger, [](System, const Endpoint& end) { return reference(end.topic); }, "in `topics`"},
+      {"queue_depth", kInteger, [](System, const Endpoint& end) { return number(end.queue_depth); },
+       "as the program asked for it"},
+      {"reliable", kInteger, [](System, const Endpoint& end) { return end.qos ? number(end.qos->reliable) : Cell{}; },
+       "1 or 0; this and what follows is the quality of service that the middleware has agreed to, if the trace "
+       "has it"},
+      {"history_depth", kInteger,
+       [](System, const Endpoint& end) { return end.qos ? number(end.qos->history_depth) : Cell{}; },
+       "0: all messages are kept"}};
 }
 
 std::vector<ColumnOf<ServiceEnd>> service_columns() {
@@ -35,26 +35,26 @@ std::vector<ColumnOf<ServiceEnd>> service_columns() {
 
 std::vector<ColumnOf<timeline::Callback>> callback_columns() {
   using timeline::Callback;
-  return {
-      {"process", kInteger, [](System, const Callback& callback) { return reference(callback.process); },
-       "in `processes`"},
-      {"node", kInteger, [](System, const Callback& callback) { return reference(callback.node); }, "in `nodes`"},
-      {"kind", kText, [](System, const Callback& callback) { return Cell{std::string_view(owner_name(callback.owner))}; },
-       "`subscription`, `timer`, `service`, `client`, `unknown`"},
-      {"topic", kInteger, [](System, const Callback& callback) { return reference(callback.topic); },
-       "in `topics`, of a subscription"},
-      {"service", kText, [](System, const Callback& callback) { return text(callback.service); },
-       "name, of a service or client"},
-      {"period_ns", kInteger,
-       [](System, const Callback& callback) {
-         return callback.owner == CallbackResult::Owner::kTimer ? Cell{callback.period_ns} : Cell{};
-       },
-       "of a timer"},
-      {"address", kInteger, [](System, const Callback& callback) { return number(callback.address); }, ""},
-      {"symbol", kText, [](System, const Callback& callback) { return text(callback.symbol); },
-       "the function, in readable form"},
-      {"owner", kInteger, [](System, const Callback& callback) { return reference(callback.owner_id); },
-       "in `subscriptions`, `timers`, `services` or `clients`, as `kind` says"}};
+  return {{"process", kInteger, [](System, const Callback& callback) { return reference(callback.process); },
+           "in `processes`"},
+          {"node", kInteger, [](System, const Callback& callback) { return reference(callback.node); }, "in `nodes`"},
+          {"kind", kText,
+           [](System, const Callback& callback) { return Cell{std::string_view(owner_name(callback.owner))}; },
+           "`subscription`, `timer`, `service`, `client`, `unknown`"},
+          {"topic", kInteger, [](System, const Callback& callback) { return reference(callback.topic); },
+           "in `topics`, of a subscription"},
+          {"service", kText, [](System, const Callback& callback) { return text(callback.service); },
+           "name, of a service or client"},
+          {"period_ns", kInteger,
+           [](System, const Callback& callback) {
+             return callback.owner == CallbackResult::Owner::kTimer ? Cell{callback.period_ns} : Cell{};
+           },
+           "of a timer"},
+          {"address", kInteger, [](System, const Callback& callback) { return number(callback.address); }, ""},
+          {"symbol", kText, [](System, const Callback& callback) { return text(callback.symbol); },
+           "the function, in readable form"},
+          {"owner", kInteger, [](System, const Callback& callback) { return reference(callback.owner_id); },
+           "in `subscriptions`, `timers`, `services` or `clients`, as `kind` says"}};
 }
 
 }  // namespace

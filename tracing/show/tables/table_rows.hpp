@@ -126,8 +126,8 @@ class ResultColumns {
         part.member.visit([&](auto member) {
           const bool is_real = std::is_same_v<std::decay_t<decltype(std::invoke(member, DurationSummary{}))>, double>;
           const bool is_first = &part == std::begin(kDurationFields);
-          columns.push_back({std::string(field.name) + "_" + part.name, is_real ? kReal : kInteger,
-                             is_first ? field.help : ""});
+          columns.push_back(
+              {std::string(field.name) + "_" + part.name, is_real ? kReal : kInteger, is_first ? field.help : ""});
         });
       }
     } else if constexpr (std::is_convertible_v<Value, std::string_view>) {

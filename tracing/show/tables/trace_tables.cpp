@@ -133,9 +133,8 @@ void add_trace_tables(const TracedSystem& system, std::vector<Table>& tables) {
   tables.push_back(count_table(system));
   tables.push_back(result_table("tracing_cost", "what tracing cost each process, as the verdict estimates it", system,
                                 system.verdict.processes));
-  tables.push_back(
-      result_table("starts", "processes that the launcher started, when its events are in the trace", system,
-                   system.results.starts));
+  tables.push_back(result_table("starts", "processes that the launcher started, when its events are in the trace",
+                                system, system.results.starts));
   tables.push_back(host_table(system));
 }
 

@@ -159,8 +159,8 @@ void MessageJoin::tell_taken(const Origin& origin, ThreadState& thread, ObjectId
                                             thread.taken->publication.published_ns, thread.taken->taken_ns),
        .callback = callback,
        .callback_begin_ns = callback == kNoObject ? 0 : origin.time_ns,
-        .needs_no_callback = callback == kNoObject && needs_no_callback(thread),
-        .is_by_order = thread.taken->is_by_order});
+       .needs_no_callback = callback == kNoObject && needs_no_callback(thread),
+       .is_by_order = thread.taken->is_by_order});
   thread.taken.reset();
 }
 
