@@ -22,15 +22,15 @@ inline launch_trace_testing::EventQuery of_main_thread(const std::string& proces
             [](const launch_trace_testing::Event& event) { return event.vpid() == event.vtid(); });
 }
 
-// The one event that is meant. Without it, the test ends with the nearest ones. The query is a copy: of a reference GCC
-// 13 and later thinks that the event is a part of it.
-inline const launch_trace_testing::Event& only(const launch_trace_testing::Trace& trace,
-                                               launch_trace_testing::EventQuery query) {
+// The one event that is meant. Without it, the test ends with the nearest ones. It is no reference, because GCC from 13
+// on would take it for a part of the query, which the call has made.
+inline const launch_trace_testing::Event* only(const launch_trace_testing::Trace& trace,
+                                               const launch_trace_testing::EventQuery& query) {
   using namespace launch_trace_testing;
   if (const Verdict verdict = expect_count(trace, query, exactly(1)); !verdict) {
     throw std::runtime_error(verdict.text);
   }
-  return *query.first(trace);
+  return query.first(trace);
 }
 
 // The names, without their provider.

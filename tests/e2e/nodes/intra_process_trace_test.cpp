@@ -65,7 +65,7 @@ class IntraProcessTrace : public testing::Test {
 
   static std::uint64_t publisher_of(const std::string& topic) {
     return only(trace_, of_main_thread(kWorker, "rcl_publisher_init").with("topic_name", topic))
-        .handle("publisher_handle");
+        ->handle("publisher_handle");
   }
 
   static Trace trace_;

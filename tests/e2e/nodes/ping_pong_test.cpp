@@ -45,7 +45,8 @@ Events thread_of(const Trace& trace, const std::string& process) {
 }
 
 const Event& publisher_of(const Trace& trace, std::string_view process, std::string_view topic) {
-  return only(trace, of_main_thread(std::string(process), "rcl_publisher_init").with("topic_name", std::string(topic)));
+  return *only(trace,
+               of_main_thread(std::string(process), "rcl_publisher_init").with("topic_name", std::string(topic)));
 }
 
 struct Subscription {
@@ -75,7 +76,7 @@ void check_publisher(const Trace& trace, const std::string& process, const std::
 }
 
 Subscription check_subscription(const Trace& trace, const std::string& process, const std::string& topic) {
-  const Event& init = only(trace, of_main_thread(process, "rcl_subscription_init").with("topic_name", topic));
+  const Event& init = *only(trace, of_main_thread(process, "rcl_subscription_init").with("topic_name", topic));
   EXPECT_EQ(init.handle("node_handle"), of_main_thread(process, "rcl_node_init").first(trace)->handle("node_handle"));
   EXPECT_EQ(init.number("queue_depth"), 10);
   const Events events = around(thread_of(trace, process), init, 1, 3);

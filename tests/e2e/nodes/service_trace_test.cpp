@@ -77,18 +77,18 @@ TEST(ServiceTrace, TellsWhoAskedWhomAndWhen) {
                   "service /server/describe_parameters", "service /server/list_parameters",
                   "publisher /parameter_events", "service /server/get_type_description", "service /add_two_ints"));
 
-  const Event& service = only(trace, of_server("rcl_service_init").with("service_name", "/add_two_ints"));
+  const Event& service = *only(trace, of_server("rcl_service_init").with("service_name", "/add_two_ints"));
   EXPECT_THAT(names_around(trace, service, 0, 2),
               ElementsAre("rcl_service_init", "rclcpp_service_callback_added", "rclcpp_callback_register"));
   const Event& added =
-      only(trace, of_server("rclcpp_service_callback_added").with("service_handle", service.handle("service_handle")));
+      *only(trace, of_server("rclcpp_service_callback_added").with("service_handle", service.handle("service_handle")));
   EXPECT_THAT(trace, HasFieldOfKind(of_server("rclcpp_callback_register").with("callback", added.at("callback")),
                                     "symbol", FieldKind::kNonEmptyText));
 
-  const Event& client = only(trace, of_client("rcl_client_init").with("service_name", "/add_two_ints"));
+  const Event& client = *only(trace, of_client("rcl_client_init").with("service_name", "/add_two_ints"));
   const EventQuery client_init = of_client("rmw_client_init").with("rmw_client_handle", client.at("rmw_client_handle"));
   EXPECT_THAT(trace, HasFieldOfKind(client_init, "gid", FieldKind::kArray, 16));
-  const Event& rmw_client = only(trace, client_init);
+  const Event& rmw_client = *only(trace, client_init);
   EXPECT_EQ(of_client("*").after(rmw_client).first(trace), &client);
 
   const auto of_this_client = [&](const std::string& name) {
@@ -106,14 +106,14 @@ TEST(ServiceTrace, TellsWhoAskedWhomAndWhen) {
           .with("sequence_number", number)
           .with("rmw_service_handle", service.at("rmw_service_handle"));
     };
-    const Event& taken = only(trace, for_request("rmw_take_request").with("taken", 1));
+    const Event& taken = *only(trace, for_request("rmw_take_request").with("taken", 1));
     // The execution of a service has no event of its own.
     EXPECT_THAT(names_around(trace, taken, 1, 3), ElementsAre("rclcpp_executor_get_next_ready", "rmw_take_request",
                                                               "callback_start", "callback_end", "rmw_send_response"));
     const Event& start = *of_server("callback_start").after(taken).first(trace);
     EXPECT_EQ(start.handle("callback"), added.handle("callback"));
     EXPECT_EQ(start.number("is_intra_process"), 0);
-    const Event& response = only(trace, for_request("rmw_send_response"));
+    const Event& response = *only(trace, for_request("rmw_send_response"));
     only(trace, of_this_client("rmw_take_response")
                     .with("sequence_number", number)
                     .with("taken", 1)
