@@ -108,7 +108,7 @@ const std::vector<Command>& command_table() {
       {.name = "events", .help = "prints what happens in a running launch", .run = events_command},
       {.name = "explain",
        .operand = "ID",
-       .help = "explains a finding of launch check",
+       .help = "explains a finding of launch check or launch report",
        .run = explain_command,
        .complete = finding_words},
       {.name = "graph",

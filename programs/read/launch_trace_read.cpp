@@ -22,13 +22,14 @@
 
 namespace {
 
-enum ExitCode { kSuccess = 0, kFailure = 1, kUsage = 2 };
+enum ExitCode { kSuccess = 0, kFailure = 1, kUsage = 2, kFailedOn = 3 };
 
 struct Arguments {
   std::vector<std::filesystem::path> directories;
   tracing::EventFilter filter;
   std::string format = "text";
   bool count = false;
+  std::string fail_on;
   std::optional<std::uint64_t> limit;
 };
 
@@ -156,8 +157,24 @@ void say_that_there_is_no_such_node(const tracing::EventFilter& filter) {
              stderr);
 }
 
+// Passes on all, and notes whether something was lost.
+class LossNote : public tracing::TraceSink {
+ public:
+  explicit LossNote(tracing::TraceSink& sink) : sink_(sink) {}
+  bool has_losses = false;
+
+  void on_event(const tracing::Event& event) override { sink_.on_event(event); }
+  void on_loss(const tracing::Loss& loss) override {
+    has_losses = true;
+    sink_.on_loss(loss);
+  }
+
+ private:
+  tracing::TraceSink& sink_;
+};
+
 // Reads as much as possible and returns the exit code.
-int read_into(const Arguments& arguments, tracing::TraceSink& sink) {
+int read_all(const Arguments& arguments, tracing::TraceSink& sink) {
   bool lacks_descriptions = false;
   try {
     tracing::TraceReader reader(arguments.directories);
@@ -182,6 +199,19 @@ int read_into(const Arguments& arguments, tracing::TraceSink& sink) {
     say_that_there_is_no_such_node(arguments.filter);
   }
   return kSuccess;
+}
+
+int read_into(const Arguments& arguments, tracing::TraceSink& sink) {
+  if (arguments.fail_on.empty()) {
+    return read_all(arguments, sink);
+  }
+  LossNote note(sink);
+  const int exit_code = read_all(arguments, note);
+  if (exit_code != kSuccess || !note.has_losses) {
+    return exit_code;
+  }
+  print_error("the trace is incomplete: events were lost");
+  return kFailedOn;
 }
 
 int print_count(Arguments& arguments) {
@@ -287,8 +317,13 @@ int main(int argc, char** argv) {
   app.add_flag("--count", arguments.count, "Print how many events there are of each name instead")
       ->excludes("--format")
       ->excludes("--limit");
+  app.add_option("--fail-on", arguments.fail_on, "Exit with 3 if what is read lacks lost events: incomplete")
+      ->option_text("WHAT")
+      ->check(CLI::IsMember({"incomplete"}));
   app.footer(
-      "Exit code: 0, 1 when a trace can't be read (to its end) or the output can't be written, 2 for wrong arguments.");
+      "Exit code: 0, 1 when a trace can't be read (to its end) or the output can't be written, 2 for wrong arguments, "
+      "3 "
+      "when it fails on what --fail-on names.");
   try {
     app.parse(argc, argv);
     arguments.filter.begin = time_bound("--from", from);

@@ -28,7 +28,7 @@
 namespace {
 
 using report::Arguments;
-using report::ExitCode, report::kComparisonFailed, report::kFailure, report::kSuccess;
+using report::ExitCode, report::kFailedOn, report::kFailure, report::kSuccess;
 
 void print_error(const std::string& error, const std::string& remedy = "") {
   fmt::print(stderr, "{}", launch::command_error("launch report", error, remedy));
@@ -58,10 +58,11 @@ tracing::ReportOptions text_options(const Arguments& arguments) {
     }
     // The head, the findings, and a blank and a title for each table; then the prompt.
     constexpr std::size_t kTables = 4;
-    constexpr std::size_t kOtherLines = 4 + 7 + 2 * kTables + 1;
-    constexpr std::size_t kSecondLines = 5;  // of findings
-    options.compact = lines > 0 && lines < kOtherLines + kSecondLines + 3 * kTables;
-    const std::size_t others = options.compact ? kOtherLines : kOtherLines + kSecondLines;
+    constexpr std::size_t kFindings = 8;  // at most, and seldom
+    constexpr std::size_t kOtherLines = 4 + 2 + kFindings + 2 * kTables + 1;
+    constexpr std::size_t kFurtherLines = 2 * kFindings;
+    options.compact = lines > 0 && lines < kOtherLines + kFurtherLines + kTables;
+    const std::size_t others = options.compact ? kOtherLines : kOtherLines + kFurtherLines;
     if (lines > 0) {
       options.top = lines > others + kTables ? (lines - others) / kTables : 1;
     }
@@ -70,6 +71,15 @@ tracing::ReportOptions text_options(const Arguments& arguments) {
     options.top = *arguments.top;
   }
   return options;
+}
+
+// What follows from what is missing, if that is no damage: nothing, unless the user wants it to fail.
+int judge(const Arguments& arguments, const std::string& incomplete) {
+  if (incomplete.empty() || arguments.comparison.fail_on.empty()) {
+    return kSuccess;
+  }
+  print_error("the trace is incomplete: " + incomplete);
+  return kFailedOn;
 }
 
 // For what is printed without a word on it.
@@ -89,7 +99,7 @@ int print_summary(const Arguments& arguments) {
   print_out(summary_line(counter.overview(), verdict) + "\n");
   const std::string missing = missing_content(verdict, reader);
   if (missing.empty()) {
-    return kSuccess;
+    return judge(arguments, incomplete_phrase(counter.overview(), verdict));
   }
   print_error(missing);
   return kFailure;
@@ -128,7 +138,7 @@ int write_files(const Arguments& arguments) {
     print_out(line + "\n");
   }
   if (written.error.empty()) {
-    return kSuccess;
+    return judge(arguments, written.incomplete);
   }
   print_error(written.error);
   return kFailure;
@@ -152,7 +162,7 @@ int print_comparison(const Arguments& arguments) {
   options.top = arguments.top.value_or(10);
   const tracing::ComparisonOutcome outcome = tracing::compare_runs(arguments.comparison, arguments.paths, options);
   print_out(outcome.text);
-  return outcome.failed ? kComparisonFailed : kSuccess;
+  return outcome.failed ? kFailedOn : kSuccess;
 }
 
 int save_baseline(const Arguments& arguments) {
@@ -190,7 +200,8 @@ int print_report(const Arguments& arguments) {
   report.clocks = reader.clock_notes();
   report.sessions = tracing::several_sessions(reader.traces());
   print_out(arguments.json ? json_report(report) : text_report(report, text_options(arguments)));
-  return exit_code;
+  return exit_code == kSuccess ? judge(arguments, incomplete_phrase(report.results.overview, report.verdict))
+                               : exit_code;
 }
 
 }  // namespace

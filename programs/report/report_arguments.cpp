@@ -38,7 +38,13 @@ void check_comparison(const CLI::App& app, const Arguments& arguments) {
   if (!arguments.directories.empty() && !comparison.diff.empty()) {
     throw CLI::ValidationError("--diff", "takes both traces itself; no other directory goes with it");
   }
-  for (const char* option : {"--fail-on", "--least", "--confidence"}) {
+  const auto& fail_on = comparison.fail_on;
+  const auto other =
+      std::find_if(fail_on.begin(), fail_on.end(), [](const std::string& word) { return word != "incomplete"; });
+  if (other != fail_on.end() && !comparison.compares()) {
+    throw CLI::ValidationError("--fail-on", fmt::format("'{}' goes with --diff or --baseline", *other));
+  }
+  for (const char* option : {"--least", "--confidence"}) {
     if (app.count(option) > 0 && !comparison.compares()) {
       throw CLI::ValidationError(option, "goes with --diff or --baseline");
     }
@@ -68,7 +74,8 @@ void add_comparison(CLI::App& app, Arguments& arguments) {
     words += (words.empty() ? "" : ", ") + word;
   }
   app.add_option("--fail-on", comparison.fail_on,
-                 "Exit with 3 if the comparison finds one of these, separated by commas: " + words)
+                 "Exit with 3 if the comparison finds one of these, separated by commas: " + words +
+                     "; without a comparison: incomplete")
       ->option_text("WHAT")
       ->delimiter(',')
       ->allow_extra_args(false)
@@ -162,7 +169,7 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
   app.add_option("--to", to, "Only what begins before this time")->excludes(json)->excludes(summary);
   app.footer(
       "Exit code: 0, 1 when the trace can't be read (to its end) or the output can't be written, 2 for wrong "
-      "arguments, 3 when a comparison fails on what --fail-on names.");
+      "arguments, 3 when it fails on what --fail-on names.");
   try {
     app.parse(argc, argv);
     check_comparison(app, arguments);

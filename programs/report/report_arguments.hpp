@@ -14,7 +14,7 @@
 
 namespace report {
 
-enum ExitCode { kSuccess = 0, kFailure = 1, kUsage = 2, kComparisonFailed = 3 };
+enum ExitCode { kSuccess = 0, kFailure = 1, kUsage = 2, kFailedOn = 3 };
 
 struct Arguments {
   std::vector<std::string> directories;

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// `launch explain`: tells what the findings of `launch check` mean.
+// `launch explain`: tells what the findings of `launch check` mean, and the reasoning of those of `launch report`.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <string>
 #include <string_view>
 
+#include "base/text/ascii.hpp"
 #include "programs/command_line/result_output.hpp"
 #include "programs/command_line/subcommand.hpp"
 #include "programs/launch/check/finding_table.hpp"
 #include "programs/launch/command_functions.hpp"
+#include "tracing/model/finding_kinds/finding_kinds.hpp"
 
 namespace launch {
 
@@ -58,10 +60,28 @@ std::string explanation(const FindingInfo& info) {
   return text;
 }
 
+// "Drifting timer" of a report is "drifting_timer" in its JSON; either is understood, in upper or lower case.
+const tracing::FindingWords* find_words(std::string_view name) {
+  const auto plain = [](std::string_view text) {
+    std::string result = lower(text);
+    std::replace(result.begin(), result.end(), ' ', '_');
+    return result;
+  };
+  const auto found = std::find_if(std::begin(tracing::kFindingWords), std::end(tracing::kFindingWords),
+                                  [&](const tracing::FindingWords& words) {
+                                    return plain(name) == words.name || plain(name) == plain(words.title);
+                                  });
+  return found == std::end(tracing::kFindingWords) ? nullptr : found;
+}
+
 std::string list() {
   std::string text;
   for (const FindingInfo& info : finding_table()) {
     text += fmt::format("{}  {:7}  {}\n", finding_id(info.finding), severity_name(info.severity), info.title);
+  }
+  text += "\nof launch report:\n";
+  for (const tracing::FindingWords& words : tracing::kFindingWords) {
+    text += fmt::format("{:20} {}\n", words.name, words.title);
   }
   return text;
 }
@@ -93,15 +113,20 @@ Words finding_words(const Words& /*words*/) {
   for (const FindingInfo& info : finding_table()) {
     ids.push_back(finding_id(info.finding));
   }
+  for (const tracing::FindingWords& words_of : tracing::kFindingWords) {
+    ids.emplace_back(words_of.name);
+  }
   return ids;
 }
 
 int explain_command(const Words& words) {
   std::string id;
   bool markdown = false;
-  Subcommand command("launch explain",
-                     "Explains a finding of launch check, with an example. Without an id: lists all.");
-  command.take_text("id", id, "id of the finding, such as LF0101");
+  Subcommand command(
+      "launch explain",
+      "Explains a finding of launch check, with an example, or one of launch report. Without an id: lists "
+      "all.");
+  command.take_text("id", id, "id of the finding, such as LF0101, or its name: drifting_timer");
   command.take_flag("--markdown", markdown, "all explanations as a page");
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;
@@ -111,6 +136,8 @@ int explain_command(const Words& words) {
     result.print(page());
   } else if (id.empty()) {
     result.print(list());
+  } else if (const tracing::FindingWords* const of_report = find_words(id)) {
+    result.print(fmt::format("{}: {}\n\n{}", of_report->name, of_report->title, wrapped(of_report->explanation)));
   } else if (const auto finding = find_finding(id)) {
     result.print(explanation(finding_info(*finding)));
   } else {

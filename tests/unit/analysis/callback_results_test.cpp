@@ -16,7 +16,7 @@ TEST_F(CallbackResults, NameTheOwnerAndComeByOwner) {
   callbacks.end({1, 1}, active, 0xee, 130);
   callbacks.start({1, 1}, active, {0xcb, 0, 140, false});
   callbacks.abandon({1, 1}, active, 150);
-  const std::vector<CallbackResult> results = callback_results(subjects, callbacks, timing);
+  const std::vector<CallbackResult> results = callback_results(subjects, callbacks, timing, HoldUps(model));
   ASSERT_EQ(results.size(), 2u);
   EXPECT_EQ(results[0].id, 0u);
   EXPECT_EQ(results[0].owner, CallbackResult::Owner::kSubscription);
@@ -38,7 +38,7 @@ TEST_F(CallbackResults, LeaveOutACallbackThatNeverRan) {
   std::vector<ActiveCallback> active;
   callbacks.start({1, 1}, active, {0xee, 1, 100, false});
   callbacks.end({1, 1}, active, 0xee, 130);
-  EXPECT_EQ(callback_results(subjects, callbacks, CallbackTiming(model)).size(), 1u);
+  EXPECT_EQ(callback_results(subjects, callbacks, CallbackTiming(model), HoldUps(model)).size(), 1u);
 }
 
 }  // namespace

@@ -85,6 +85,37 @@ TEST(OverviewCounter, PutsEventsWithoutVpidTogether) {
   EXPECT_EQ(overview.processes[0].events, 2u);
 }
 
+// A machine has thousands of processes that only the kernel's events show.
+TEST(OverviewCounter, FoldsWhatTheKernelAloneShowsBehindTheOthers) {
+  const EventClass sched{"sched_switch", 3, 0, {"prev_tid", "next_tid"}};
+  OverviewCounter counter;
+  for (std::int64_t id = 1; id <= 1'000; ++id) {
+    counter.on_event(event_of(sched, id, id, id, "kworker/" + std::to_string(id)));
+    counter.on_event(event_of(sched, id, 2'000 + id, 2'000 + id, ""));
+  }
+  counter.on_event(event_of(sched, 2'000, 5'001, 5'001, "sshd"));
+  counter.on_event(event_of(kTake, 3'000, 9'071, 9'071, "ping"));
+  counter.on_event(event_of(sched, 3'000, 9'071, 9'071, "ping"));
+
+  const TraceOverview overview = counter.overview();
+
+  ASSERT_EQ(overview.processes.size(), 4u);
+  EXPECT_EQ(overview.processes[0].name, "ping");
+  EXPECT_EQ(overview.processes[0].vpid, 9'071);
+  EXPECT_EQ(overview.processes[0].folded, 0u);
+  EXPECT_EQ(overview.processes[0].events, 2u);
+  EXPECT_EQ(overview.processes[1].name, "");
+  EXPECT_EQ(overview.processes[1].folded, 1'000u);
+  EXPECT_EQ(overview.processes[1].vpid, std::nullopt);
+  EXPECT_EQ(overview.processes[2].name, "kworker");
+  EXPECT_EQ(overview.processes[2].events, 1'000u);
+  EXPECT_EQ(overview.processes[3].name, "sshd");
+  EXPECT_EQ(overview.processes[3].vpid, 5'001) << "it is alone";
+  EXPECT_EQ(overview.folded_processes(), 2'001u);
+  EXPECT_THAT(overview.event_counts[1].by_process, ElementsAre(1, 1'000, 1'000, 1));
+  EXPECT_EQ(counter.places().size(), 2'002u);
+}
+
 Loss loss_of(const Stream& stream, Loss::Kind kind, std::optional<std::uint64_t> count, std::int64_t begin,
              std::int64_t end) {
   return {kind, &stream, begin, end, count};

@@ -95,6 +95,21 @@ TEST_F(LaunchTraceRead, SaysThatATraceIsStillBeingWritten) {
   EXPECT_EQ(lines(result.out), testing::ping_pong_sequence().size());
 }
 
+TEST_F(LaunchTraceRead, FailsOnLostEventsIfThatIsAskedFor) {
+  const std::filesystem::path trace = path() / "lossy";
+  testing::TraceWriter writer(trace, {.identity = 4});
+  writer.write(0, 5, testing::kPing, ros2::RclTake{9});
+  writer.end_packet(0);
+  writer.discard_events(0, 3);
+  writer.write(0, 6, testing::kPing, ros2::RclTake{9});
+  writer.finish();
+  EXPECT_EQ(read({trace, "--count"}).exit_code, 0);
+  const CommandResult result = read({trace, "--count", "--fail-on", "incomplete"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_EQ(result.err, "launch trace read: error: the trace is incomplete: events were lost\n");
+  EXPECT_EQ(read({path(), "--fail-on", "slower"}).exit_code, 2);
+}
+
 // LTTng writes the description of an event later than the event.
 TEST_F(LaunchTraceRead, SaysThatEventsOfAnOpenTraceAreNotDescribedYet) {
   const std::filesystem::path trace = path() / "open";

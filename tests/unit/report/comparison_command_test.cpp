@@ -207,7 +207,7 @@ TEST_F(ComparisonCommand, ChecksItsOptions) {
     EXPECT_EQ(line.substr(0, prefix.size()), prefix);
     return line.substr(std::min(line.size(), prefix.size()));
   };
-  EXPECT_EQ(usage_error(usual + " --fail-on slower"), "--fail-on: goes with --diff or --baseline");
+  EXPECT_EQ(usage_error(usual + " --fail-on slower"), "--fail-on: 'slower' goes with --diff or --baseline");
   EXPECT_EQ(usage_error(usual + " --append"), "--append: goes with --save-baseline");
   EXPECT_EQ(usage_error(usual + " --diff " + usual + " " + usual),
             "--diff: takes both traces itself; no other directory goes with it");

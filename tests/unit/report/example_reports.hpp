@@ -110,6 +110,7 @@ inline Report busy_report() {
   Ros2Results& ros2 = report.results.ros2;
 
   CallbackResult slow;
+  slow.id = 1;
   slow.node = "/slow";
   slow.owner = CallbackResult::Owner::kTimer;
   slow.period_ns = 100 * kMs;
@@ -119,6 +120,7 @@ inline Report busy_report() {
   slow.jitter = took(19, 10 * kMs, 100 * kMs, 120 * kMs);
   slow.missed = 1;
   CallbackResult often;
+  often.id = 2;
   often.process = 1;
   often.node = "/often";
   often.owner = CallbackResult::Owner::kSubscription;
@@ -126,6 +128,7 @@ inline Report busy_report() {
   often.durations = took(2'000, 20'000, 30'000, 40'000);
   often.rate_hz = 17'980;
   CallbackResult rare;
+  rare.id = 3;
   rare.process = 1;
   rare.node = "/rare";
   rare.owner = CallbackResult::Owner::kService;

@@ -38,7 +38,8 @@ TEST(JsonReport, HoldsEverything) {
   EXPECT_EQ(json["begin_ns"], kBegin);
   EXPECT_EQ(json["events"], 10);
   EXPECT_EQ(json["processes"],
-            nlohmann::json::parse(R"json([{"vpid":71,"name":"ping","host":"","events":10,"doubtful":false}])json"));
+            nlohmann::json::parse(
+                R"json([{"vpid":71,"name":"ping","host":"","events":10,"folded":0,"doubtful":false}])json"));
   EXPECT_EQ(json["losses"], nlohmann::json::parse(R"json([{"stream":"/traces/run/ust/uid/0/64-bit/ros2_0","events":37,
       "packets":3,"uncounted":true,"begin_ns":1767225600500000000,"end_ns":1767225601500000000,
       "processes":[0]}])json"));
@@ -69,7 +70,7 @@ TEST(JsonReport, HoldsEverything) {
   EXPECT_EQ(json["topics"][0]["latency"]["p50_ns"], 140'000);
   EXPECT_EQ(json["topics"][1]["latency"], nlohmann::json::parse(R"json({"count":0})json"));
   EXPECT_HOLDS(json["callbacks"][1], R"json({"short_symbol":"Node::on_image","rate_hz":0.0,"interval":{"count":0},
-      "allocations":null,"allocated_bytes":0,"doubtful":false})json");
+      "allocations":null,"allocated_bytes":0,"held_up_by":"","held_up":0,"held_up_ns":0,"doubtful":false})json");
   EXPECT_EQ(json["unknown_messages"], 4);
   EXPECT_EQ(json["warnings"][0], "ros2:rmw_publish has no field timestamp");
 }
@@ -94,8 +95,9 @@ TEST(JsonReport, HoldsWaysChainsExecutorsAndStates) {
   EXPECT_HOLDS(json["lifecycle"][1], R"json({"vpid":72,"process":1,"node":"/rare","state":"active",
       "begin_ns":1767225600100000000,"end_ns":1767225602000000000,"ended":false,"allocations":null})json");
   EXPECT_EQ(json["has_all_chains"], true);
-  EXPECT_HOLDS(json["findings"][0], R"json({"kind":"worst_jitter","subject":"/slow, timer 100 ms",
-      "figures":"up to 120 ms off its period, at p99 100 ms; 1 period missed"})json");
+  EXPECT_HOLDS(json["findings"][0], R"json({"kind":"busiest_executor","subject":"/slow [71]",
+      "figures":"95 % busy, once for 80.0 ms in /slow, timer 100 ms",
+      "next":"give some of its nodes an executor of their own, or it several threads"})json");
 }
 
 TEST(JsonReport, SurvivesNamesThatAreNoUtf8) {

@@ -107,6 +107,31 @@ Executors       busy  callbacks  longest busy                   in
 )");
 }
 
+TEST_F(LaunchReport, FailsOnLostEventsIfThatIsAskedFor) {
+  TraceWriter writer(directory_.path() / "ust/uid/0/64-bit");
+  write_ping_pong(writer);
+  writer.end_packet(0);
+  writer.discard_events(0, 12);
+  writer.write(0, testing::kPingPongBegin + 600'000'000, testing::kPing, ros2::RclTake{1});
+  writer.finish();
+  EXPECT_EQ(launch_report(path_).exit_code, 0);
+  for (const char* output : {"", " --json", " --summary"}) {
+    const Outcome outcome = launch_report(path_ + " --fail-on incomplete" + output);
+    EXPECT_EQ(outcome.exit_code, 3) << output;
+    EXPECT_THAT(outcome.err, HasSubstr("launch report: error: the trace is incomplete: 12 events lost")) << output;
+  }
+  EXPECT_EQ(launch_report(path_ + " --fail-on incomplete --html " + path_ + "/page.html").exit_code, 3);
+}
+
+TEST_F(LaunchReport, DoesNotFailOnAWholeTrace) {
+  TraceWriter writer(directory_.path() / "ust/uid/0/64-bit");
+  write_ping_pong(writer);
+  writer.finish();
+  EXPECT_EQ(launch_report(path_ + " --fail-on incomplete").exit_code, 0);
+  std::ofstream(directory_.path() / "verdict.json") << R"json({"absent": ["camera [12] was never registered"]})json";
+  EXPECT_EQ(launch_report(path_ + " --fail-on incomplete").exit_code, 3);
+}
+
 TEST_F(LaunchReport, WhatTheVerdictMissesIsRepeated) {
   TraceWriter writer(directory_.path() / "ust/uid/0/64-bit");
   write_ping_pong(writer);

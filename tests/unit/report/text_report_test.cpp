@@ -33,9 +33,8 @@ Events     10 of 1 process
 Losses     no events lost
 
 Worth a look
-  Rare slowness     /ns/node, subscription /camera/front/image_raw/compressed
-                    usually takes 1.40 us, at p99 3.00 us, at most 99.0 ms
   No response       /add: 1 of 2 requests from /ns/node got no response
+                    next: no service took them: let the client wait for the service
 
 Callbacks                             rate  count      p50      p99      max  jitter  missed    load
   /ns/node, subscr..e_raw/compressed     -  70000  1.40 us  3.00 us  99.0 ms       -       -  5.25 %
@@ -184,13 +183,19 @@ Events     50000 of 2 processes
 Losses     no events lost
 
 Worth a look
-  Worst jitter      /slow, timer 100 ms: up to 120 ms off its period, at p99 100 ms; 1 period missed
   Busiest executor  /slow [71]: 95 % busy, once for 80.0 ms in /slow, timer 100 ms
+                    next: give some of its nodes an executor of their own, or it several threads
+  Dominating        /slow, timer 100 ms
+                    its 20 runs take 50 % of the time, usually 50.0 ms each, at most 70.0 ms
+                    next: shorten /slow, timer 100 ms (Slow..mer), or give it an executor of its own
   Dropped messages  /scan to /often
                     40 of 2040: 30 pushed out of its queue, 8 lost by the publisher, 2 not executed
-  Slowest chain     /slow -> /often: 2 steps take 41.0 ms, at p99 48.0 ms, at most 55.0 ms
+                    next: a longer queue than 0, or shorter callbacks in its thread
   Longest wait      /scan to /often
                     messages wait 100 us for a busy executor, at p99 2.00 ms of 3.00 ms in all
+                    next: launch report DIR --html FILE shows what its thread does meanwhile
+  No response       /reset: 1 of 10 requests from /slow got no response
+                    next: does the callback of /rare answer each request, and does the client spin?
 
 Chains                           count      p50      p99      max  reaction p99  age max
   /slow -> /often  timer 100 ms     20  41.0 ms  48.0 ms  55.0 ms        148 ms  55.0 ms

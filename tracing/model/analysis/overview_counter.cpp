@@ -13,7 +13,20 @@ constexpr const char* kLoggerField = "logger_name";
 // A program may make a logger for each thing that it does. The others are counted together.
 constexpr std::size_t kMostLoggers = 200;
 
+// "kworker" of "kworker/0:1", "ksoftirqd" of "ksoftirqd/1": the kernel's threads are numbered.
+std::string group_name(const std::string& name) {
+  return name.substr(0, name.find_first_of("/:"));
+}
+
 }  // namespace
+
+std::uint64_t TraceOverview::folded_processes() const {
+  std::uint64_t sum = 0;
+  for (const ProcessResult& process : processes) {
+    sum += process.folded;
+  }
+  return sum;
+}
 
 std::uint64_t TraceOverview::lost_events() const {
   std::uint64_t sum = 0;
@@ -106,51 +119,70 @@ void OverviewCounter::on_loss(const Loss& loss) {
 std::vector<ProcessId> OverviewCounter::processes_that_lost(const CountedLoss& loss) const {
   std::vector<ProcessId> in_trace;
   std::vector<ProcessId> with_the_id;  // a process whose events were all lost has none in the trace
-  for (const ProcessId process : order()) {
-    const bool has_the_id = !loss.vpid || processes_.processes()[process].vpid == loss.vpid;
-    if (!has_the_id) {
-      continue;
-    }
-    with_the_id.push_back(process);
-    const bool has_events = std::any_of(classes_.begin(), classes_.end(), [&](const CountedClass& counted) {
-      return counted.trace == loss.trace && process < counted.by_process.size() && counted.by_process[process] > 0;
-    });
-    if (has_events) {
-      in_trace.push_back(process);
+  for (const Row& row : rows()) {
+    for (const ProcessId process : row.processes) {
+      const bool has_the_id = !loss.vpid || processes_.processes()[process].vpid == loss.vpid;
+      if (!has_the_id) {
+        continue;
+      }
+      with_the_id.push_back(process);
+      const bool has_events = std::any_of(classes_.begin(), classes_.end(), [&](const CountedClass& counted) {
+        return counted.trace == loss.trace && process < counted.by_process.size() && counted.by_process[process] > 0;
+      });
+      if (has_events) {
+        in_trace.push_back(process);
+      }
     }
   }
   return in_trace.empty() && loss.vpid ? with_the_id : in_trace;
 }
 
 // The processes that have events, in the order of the overview.
-std::vector<ProcessId> OverviewCounter::order() const {
-  std::vector<ProcessId> order;
-  std::vector<std::string> hosts;
-  for (ProcessId process = 0; process < processes_.processes().size(); ++process) {
-    hosts.push_back(processes_.host_of(process));
-    if (processes_.processes()[process].merged_into != kNoProcess) {
-      continue;
-    }
-    const bool has_events = std::any_of(classes_.begin(), classes_.end(), [&](const CountedClass& counted) {
-      return process < counted.by_process.size() && counted.by_process[process] > 0;
-    });
-    if (has_events) {
-      order.push_back(process);
+std::vector<OverviewCounter::Row> OverviewCounter::rows() const {
+  const std::size_t count = processes_.processes().size();
+  std::vector<bool> has_events(count);
+  std::vector<bool> has_own_events(count);
+  for (const CountedClass& counted : classes_) {
+    const bool of_kernel = counted.name.find(':') == std::string::npos;  // the others have a provider
+    for (ProcessId process = 0; process < std::min(count, counted.by_process.size()); ++process) {
+      if (counted.by_process[process] > 0) {
+        has_events[process] = true;
+        has_own_events[process] = has_own_events[process] || !of_kernel;
+      }
     }
   }
-  std::stable_sort(order.begin(), order.end(), [&](ProcessId left, ProcessId right) {
-    const ProcessObject& a = processes_.processes()[left];
-    const ProcessObject& b = processes_.processes()[right];
-    return std::tie(hosts[left], a.vpid) < std::tie(hosts[right], b.vpid);
+  std::vector<Row> rows;
+  std::map<std::pair<std::string, std::string>, std::vector<ProcessId>> of_kernel;  // by host and name
+  for (ProcessId process = 0; process < count; ++process) {
+    const ProcessObject& known = processes_.processes()[process];
+    if (known.merged_into != kNoProcess || !has_events[process]) {
+      continue;
+    }
+    if (has_own_events[process]) {
+      rows.push_back({{process}, known.name, processes_.host_of(process), false});
+    } else {
+      of_kernel[{processes_.host_of(process), group_name(known.name)}].push_back(process);
+    }
+  }
+  std::stable_sort(rows.begin(), rows.end(), [&](const Row& left, const Row& right) {
+    const auto& vpid = [this](const Row& row) { return processes_.processes()[row.processes.front()].vpid; };
+    return std::tuple(left.host, vpid(left)) < std::tuple(right.host, vpid(right));
   });
-  return order;
+  for (auto& [host_and_name, processes] : of_kernel) {
+    const bool is_one = processes.size() == 1;
+    const std::string name = is_one ? processes_.processes()[processes.front()].name : host_and_name.second;
+    rows.push_back({std::move(processes), name, host_and_name.first, true});
+  }
+  return rows;
 }
 
 std::vector<std::optional<ProcessIndex>> OverviewCounter::places() const {
   std::vector<std::optional<ProcessIndex>> places(processes_.processes().size());
-  const std::vector<ProcessId> ordered = order();
+  const std::vector<Row> ordered = rows();
   for (ProcessIndex place = 0; place < ordered.size(); ++place) {
-    places[ordered[place]] = place;
+    for (const ProcessId process : ordered[place].processes) {
+      places[process] = place;
+    }
   }
   for (ProcessId process = 0; process < places.size(); ++process) {
     ProcessId shown = process;
@@ -169,9 +201,13 @@ TraceOverview OverviewCounter::overview() const {
     result.begin_ns = begin_ns_;
     result.end_ns = end_ns_;
   }
-  for (const ProcessId process : order()) {
-    const ProcessObject& known = processes_.processes()[process];
-    result.processes.push_back({known.vpid, known.name, 0, false, processes_.host_of(process)});
+  for (const Row& row : rows()) {
+    ProcessResult process{.name = row.name, .host = row.host};
+    process.folded = row.of_kernel_alone ? row.processes.size() : 0;
+    if (row.processes.size() == 1) {
+      process.vpid = processes_.processes()[row.processes.front()].vpid;
+    }
+    result.processes.push_back(std::move(process));
   }
   const std::vector<std::optional<ProcessIndex>> place = places();
 
@@ -208,6 +244,7 @@ TraceOverview OverviewCounter::overview() const {
       loss.processes.push_back(*place[process]);
     }
     std::sort(loss.processes.begin(), loss.processes.end());
+    loss.processes.erase(std::unique(loss.processes.begin(), loss.processes.end()), loss.processes.end());
     for (const std::size_t process : loss.processes) {
       result.processes[process].doubtful = true;
     }

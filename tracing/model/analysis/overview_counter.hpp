@@ -33,7 +33,8 @@ class OverviewCounter : public TraceSink {
     return process;
   }
   const ProcessTable& processes() const { return processes_; }
-  // Where each process is in the processes of the overview; nullopt when it is not there.
+  // Where each process is in the processes of the overview; nullopt when it is not there. Processes that the kernel's
+  // events alone show stand behind the others, those of one name at one place: a machine has thousands.
   std::vector<std::optional<ProcessIndex>> places() const;
 
  private:
@@ -53,7 +54,14 @@ class OverviewCounter : public TraceSink {
 
   void count(const Event& event, ProcessId process);
   void count_logger(const Event& event, ProcessId process);
-  std::vector<ProcessId> order() const;
+  // A process of the overview.
+  struct Row {
+    std::vector<ProcessId> processes;  // one, or those of a name that the kernel's events alone show
+    std::string name;
+    std::string host;
+    bool of_kernel_alone = false;
+  };
+  std::vector<Row> rows() const;
   std::vector<ProcessId> processes_that_lost(const CountedLoss& loss) const;
 
   std::uint64_t events_ = 0;

@@ -11,6 +11,7 @@ namespace tracing {
 Ros2Analysis::Ros2Analysis(ExecutionSink* sink, std::vector<ChainDefinition> chains) {
   chains_.define(model_, std::move(chains));
   sinks_.add(&timing_);
+  sinks_.add(&hold_ups_);
   sinks_.add(&deliveries_);
   sinks_.add(&executors_);
   sinks_.add(&chains_);
@@ -29,7 +30,7 @@ Ros2Results Ros2Analysis::finish(std::vector<std::optional<ProcessIndex>> places
 
   const Subjects subjects(model_, std::move(places), processes, join_.last_ns());
   Ros2Results results;
-  results.callbacks = callback_results(subjects, join_.callbacks(), timing_);
+  results.callbacks = callback_results(subjects, join_.callbacks(), timing_, hold_ups_);
   results.topics = topic_results(subjects, join_.messages().through_middleware(), deliveries_);
   results.subscriptions = subscription_results(subjects, deliveries_, join_.messages().within_processes());
   results.calls = call_results(subjects, join_.calls());

@@ -18,6 +18,7 @@
 #include "tracing/model/execution/execution_sink.hpp"
 #include "tracing/model/execution/executor_load.hpp"
 #include "tracing/model/execution/first_activity.hpp"
+#include "tracing/model/execution/hold_ups.hpp"
 #include "tracing/model/execution/scheduler_tracker.hpp"
 #include "tracing/model/execution/sink_list.hpp"
 #include "tracing/model/messages/chain_tracker.hpp"
@@ -69,6 +70,7 @@ class Ros2Analysis {
  private:
   ObjectModel model_;
   CallbackTiming timing_{model_};
+  HoldUps hold_ups_{model_};
   DeliveryStatistics deliveries_{model_};
   ExecutorLoad executors_;
   ChainTracker chains_;

@@ -216,6 +216,9 @@ Json processes(const Timeline& timeline, const TraceOverview& overview) {
   Json list = Json::array();
   for (const timeline::Process& process : timeline.processes) {
     ProcessResult result = process.place ? overview.processes[*process.place] : ProcessResult{};
+    if (result.folded > 1) {
+      result = {.folded = 1};  // the counts are those of all
+    }
     result.vpid = process.vpid;
     result.name = process.name;
     result.host = process.host;

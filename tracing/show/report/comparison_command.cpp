@@ -50,7 +50,7 @@ compare::RunSummary read_run(const std::vector<fs::path>& directories) {
   compare::RunSummary run = recorder.finish(analysis, results);
   run.directory = directories.front().native();
   const RecordedVerdict verdict = read_verdicts(directories);
-  if (!results.overview.losses.empty() || verdict.discarded_events > 0 || verdict.lost_packets > 0) {
+  if (has_losses(results.overview, verdict)) {
     run.remark = loss_phrase(results.overview, verdict);
   }
   if (error.empty()) {

@@ -72,7 +72,11 @@ std::vector<EventColumn> event_columns(const TraceOverview& overview) {
       others.processes.push_back(process);
     }
   }
-  others.title = fmt::format("{} of the kernel alone", others.processes.size());
+  std::uint64_t folded = 0;
+  for (const std::size_t process : others.processes) {
+    folded += std::max<std::uint64_t>(overview.processes[process].folded, 1);
+  }
+  others.title = fmt::format("{} of the kernel alone", folded);
   if (!others.processes.empty()) {
     columns.push_back(std::move(others));
   }

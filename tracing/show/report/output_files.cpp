@@ -14,6 +14,7 @@
 #include "tracing/show/export/output_file.hpp"
 #include "tracing/show/page/page.hpp"
 #include "tracing/show/report/read_system.hpp"
+#include "tracing/show/report/report.hpp"
 
 namespace tracing {
 
@@ -121,6 +122,7 @@ WrittenFiles write_files(const std::vector<fs::path>& directories, const OutputF
   WrittenFiles written;
   written.error = system.error;
   written.open = system.open;
+  written.incomplete = incomplete_phrase(system.results.overview, system.verdict);
   const auto add_line = [&written](const fs::path& file, const std::string& note) {
     std::error_code failed;
     const std::uintmax_t size = fs::file_size(file, failed);

@@ -53,6 +53,7 @@ struct WrittenFiles {
   std::vector<std::string> lines;  // for people: "trace.html: 1.2 MB", "trace.html: 13.9 MB, the first 12.3 s of 100 s"
   std::string error;               // why reading stopped early; the files hold what was read before it
   std::vector<std::filesystem::path> open;  // traces that were still being written
+  std::string incomplete;                   // incomplete_phrase()
 };
 
 // A page with more instances and messages than this would be too large for a browser; it holds the first of them.

@@ -65,4 +65,12 @@ std::string summary_line(const TraceOverview& overview, const RecordedVerdict& v
 // The part of the summary about losses: "none lost", "at least 37 events lost", "some events lost".
 std::string loss_phrase(const TraceOverview& overview, const RecordedVerdict& verdict = {});
 
+// "2 processes", "1 process and 6911 more of the kernel's events"
+std::string processes_phrase(const TraceOverview& overview);
+
+bool has_losses(const TraceOverview& overview, const RecordedVerdict& verdict);
+
+// What `--fail-on incomplete` fails on, beside damage: losses, or what the verdict says was not there. Empty: nothing.
+std::string incomplete_phrase(const TraceOverview& overview, const RecordedVerdict& verdict);
+
 }  // namespace tracing

@@ -11,6 +11,20 @@
 
 namespace tracing {
 
+std::string processes_phrase(const TraceOverview& overview) {
+  const auto folded = static_cast<std::size_t>(std::count_if(overview.processes.begin(), overview.processes.end(),
+                                                             [](const auto& one) { return one.folded > 0; }));
+  std::string text = format_count(overview.processes.size() - folded, "process");
+  if (folded > 0) {
+    text += fmt::format(" and {} more of the kernel's events", overview.folded_processes());
+  }
+  return text;
+}
+
+bool has_losses(const TraceOverview& overview, const RecordedVerdict& verdict) {
+  return !overview.losses.empty() || verdict.discarded_events > 0 || verdict.lost_packets > 0;
+}
+
 std::string loss_phrase(const TraceOverview& overview, const RecordedVerdict& verdict) {
   const std::uint64_t events = std::max(overview.lost_events(), verdict.discarded_events);
   const std::uint64_t packets = std::max(overview.lost_packets(), verdict.lost_packets);
@@ -31,6 +45,13 @@ std::string loss_phrase(const TraceOverview& overview, const RecordedVerdict& ve
     text += ", " + overwritten;
   }
   return text;
+}
+
+std::string incomplete_phrase(const TraceOverview& overview, const RecordedVerdict& verdict) {
+  if (has_losses(overview, verdict)) {
+    return loss_phrase(overview, verdict);
+  }
+  return verdict.absences.empty() ? "" : verdict.absences.front();
 }
 
 namespace {
@@ -65,9 +86,8 @@ std::string summary_line(const TraceOverview& overview, const RecordedVerdict& v
   if (overview.events == 0 && overview.losses.empty()) {
     return "no events";
   }
-  return fmt::format("{}, {}, {}{}", format_count(overview.events, "event"),
-                     format_count(overview.processes.size(), "process"), loss_phrase(overview, verdict),
-                     doubtful_phrase(overview));
+  return fmt::format("{}, {}, {}{}", format_count(overview.events, "event"), processes_phrase(overview),
+                     loss_phrase(overview, verdict), doubtful_phrase(overview));
 }
 
 std::vector<std::string> absences_of(const Report& report) {

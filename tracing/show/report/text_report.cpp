@@ -16,7 +16,7 @@ namespace tracing {
 
 namespace {
 
-constexpr std::size_t kFindings = 5;
+constexpr std::size_t kFindings = 8;
 
 // Those whose cost is measured. Names of kernel events have no provider.
 std::uint64_t userspace_events(const TraceOverview& overview) {
@@ -60,7 +60,7 @@ std::string head(const Report& report, bool color) {
     text += fmt::format("Recorded   {}, for {}\n", format_time(*overview.begin_ns),
                         format_duration(static_cast<double>(*overview.end_ns - *overview.begin_ns)));
   }
-  text += fmt::format("Events     {} of {}\n", overview.events, format_count(overview.processes.size(), "process"));
+  text += fmt::format("Events     {} of {}\n", overview.events, processes_phrase(overview));
   text += cost_line(report);
   const bool doubtful = !overview.losses.empty();
   const RecordedVerdict& verdict = report.verdict;
@@ -103,7 +103,7 @@ std::string finding_section(const Report& report, const ReportOptions& options) 
     const std::string title = fmt::format("  {:{}}", finding.title(), kTitle);
     const std::size_t room = options.width - title.size();
     text += styled(title, style, options.color);
-    // One line if it fits, else two, or one that is cut.
+    // One line if it fits, else two, or one that is cut. Then what to do, where there is room.
     if (finding.subject.size() + 2 + finding.figures.size() <= room) {
       text += finding.subject + ": " + finding.figures + "\n";
     } else if (!options.compact) {
@@ -112,6 +112,9 @@ std::string finding_section(const Report& report, const ReportOptions& options) 
     } else {
       const std::string subject = shortened(finding.subject, room / 2);
       text += subject + ": " + finding.figures.substr(0, room - subject.size() - 4) + "..\n";
+    }
+    if (!options.compact && !finding.next.empty()) {
+      text += fmt::format("{:{}}{}\n", "", title.size(), shortened("next: " + finding.next, room));
     }
   }
   return text;

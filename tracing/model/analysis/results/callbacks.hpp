@@ -33,6 +33,10 @@ struct CallbackResult {
   std::int64_t longest_runnable_ns = 0;
   std::string ran_instead;
   std::int64_t ran_instead_ns = 0;
+  std::optional<std::uint32_t> held_up_by_id;  // as `id`
+  std::string held_up_by;
+  std::uint64_t held_up = 0;
+  std::int64_t held_up_ns = 0;
   bool doubtful = false;
 
   const char* owner_word() const;
@@ -96,6 +100,12 @@ inline constexpr Field<CallbackResult> CallbackResult::kFields[] = {
      trait::kPlain, &CallbackResult::has_thread_states},
     {"ran_instead_ns", &CallbackResult::ran_instead_ns, "for how long", trait::kPlain,
      &CallbackResult::has_thread_states},
+    {"held_up_by", &CallbackResult::held_up_by,
+     "the callback of the same thread that ran for most of the time in which this one was due: its timer, or a "
+     "message; "
+     "empty: none"},
+    {"held_up", &CallbackResult::held_up, "how many of its calls that callback held up"},
+    {"held_up_ns", &CallbackResult::held_up_ns, "for how long in all"},
     {"doubtful", &CallbackResult::doubtful, "its process may have lost events"},
 };
 

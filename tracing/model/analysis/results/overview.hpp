@@ -12,14 +12,20 @@ struct ProcessResult {
   std::uint64_t events = 0;
   bool doubtful = false;
   std::string host;
+  std::uint64_t folded = 0;  // 0: it has events of its own
 
   static const Field<ProcessResult> kFields[];
 };
 inline constexpr Field<ProcessResult> ProcessResult::kFields[] = {
-    {"vpid", &ProcessResult::vpid, "`null`: all events that were recorded without the context `vpid`"},
+    {"vpid", &ProcessResult::vpid,
+     "`null`: all events that were recorded without the context `vpid`, or of several processes"},
     {"name", &ProcessResult::name, "`procname` of its main thread, else of the first thread seen"},
     {"host", &ProcessResult::host, "name of the machine"},
     {"events", &ProcessResult::events, ""},
+    {"folded", &ProcessResult::folded,
+     "how many processes of this name have events of the kernel alone; these stand behind the others. 0: one process "
+     "with events of its own",
+     trait::kNotOnPage},
     {"doubtful", &ProcessResult::doubtful, "a buffer that the process may have used lost events"},
 };
 
@@ -68,10 +74,11 @@ struct TraceOverview {
   std::uint64_t events = 0;
   std::optional<std::int64_t> begin_ns;  // first event, nullopt when there is none
   std::optional<std::int64_t> end_ns;    // last event
-  std::vector<ProcessResult> processes;  // by host and vpid
+  std::vector<ProcessResult> processes;  // by host and vpid; then those of the kernel's events alone, by host and name
   std::vector<EventCount> event_counts;  // by name
   std::vector<LossResult> losses;        // by stream; empty: nothing was lost
 
+  std::uint64_t folded_processes() const;  // that have events of the kernel alone
   std::uint64_t lost_events() const;
   std::uint64_t lost_packets() const;
   bool lost_uncounted() const;

@@ -12,7 +12,7 @@ namespace tracing {
 namespace {
 
 CallbackResult callback_result(const Subjects& subjects, ObjectId id, const CallbackRecord& record,
-                               const CallbackTiming& timings) {
+                               const CallbackTiming& timings, const HoldUps& hold_ups) {
   const ObjectModel& model = subjects.model();
   const CallbackObject& callback = model.callbacks()[id];
   CallbackResult result;
@@ -41,6 +41,15 @@ CallbackResult callback_result(const Subjects& subjects, ObjectId id, const Call
       result.owner_name = model.clients()[callback.owner_id].name;
     }
   }
+  const HoldUpRecord::By* const held_up = id < hold_ups.records().size() ? hold_ups.records()[id].most() : nullptr;
+  if (held_up != nullptr) {
+    const CallbackObject& other = model.callbacks()[held_up->callback];
+    const std::string other_node = node_name(model, other);
+    result.held_up_by_id = held_up->callback;
+    result.held_up_by = (other_node.empty() ? "" : other_node + ", ") + callback_source(model, other);
+    result.held_up = held_up->count;
+    result.held_up_ns = held_up->ns;
+  }
   if (id >= timings.records().size()) {
     return result;
   }
@@ -66,10 +75,10 @@ CallbackResult callback_result(const Subjects& subjects, ObjectId id, const Call
 }  // namespace
 
 std::vector<CallbackResult> callback_results(const Subjects& subjects, const CallbackTracker& callbacks,
-                                             const CallbackTiming& timing) {
+                                             const CallbackTiming& timing, const HoldUps& hold_ups) {
   std::vector<CallbackResult> results;
   for (ObjectId id = 0; id < callbacks.records().size(); ++id) {
-    CallbackResult result = callback_result(subjects, id, callbacks.records()[id], timing);
+    CallbackResult result = callback_result(subjects, id, callbacks.records()[id], timing, hold_ups);
     if (result.durations.count > 0 || result.unfinished > 0) {
       results.push_back(std::move(result));
     }

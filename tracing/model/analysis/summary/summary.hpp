@@ -16,6 +16,7 @@
 #include "tracing/model/execution/allocation_counter.hpp"
 #include "tracing/model/execution/callback_timing.hpp"
 #include "tracing/model/execution/executor_load.hpp"
+#include "tracing/model/execution/hold_ups.hpp"
 #include "tracing/model/messages/chain_tracker.hpp"
 #include "tracing/model/messages/delivery_statistics.hpp"
 
@@ -57,7 +58,7 @@ class Subjects {
 };
 
 std::vector<CallbackResult> callback_results(const Subjects& subjects, const CallbackTracker& callbacks,
-                                             const CallbackTiming& timing);
+                                             const CallbackTiming& timing, const HoldUps& hold_ups);
 
 std::vector<TopicResult> topic_results(const Subjects& subjects, const MessageMatcher& messages,
                                        const DeliveryStatistics& deliveries);
