@@ -259,13 +259,13 @@ TEST(TraceReader, NamesTheTraceWhoseMetadataAreDamaged) {
   EXPECT_NE(error.details(), "");
 }
 
-TEST(TraceReader, SaysThatItDoesNotKnowCtf2) {
+TEST(TraceReader, SaysWhenItDoesNotKnowSomethingOfCtf2) {
   const TemporaryDirectory directory;
   std::ofstream(directory.path() / "metadata") << "\x1e"
-                                                  R"({"type": "preamble", "version": 2})";
+                                                  R"({"type": "preamble", "version": 3})";
   RecordingSink sink;
   EXPECT_EQ(error_of(directory.path(), sink).remedy(),
-            "it is a trace of CTF 2, and this reader knows CTF 1.8; babeltrace2 from version 2.1 on converts it");
+            "it is a trace of CTF 2 with something that this reader does not know; babeltrace2 from version 2.1 on converts it");
 }
 
 TEST(TraceReader, NamesTheStreamFileThatIsTruncated) {

@@ -8,7 +8,9 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
+#include "tracing/decode/ctf/ctf2_metadata.hpp"
 #include "tracing/decode/ctf/trace_class.hpp"
 
 namespace tracing::ctf {
@@ -27,6 +29,11 @@ std::uint32_t word(const std::string& bytes, std::size_t place, bool swapped) {
   return swapped ? __builtin_bswap32(value) : value;
 }
 
+MetadataText translated(const std::string& json, bool is_cut) {
+  Ctf2Metadata read = translate_ctf2(json);
+  return {std::move(read.text), is_cut || read.is_cut};
+}
+
 }  // namespace
 
 MetadataText read_metadata_text(const std::filesystem::path& file) {
@@ -35,6 +42,9 @@ MetadataText read_metadata_text(const std::filesystem::path& file) {
     throw UnsupportedTrace(fmt::format("'{}' can't be opened", file.string()));
   }
   const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  if (is_ctf2_metadata(bytes)) {
+    return translated(bytes, false);
+  }
   if (bytes.size() < sizeof kMagic) {
     return {bytes};
   }
@@ -49,8 +59,9 @@ MetadataText read_metadata_text(const std::filesystem::path& file) {
     if (word(bytes, begin, swapped) != kMagic) {
       throw UnsupportedTrace("a packet of the metadata has no magic number");
     }
-    if (bytes[begin + kVersionPlace] != 1 || bytes[begin + kVersionPlace + 1] != 8) {
-      throw UnsupportedTrace("the metadata are not CTF 1.8");
+    const int major = bytes[begin + kVersionPlace];
+    if (major != 2 && (major != 1 || bytes[begin + kVersionPlace + 1] != 8)) {
+      throw UnsupportedTrace("the metadata are not CTF 1.8 or 2");
     }
     if (bytes.substr(begin + kCompressionPlace, 3) != std::string(3, '\0')) {
       throw UnsupportedTrace("the metadata are compressed or encrypted");
@@ -64,7 +75,7 @@ MetadataText read_metadata_text(const std::filesystem::path& file) {
     begin += size;
   }
   read.is_cut = begin < bytes.size();
-  return read;
+  return is_ctf2_metadata(read.text) ? translated(read.text, read.is_cut) : read;
 }
 
 std::string read_metadata(const std::filesystem::path& file) {

@@ -28,7 +28,8 @@ std::string remedy_of(const fs::path& trace) {
   std::ifstream metadata(trace / "metadata", std::ios::binary);
   const auto first = metadata.get();
   if (first == kRecordSeparator || first == '{' || first == '[') {
-    return "it is a trace of CTF 2, and this reader knows CTF 1.8; babeltrace2 from version 2.1 on converts it";
+    return "it is a trace of CTF 2 with something that this reader does not know; babeltrace2 from version 2.1 on "
+           "converts it";
   }
   if (first == std::ifstream::traits_type::eof()) {
     return "its metadata are empty: a full disk or a killed session daemon leaves such a trace";
