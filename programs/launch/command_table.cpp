@@ -189,6 +189,11 @@ const std::vector<Command>& command_table() {
            },
        .completes_options = true},
       {.name = "trace read", .program = "launch-trace-read", .exit_status = kInHelp},
+      {.name = "twin",
+       .operand = "DIR",
+       .help = "makes stand-ins of a recorded system, and tells what would be if it were changed",
+       .program = "launch-twin",
+       .exit_status = kInHelp},
       {.name = "complete", .run = complete_command, .hidden = true},
       {.name = "list-commands", .run = list_commands, .hidden = true},
   };

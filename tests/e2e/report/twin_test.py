@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`launch twin` of a recorded example: the twin runs, and has the graph and the rates of what was recorded."""
+
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+EXAMPLES = Path(os.environ['SOURCE_DIRECTORY']) / 'launch_examples'
+PATIENCE = 120  # seconds
+
+
+class Twin(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.directory = Path(tempfile.mkdtemp(prefix='twin_test-'))
+        cls.addClassCleanup(shutil.rmtree, cls.directory)
+        cls.environment = {name: value for name, value in os.environ.items() if not name.startswith('ROS_')}
+        cls.environment.update(ROS_HOME=str(cls.directory), ROS_TRACE_DIR=str(cls.directory / 'traces'))
+        cls.launch('--isolate', EXAMPLES / '01_ping_pong.launch.xml', 'count:=40', 'period_ms:=50')
+        cls.trace = next((cls.directory / 'traces').glob('ping_pong-*'))
+
+    @classmethod
+    def launch(cls, *words, code=0):
+        run = subprocess.run([os.environ['LAUNCH_PROGRAM'], *words], env=cls.environment, text=True, stdout=subprocess.PIPE,
+                             stderr=subprocess.PIPE, timeout=PATIENCE)
+        assert run.returncode == code, (run.returncode, run.stdout, run.stderr)
+        return run
+
+    def graph(self, trace):
+        """{callback: its runs}, {topic: (publishers, subscriptions)} of the nodes /ping and /pong."""
+        report = json.loads(self.launch('report', trace, '--json').stdout)
+        callbacks = {(one['node'], one['owner'], one.get('topic', '')): one for one in report['callbacks']
+                     if one['node'] in ('/ping', '/pong') and one['owner'] in ('timer', 'subscription')}
+        topics = {one['name']: (one['publishers'], one['subscriptions']) for one in report['topics']
+                  if one['name'] in ('/ping', '/pong')}
+        return callbacks, topics
+
+    def test_the_twin_has_the_graph_and_the_rates(self):
+        folder = self.directory / 'twin'
+        run = self.launch('twin', self.trace, '-o', folder, '--run', '--json')
+        figures = {one['name']: one for one in json.loads(run.stdout)['figures']}
+        self.assertEqual(set(figures), {'/ping, timer 50 ms', '/ping, subscription /pong', '/pong, subscription /ping',
+                                        '/ping to /pong, subscription /ping', '/pong to /ping, subscription /pong'})
+        for name, one in figures.items():
+            with self.subTest(name):
+                self.assertGreater(one['run']['count'], 0)
+                # The stand-in works as long as the original did, or longer if other programs keep the machine busy.
+                if one['kind'] == 'callback':
+                    self.assertGreater(one['run']['p50_ns'], 0.8 * one['recorded']['p50_ns'])
+        recorded, recorded_topics = self.graph(self.trace)
+        of_twin, topics_of_twin = self.graph(next(folder.glob('twin-*')))
+        self.assertEqual(topics_of_twin, recorded_topics)
+        self.assertEqual(set(of_twin), set(recorded))
+        for name, one in of_twin.items():
+            with self.subTest(name):
+                self.assertAlmostEqual(one['rate_hz'], 20, delta=1)
+
+    def test_a_simulation_of_the_system_as_it_was_has_its_figures(self):
+        result = json.loads(self.launch('twin', self.trace, '--json', '--what-if', 'duration(/pong)*3').stdout)
+        for one in result['figures']:
+            with self.subTest(one['name']):
+                if one['kind'] == 'callback':
+                    self.assertAlmostEqual(one['simulated']['p50_ns'] / one['recorded']['p50_ns'], 1, delta=0.1)
+                    factor = 3 if one['name'] == '/pong, subscription /ping' else 1
+                    self.assertAlmostEqual(one['what_if']['p50_ns'] / one['recorded']['p50_ns'], factor, delta=0.1 * factor)
+
+    def test_writes_what_the_launcher_takes(self):
+        folder = self.directory / 'written'
+        text = self.launch('twin', self.trace, '-o', folder, '--what-if', 'executor=/pong:multi:3,priority=/ping:10').stdout
+        self.assertIn('2 processes, 2 nodes, 2 topics, 3 callbacks, 2 executors', text)
+        self.assertIn('a trace does not tell the sizes of messages', text)
+        self.launch('check', folder / 'twin.xml')
+        description = json.loads((folder / 'twin.json').read_text())
+        self.assertEqual(sorted((one['kind'], one['threads'], one['priority']) for one in description['executors']),
+                         [('multi', 3, 0), ('single', 1, 10)])
+
+    def test_points_at_a_mistake_in_a_change(self):
+        run = self.launch('twin', self.trace, '--what-if', 'executor=/pnog:multi', code=2)
+        self.assertIn("--what-if:1:10: error: the twin has no node '/pnog'", run.stderr)
+        self.assertIn("did you mean '/pong'?", run.stderr)
+        self.assertEqual(run.stdout, '')
+
+    def test_says_what_it_cannot_do(self):
+        run = self.launch('twin', self.directory, '--run', code=2)
+        self.assertIn('-o FOLDER', run.stderr)
+        empty = self.directory / 'empty'
+        empty.mkdir()
+        run = self.launch('twin', empty, code=1)
+        self.assertIn('launch twin: error: ', run.stderr)
+
+
+if __name__ == '__main__':
+    unittest.main()

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/model/twin/build_twin.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/trace_writer/example_system.hpp"
+#include "tests/support/trace_writer/temporary_directory.hpp"
+#include "tests/unit/twin/small_system.hpp"
+#include "tests/unit/twin/timeline_by_hand.hpp"
+#include "tracing/model/twin/figures.hpp"
+#include "tracing/model/twin/simulation.hpp"
+
+namespace tracing::twin {
+namespace {
+
+using testing::kMs;
+
+// The example of example_system.hpp, read from its files.
+class ExampleTwin : public ::testing::Test {
+ protected:
+  static Recording read() {
+    const ::tracing::testing::TemporaryDirectory directory;
+    ::tracing::testing::write_example_system(directory.path() / "trace", 100);
+    return read_recording(directory.path() / "trace");
+  }
+  const Callback& callback(const std::string& name) const {
+    const auto found = std::find_if(twin_.callbacks.begin(), twin_.callbacks.end(),
+                                    [&](const Callback& callback) { return callback.name == name; });
+    EXPECT_NE(found, twin_.callbacks.end()) << name;
+    return *found;
+  }
+
+  const Recording recording_ = read();
+  const System twin_ = build_twin(recording_, {.cpus = 2});
+};
+
+TEST_F(ExampleTwin, HasTheGraph) {
+  ASSERT_EQ(twin_.processes.size(), 3u);
+  ASSERT_EQ(twin_.executors.size(), 3u);
+  ASSERT_EQ(twin_.nodes.size(), 3u);
+  EXPECT_EQ(twin_.nodes[0].name, "/sensor");
+  const Callback& timer = callback("/sensor, timer 10 ms");
+  EXPECT_EQ(timer.period_ns, 10 * kMs);
+  EXPECT_EQ(timer.runs, 100u);
+  EXPECT_EQ(timer.run_times.quantile(0.5), 200'000);
+  ASSERT_EQ(timer.outputs.size(), 1u);
+  const Publisher& scan = twin_.publishers[timer.outputs[0].publisher];
+  EXPECT_EQ(twin_.topics[scan.topic].name, "/scan");
+  EXPECT_EQ(timer.outputs[0].rule, Output::Rule::kAlways);
+  EXPECT_DOUBLE_EQ(timer.outputs[0].sent, 0.5);
+  const Callback& filter = callback("/filter, subscription /scan");
+  EXPECT_EQ(filter.topic, scan.topic);
+  EXPECT_EQ(filter.run_times.quantile(0.5), 400'000);
+  EXPECT_EQ(filter.run_times.quantile(0.99), 4 * kMs);
+  EXPECT_EQ(filter.delays.quantile(0.5), 200'000);
+}
+
+TEST_F(ExampleTwin, SimulatedAsItWasHasItsFigures) {
+  const Figures recorded = figures_of(recording_, twin_);
+  const Figures simulated = Simulation(twin_).run(twin_.duration_ns);
+  EXPECT_EQ(recorded.size(), 5u);
+  for (const auto& [key, values] : recorded) {
+    ASSERT_TRUE(simulated.contains(key)) << key.name;
+    const FigureSummary was = summary_of(values);
+    const FigureSummary is = summary_of(simulated.at(key));
+    EXPECT_NEAR(static_cast<double>(is.median_ns), static_cast<double>(was.median_ns), 0.05 * was.median_ns)
+        << key.name;
+    EXPECT_NEAR(static_cast<double>(is.p99_ns), static_cast<double>(was.p99_ns), 0.05 * was.p99_ns) << key.name;
+  }
+}
+
+TEST_F(ExampleTwin, NamesWhatItLacks) {
+  std::string all;
+  for (const std::string& sentence : twin_.missing) {
+    all += sentence + "\n";
+  }
+  EXPECT_NE(all.find("/display has lifecycle states"), std::string::npos) << all;
+  EXPECT_NE(all.find("does not tell the sizes of messages"), std::string::npos);
+  EXPECT_NE(all.find("no events of the kernel's scheduler"), std::string::npos);
+}
+
+TEST(BuildTwin, ATimerStandsForWhatWasSentOutsideOfCallbacks) {
+  testing::HandRecording hand;
+  hand.add_process();
+  const timeline::Index node = hand.add_node("/loop");
+  hand.add_thread(1);
+  hand.recording.timeline.topics.push_back("/a");
+  hand.recording.timeline.publishers.push_back({node, 0});
+  hand.recording.publishers.push_back({3, true, false});
+  for (std::int64_t time = 0; time < 100 * kMs; time += 10 * kMs) {
+    timeline::Message message;
+    message.called_ns = message.published_ns = time;
+    message.topic = 0;
+    message.publisher = 0;
+    message.publishing_thread = 0;
+    hand.recording.timeline.messages.push_back(message);
+  }
+  hand.recording.timeline.end_ns = 100 * kMs;
+  const System twin = build_twin(hand.recording, {});
+  ASSERT_EQ(twin.callbacks.size(), 1u);
+  EXPECT_TRUE(twin.callbacks[0].replaces_loop);
+  EXPECT_EQ(twin.callbacks[0].period_ns, 10 * kMs);
+  EXPECT_EQ(twin.publishers[0].qos.depth, 3u);
+  EXPECT_NE(twin.missing.front().find("a timer of 10 ms stands for that"), std::string::npos) << twin.missing.front();
+}
+
+TEST(BuildTwin, ASubscriptionKeepsItsQualityOfService) {
+  testing::HandRecording hand;
+  hand.add_process();
+  const timeline::Index node = hand.add_node("/node");
+  const timeline::Index subscription = hand.add_subscription(node, "/a");
+  hand.run(subscription, hand.add_thread(1), 10, 20);
+  const System twin = build_twin(hand.recording, {.bytes = 100, .sizes = {{"/a", 5000}}});
+  ASSERT_EQ(twin.callbacks.size(), 1u);
+  EXPECT_EQ(twin.callbacks[0].qos.depth, 5u);
+  EXPECT_FALSE(twin.callbacks[0].qos.reliable);
+  EXPECT_EQ(twin.topics[0].bytes, 5000u);
+}
+
+}  // namespace
+}  // namespace tracing::twin

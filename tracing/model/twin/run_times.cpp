@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/model/twin/run_times.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tracing::twin {
+
+namespace {
+
+using State = ThreadInterval::State;
+
+// How much of a time each thread did what. States of one thread follow one another.
+class States {
+ public:
+  explicit States(const timeline::Timeline& timeline) : by_thread_(timeline.threads.size()) {
+    for (const timeline::ThreadState& state : timeline.states) {
+      by_thread_[state.thread].push_back(&state);
+    }
+  }
+
+  std::int64_t time_in(State what, const timeline::Instance& instance) const {
+    const auto& states = by_thread_[instance.thread];
+    auto state =
+        std::upper_bound(states.begin(), states.end(), instance.start_ns,
+                         [](std::int64_t time, const timeline::ThreadState* other) { return time < other->end_ns; });
+    std::int64_t sum = 0;
+    for (; state != states.end() && (*state)->begin_ns < instance.end_ns; ++state) {
+      if ((*state)->state == what) {
+        sum += std::min((*state)->end_ns, instance.end_ns) - std::max((*state)->begin_ns, instance.start_ns);
+      }
+    }
+    return sum;
+  }
+
+ private:
+  std::vector<std::vector<const timeline::ThreadState*>> by_thread_;
+};
+
+std::int64_t median(std::vector<std::int64_t> values) {
+  return Distribution::of(std::move(values)).quantile(0.5);
+}
+
+}  // namespace
+
+RunTimes::RunTimes(const Recording& recording) : callbacks_(recording.timeline.callbacks.size()) {
+  const timeline::Timeline& timeline = recording.timeline;
+  const States states(timeline);
+  std::vector<bool> sends(timeline.instances.size());
+  for (const timeline::Message& message : timeline.messages) {
+    if (message.publishing_instance != timeline::kNone && timeline.topics[message.topic] != "/rosout") {
+      sends[message.publishing_instance] = true;
+    }
+  }
+  for (std::size_t index = 0; index < timeline.instances.size(); ++index) {
+    const timeline::Instance& instance = timeline.instances[index];
+    Of& of = callbacks_[instance.callback];
+    of.starts.push_back(instance.start_ns);
+    ++of.count;
+    of.intra_process = of.intra_process || instance.intra_process;
+    if (!instance.finished) {
+      continue;
+    }
+    const std::int64_t length = instance.end_ns - instance.start_ns;
+    const std::int64_t waited = states.time_in(State::kRunnable, instance);
+    of.work_ns += static_cast<double>(length - waited);
+    of.blocked_ns += static_cast<double>(states.time_in(State::kBlocked, instance));
+    (sends[index] ? of.sending : of.silent).push_back(std::max<std::int64_t>(0, length - waited));
+  }
+}
+
+bool RunTimes::differ(const Of& callback) {
+  constexpr std::size_t kEnough = 5;
+  return callback.sending.size() >= kEnough && callback.silent.size() >= kEnough;
+}
+
+Distribution RunTimes::sending(std::size_t callback) const {
+  std::vector<std::int64_t> values = callbacks_[callback].sending;
+  if (!differ(callbacks_[callback])) {
+    values.insert(values.end(), callbacks_[callback].silent.begin(), callbacks_[callback].silent.end());
+  }
+  return Distribution::of(std::move(values));
+}
+
+Distribution RunTimes::silent(std::size_t callback) const {
+  return differ(callbacks_[callback]) ? Distribution::of(callbacks_[callback].silent) : Distribution();
+}
+
+double RunTimes::blocked(std::size_t callback) const {
+  const Of& of = callbacks_[callback];
+  return of.work_ns > 0 ? std::clamp(of.blocked_ns / of.work_ns, 0.0, 1.0) : 0;
+}
+
+std::int64_t RunTimes::first_due_ns(std::size_t callback, std::int64_t period_ns) const {
+  const std::vector<std::int64_t>& starts = callbacks_[callback].starts;
+  if (starts.empty() || period_ns <= 0) {
+    return 0;
+  }
+  std::vector<std::int64_t> late;
+  for (const std::int64_t start : starts) {
+    const std::int64_t since = start - starts.front();
+    const auto periods =
+        static_cast<std::int64_t>(std::llround(static_cast<double>(since) / static_cast<double>(period_ns)));
+    late.push_back(since - periods * period_ns);
+  }
+  // The first call is often later than the others, never earlier than half a period.
+  return starts.front() + std::min<std::int64_t>(0, median(std::move(late)));
+}
+
+}  // namespace tracing::twin
