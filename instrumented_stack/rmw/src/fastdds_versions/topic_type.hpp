@@ -47,9 +47,9 @@ class TopicTypeOf : public fdds::TopicDataType {
   bool compute_key(const void*, rtps::InstanceHandle_t&, bool) override { return false; }
   void* create_data() override { return self().create(); }
   void delete_data(void* data) override { self().destroy(data); }
-  bool is_plain(fdds::DataRepresentationId_t representation) const override {
-    return representation == fdds::XCDR_DATA_REPRESENTATION && has_plain_memory();
-  }
+  // Fast DDS asks for XCDR2 as well, because the reader's QoS names no representation. It would want samples from
+  // create() for a loan if the answer was no. Nobody sends XCDR2: nodes of ROS 2 write plain CDR.
+  bool is_plain(fdds::DataRepresentationId_t) const override { return has_plain_memory(); }
 #else
   using TopicDataType::getSerializedSizeProvider;
   using TopicDataType::is_plain;
