@@ -33,6 +33,13 @@ class TwinProcess {
     std::int64_t phase_ns = 0;
   };
 
+  // How long sending took in the last runs of a callback.
+  struct Sendings {
+    static constexpr std::size_t kMost = 128;
+    std::vector<std::int64_t> times;
+    std::size_t next = 0;
+  };
+
   void add_nodes();
   void add_groups();
   void add_ends();
@@ -40,6 +47,8 @@ class TwinProcess {
   // What a callback does.
   void run(Index callback);
   void send(const tracing::twin::Output& output);
+  // How long a run takes in which sending took this long.
+  std::int64_t time_of_run(Index callback, std::int64_t sending_ns, std::int64_t drawn_ns);
   // Lets each timer begin so that it keeps its distance from the others, also from those of other processes.
   void start_timers();
 
@@ -54,6 +63,7 @@ class TwinProcess {
   std::map<Index, Message> messages_;  // by topic
   std::map<Index, rclcpp::Client<Service>::SharedPtr> clients_;
   std::map<Index, Index> answers_;  // the callback of each client
+  std::vector<Sendings> sendings_;  // by callback
   std::vector<Timer> timers_;
   std::vector<std::shared_ptr<void>> kept_;
 };
