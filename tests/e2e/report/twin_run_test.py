@@ -17,7 +17,7 @@ class Twin(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls.directory = Path(tempfile.mkdtemp(prefix='twin_test-'))
+        cls.directory = Path(tempfile.mkdtemp(prefix='twin_run_test-'))
         cls.addClassCleanup(shutil.rmtree, cls.directory)
         cls.environment = {name: value for name, value in os.environ.items() if not name.startswith('ROS_')}
         cls.environment.update(ROS_HOME=str(cls.directory), ROS_TRACE_DIR=str(cls.directory / 'traces'))
