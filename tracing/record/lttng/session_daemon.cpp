@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -119,7 +120,8 @@ pid_t spawn_daemon(const DaemonOutput& output) {
 }
 
 // The process that starts a daemon first holds this lock. The daemons of the others give up before the first one
-// answers.
+// answers. Until LTTng 2.13.9 it is a lock of fcntl(), which ends with the start; in 2.13.15 one of flock(), which the
+// daemon has until it ends.
 bool another_daemon_starts() {
   const std::string lock_file = std::filesystem::path(pid_file_of_daemon()).replace_extension(".lck");
   const int fd = open(lock_file.c_str(), O_RDONLY | O_CLOEXEC);
@@ -129,7 +131,7 @@ bool another_daemon_starts() {
   struct flock lock {};
   lock.l_type = F_WRLCK;
   lock.l_whence = SEEK_SET;
-  const bool held = fcntl(fd, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
+  const bool held = (fcntl(fd, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK) || flock(fd, LOCK_SH | LOCK_NB) != 0;
   close(fd);
   return held;
 }
@@ -137,14 +139,20 @@ bool another_daemon_starts() {
 // With --background the started process ends when the daemon it left behind accepts commands.
 void start_daemon() {
   const DaemonOutput output;
-  launch::wait_for(spawn_daemon(output));
   const auto give_up = std::chrono::steady_clock::now() + kLongestStart;
-  while (!daemon_answers() && another_daemon_starts() && std::chrono::steady_clock::now() < give_up) {
-    std::this_thread::sleep_for(kBetweenLooks);
-  }
-  if (daemon_answers()) {
-    return;  // also when another process was faster than we
-  }
+  bool another = false;
+  do {
+    launch::wait_for(spawn_daemon(output));
+    another = false;
+    while (!daemon_answers() && another_daemon_starts() && std::chrono::steady_clock::now() < give_up) {
+      another = true;
+      std::this_thread::sleep_for(kBetweenLooks);
+    }
+    if (daemon_answers()) {
+      return;  // also when another process was faster than we
+    }
+    // If another daemon had the lock, it was about to end.
+  } while (another && std::chrono::steady_clock::now() < give_up);
 
   const std::string said = output.first_line();
   throw TraceError(
