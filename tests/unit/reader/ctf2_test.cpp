@@ -59,17 +59,16 @@ std::vector<Json> fragments() {
   const Json time = integer(64, "default-clock-timestamp");
   Json id = integer(16, "event-record-class-id");
   const Json location = {{"path", {"id"}}};
-  const Json variant = {
-      {"type", "variant"},
-      {"selector-field-location", location},
-      {"options",
-       {{{"name", "compact"},
-         {"selector-field-ranges", {{0, 65534}}},
-         {"field-class", structure({field("timestamp", time)})}},
-        {{"name", "extended"},
-         {"selector-field-ranges", {{65535, 65535}}},
-         {"field-class",
-          structure({field("id", integer(32, "event-record-class-id")), field("timestamp", "time alias")})}}}}};
+  const Json variant = {{"type", "variant"},
+                        {"selector-field-location", location},
+                        {"options",
+                         {{{"name", "compact"},
+                           {"selector-field-ranges", {{0, 65534}}},
+                           {"field-class", structure({field("timestamp", time)})}},
+                          {{"name", "extended"},
+                           {"selector-field-ranges", {{65535, 65535}}},
+                           {"field-class", structure({field("id", integer(32, "event-record-class-id")),
+                                                      field("timestamp", "time alias")})}}}}};
   Json header = structure({field("id", id), field("v", variant)});
   header["minimum-alignment"] = 8;
   const Json handles = {{"type", "dynamic-length-array"},
@@ -84,7 +83,12 @@ std::vector<Json> fragments() {
        {"uuid", {0x11, 0x11, 0x11, 0x11, 0x11, 0x11, 0x11, 0x11, 0x11, 0x11, 0x11, 0x11, 0x11, 0x11, 0x11, 0}}},
       {{"type", "field-class-alias"}, {"name", "time alias"}, {"field-class", time}},
       {{"type", "trace-class"},
-       {"environment", {{"hostname", "box"}, {"domain", "ust"}, {"tracer_name", "lttng-ust"}, {"tracer_major", 2}, {"tracer_minor", 13}}},
+       {"environment",
+        {{"hostname", "box"},
+         {"domain", "ust"},
+         {"tracer_name", "lttng-ust"},
+         {"tracer_major", 2},
+         {"tracer_minor", 13}}},
        {"packet-header-field-class",
         structure({field("magic", integer(32, "packet-magic-number")),
                    field("uuid", {{"type", "static-length-blob"}, {"length", 16}, {"roles", {"metadata-stream-uuid"}}}),
@@ -98,12 +102,11 @@ std::vector<Json> fragments() {
        {"default-clock-class-id", "monotonic"},
        {"event-record-header-field-class", header},
        {"packet-context-field-class",
-        structure({field("begin", time), field("end", integer(64, "packet-end-default-clock-timestamp")),
-                   field("content", integer(64, "packet-content-length")),
-                   field("size", integer(64, "packet-total-length")),
-                   field("number", integer(64, "packet-sequence-number")),
-                   field("lost", integer(64, "discarded-event-record-counter-snapshot")),
-                   field("cpu_id", integer(32))})},
+        structure(
+            {field("begin", time), field("end", integer(64, "packet-end-default-clock-timestamp")),
+             field("content", integer(64, "packet-content-length")), field("size", integer(64, "packet-total-length")),
+             field("number", integer(64, "packet-sequence-number")),
+             field("lost", integer(64, "discarded-event-record-counter-snapshot")), field("cpu_id", integer(32))})},
        {"event-record-common-context-field-class",
         structure({field("vpid", integer(32, "", true)), field("vtid", integer(32, "", true)),
                    field("procname", {{"type", "static-length-string"}, {"length", 17}})})}},

@@ -265,7 +265,8 @@ TEST(TraceReader, SaysWhenItDoesNotKnowSomethingOfCtf2) {
                                                   R"({"type": "preamble", "version": 3})";
   RecordingSink sink;
   EXPECT_EQ(error_of(directory.path(), sink).remedy(),
-            "it is a trace of CTF 2 with something that this reader does not know; babeltrace2 from version 2.1 on converts it");
+            "it is a trace of CTF 2 with something that this reader does not know; babeltrace2 from version 2.1 on "
+            "converts it");
 }
 
 TEST(TraceReader, NamesTheStreamFileThatIsTruncated) {

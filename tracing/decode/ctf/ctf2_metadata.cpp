@@ -143,10 +143,11 @@ class Translator {
   void add_clock(const Json& clock) {
     const std::string id = text_of(clock, "id", text_of(clock, "name"));
     const Json origin = clock.value("offset-from-origin", Json::object());
-    rest_ += block("clock", fmt::format("name = {};\nuuid = {};\nfreq = {};\noffset_s = {};\noffset = {};\n",
-                                        in_quotes(clock_name(id)), in_quotes(text_of(clock, "uid", id)),
-                                        number_of(clock, "frequency", 1'000'000'000),
-                                        origin.value("seconds", std::int64_t{0}), origin.value("cycles", std::int64_t{0})));
+    rest_ +=
+        block("clock", fmt::format("name = {};\nuuid = {};\nfreq = {};\noffset_s = {};\noffset = {};\n",
+                                   in_quotes(clock_name(id)), in_quotes(text_of(clock, "uid", id)),
+                                   number_of(clock, "frequency", 1'000'000'000),
+                                   origin.value("seconds", std::int64_t{0}), origin.value("cycles", std::int64_t{0})));
   }
 
   void add_stream(const Json& stream) {
@@ -161,9 +162,8 @@ class Translator {
   }
 
   void add_event(const Json& event) {
-    std::string content =
-        fmt::format("name = {};\nid = {};\nstream_id = {};\n", in_quotes(text_of(event, "name")),
-                    number_of(event, "id", 0), number_of(event, "data-stream-class-id", 0));
+    std::string content = fmt::format("name = {};\nid = {};\nstream_id = {};\n", in_quotes(text_of(event, "name")),
+                                      number_of(event, "id", 0), number_of(event, "data-stream-class-id", 0));
     content += member("context", event, "specific-context-field-class");
     content += member("fields", event, "payload-field-class");
     rest_ += block("event", content);
@@ -325,10 +325,10 @@ class Translator {
     }
     const bool is_time =
         has_role(type, "default-clock-timestamp") || has_role(type, "packet-end-default-clock-timestamp");
-    const std::string integer = fmt::format(
-        "integer {{ size = {}; align = {}; signed = {}; byte_order = {}; base = {};{} }}", size, alignment,
-        kind == "fixed-length-signed-integer" ? 1 : 0, order, number_of(type, "preferred-display-base", 10),
-        is_time && !clock_.empty() ? fmt::format(" map = clock.{}.value;", clock_) : "");
+    const std::string integer =
+        fmt::format("integer {{ size = {}; align = {}; signed = {}; byte_order = {}; base = {};{} }}", size, alignment,
+                    kind == "fixed-length-signed-integer" ? 1 : 0, order, number_of(type, "preferred-display-base", 10),
+                    is_time && !clock_.empty() ? fmt::format(" map = clock.{}.value;", clock_) : "");
     std::string labels;
     if (const auto variant = selected_.find(name); !name.empty() && variant != selected_.end()) {
       std::size_t place = 0;
@@ -347,10 +347,10 @@ class Translator {
   std::string trace_;
   std::string rest_;
   std::map<std::string, Json> aliases_;
-  std::string clock_;             // of the stream that is told
-  std::string time_ = "timestamp";  // what the time of the default clock is called there
+  std::string clock_;                            // of the stream that is told
+  std::string time_ = "timestamp";               // what the time of the default clock is called there
   std::map<std::string, const Json*> selected_;  // variants by the names of their selectors
-  std::set<std::string> header_ids_;      // names of fields that are the number of the event
+  std::set<std::string> header_ids_;             // names of fields that are the number of the event
 };
 
 }  // namespace

@@ -118,10 +118,10 @@ struct OtherThread {
 
 // What Message has no place for.
 struct MessageDetail {
-  std::int64_t rclcpp_ns = 0;  // rclcpp_publish, rcl_publish, dds:write; 0: not in the trace
-  std::int64_t rcl_ns = 0;
+  std::int64_t rcl_ns = 0;  // rcl_publish, dds:write; 0: not in the trace
   std::int64_t written_ns = 0;
-  std::optional<std::int64_t> waited_ns;  // MessageFlow::executor_waited_ns
+  std::int64_t waited_ns = -1;  // MessageFlow::executor_waited_ns; -1: not known
+  bool has_rclcpp = false;      // Message::called_ns is rclcpp_publish
   bool intra_process = false;
   bool is_by_order = false;
 };

@@ -80,10 +80,9 @@ void copy_objects(const TraceAnalysis& analysis, Timeline& timeline) {
 }
 
 MessageDetail detail_of(const Publication& publication) {
-  return {.rclcpp_ns = publication.rclcpp_ns,
-          .rcl_ns = publication.rcl_ns,
+  return {.rcl_ns = publication.rcl_ns,
           .written_ns = publication.written_ns,
-          .waited_ns = std::nullopt,
+          .has_rclcpp = publication.rclcpp_ns != 0,
           .intra_process = publication.intra_process};
 }
 
@@ -212,7 +211,7 @@ void TimelineRecorder::on_message(const MessageFlow& flow) {
   if (with_details_) {
     told.message.publishing_instance = static_cast<Index>(message_details_.size());
     message_details_.push_back(detail_of(flow.publication));
-    message_details_.back().waited_ns = flow.executor_waited_ns;
+    message_details_.back().waited_ns = flow.executor_waited_ns.value_or(-1);
     message_details_.back().is_by_order = flow.is_by_order;
   }
   flows_.push_back(told);
@@ -309,8 +308,11 @@ void TimelineRecorder::finish_details(const TraceAnalysis& analysis, const Insta
     const auto thread = threads_.find({hop.process, hop.vtid});
     details.hops.push_back({hop.before, thread == threads_.end() ? kNone : index.begun(thread->second, hop.begin_ns)});
   }
-  details.passages.reserve(analysis.chains().passages().size());
   for (const tracing::ChainPassage& passage : analysis.chains().passages()) {
+    const ChainRecord& path = analysis.chains().paths()[passage.path];
+    if (path.named.empty() && path.goes_on) {
+      continue;  // no chain of the results ends here
+    }
     details.passages.push_back({passage.path, passage.last_hop, passage.input_ns, passage.output_ns, passage.is_first});
   }
 }

@@ -101,8 +101,8 @@ Row hop_row(const timeline::Timeline& timeline, Index before, Index instance) {
   row[6] = message.published_ns - timeline.instances[before].start_ns;
   row[7] = run.start_ns - message.published_ns;
   if (run.message < timeline.details.messages.size()) {
-    const std::optional<std::int64_t>& waited_ns = timeline.details.messages[run.message].waited_ns;
-    row[8] = waited_ns ? Cell{message.taken_ns - message.published_ns - *waited_ns} : Cell{};
+    const std::int64_t waited_ns = timeline.details.messages[run.message].waited_ns;
+    row[8] = waited_ns < 0 ? Cell{} : Cell{message.taken_ns - message.published_ns - waited_ns};
   }
   row[9] = run.start_ns - message.taken_ns;
   return row;

@@ -47,6 +47,11 @@ Cell detail_time(System system, const Message& message) {
   return detail == nullptr ? Cell{} : time(detail->*kMember);
 }
 
+Cell rclcpp_time(System system, const Message& message) {
+  const MessageDetail* detail = detail_of(system, message);
+  return detail != nullptr && detail->has_rclcpp ? Cell{message.called_ns} : Cell{};
+}
+
 template <bool MessageDetail::*kMember>
 Cell detail_flag(System system, const Message& message) {
   const MessageDetail* detail = detail_of(system, message);
@@ -54,7 +59,7 @@ Cell detail_flag(System system, const Message& message) {
 }
 
 bool has_executor(const MessageDetail* detail, const Message& message) {
-  return detail != nullptr && detail->waited_ns && message.receiving_instance != kNone;
+  return detail != nullptr && detail->waited_ns >= 0 && message.receiving_instance != kNone;
 }
 
 Cell callback_time(System system, const Message& message) {
@@ -90,7 +95,7 @@ Table message_table(System system) {
        {"callback_ns", kInteger, callback_time, "start of its callback"},
        {"repeated", kInteger, [](System, const Message& message) { return number(message.repeated); },
         "1: the row above has the same publication, taken by another subscription"},
-       {"rclcpp_ns", kInteger, detail_time<&MessageDetail::rclcpp_ns>, "`rclcpp_publish`"},
+       {"rclcpp_ns", kInteger, rclcpp_time, "`rclcpp_publish`"},
        {"rcl_ns", kInteger, detail_time<&MessageDetail::rcl_ns>, "`rcl_publish`"},
        {"written_ns", kInteger, detail_time<&MessageDetail::written_ns>, "`dds:write`, of middleware that records it"},
        {"intra_process", kInteger, detail_flag<&MessageDetail::intra_process>, "1: without the middleware"},
@@ -100,13 +105,13 @@ Table message_table(System system) {
        {"transport_ns", kInteger,
         [](System all, const Message& message) {
           const MessageDetail* detail = detail_of(all, message);
-          return has_executor(detail, message) ? Cell{*detail->waited_ns} : Cell{};
+          return has_executor(detail, message) ? Cell{detail->waited_ns} : Cell{};
         },
         "part of the time from `published_ns` to `taken_ns`: on the way. `docs/report.md` explains the parts"},
        {"executor_ns", kInteger,
         [](System all, const Message& message) {
           const MessageDetail* detail = detail_of(all, message);
-          return has_executor(detail, message) ? Cell{message.taken_ns - message.published_ns - *detail->waited_ns}
+          return has_executor(detail, message) ? Cell{message.taken_ns - message.published_ns - detail->waited_ns}
                                                : Cell{};
         },
         "likewise: waiting for the executor"}});

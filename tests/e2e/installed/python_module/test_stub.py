@@ -31,6 +31,15 @@ for item in trace:
 trace.columns('name', 3)
 """
 
+PROGRAM_WITH_TABLES = """
+import launch_trace
+
+run = launch_trace.open('directory')
+reveal_type(run.messages)
+reveal_type(run.chain('/a', '/b').instances)
+launch_trace.open(3)
+"""
+
 
 def classes_of_stub():
     tree = ast.parse(STUB.read_text())
@@ -98,6 +107,20 @@ class Stub(unittest.TestCase):
             'program.py:11: note: Revealed type is "Union[builtins.str, None]"',
             'program.py:12: error: Argument 2 to "columns" of "Trace" has incompatible type "int"; expected '
             '"Optional[Sequence[str]]"  [arg-type]'], said + result.stderr)
+
+    @unittest.skipUnless(HAS_MYPY, 'mypy is not installed')
+    def test_mypy_finds_the_types_of_tables(self):
+        with tempfile.TemporaryDirectory() as directory:
+            program = Path(directory, 'program.py')
+            program.write_text(PROGRAM_WITH_TABLES)
+            result = subprocess.run([sys.executable, '-m', 'mypy', '--cache-dir', directory, str(program)],
+                                    capture_output=True, text=True, cwd=directory)
+            said = result.stdout.replace(str(program), 'program.py')
+        self.assertEqual(said.splitlines()[:3], [
+            'program.py:5: note: Revealed type is "launch_trace._table.Table"',
+            'program.py:6: note: Revealed type is "launch_trace._table.Table"',
+            'program.py:7: error: Argument 1 to "open" has incompatible type "int"; expected '
+            '"Union[str, PathLike[str], Sequence[Union[str, PathLike[str]]]]"  [arg-type]'], said + result.stderr)
 
 
 if __name__ == '__main__':

@@ -215,9 +215,9 @@ def find_paths(run: Run, names: Sequence[str]) -> list[Chain]:
     finder = _Finder(run, names, chains)
     parts = {chain: part for chain, steps in chains.items() if (part := finder.part(steps)) is not None}
     if not parts:
-        ways = sorted({_route(steps) for steps in chains.values()})
+        known = sorted({_route(steps) for steps in chains.values()})
         raise KeyError(f"no chain leads from {' through '.join(names[:-1])} to {names[-1]}; the chains of the trace: "
-                       + ('; '.join(ways[:20]) or 'none'))
+                       + ('; '.join(known[:20]) or 'none'))
     rows = [row for row in run.chain_instances.rows('id', 'chain', 'begin_ns', 'end_ns', 'first') if row[1] in parts]
     hops = _hops_of_instances(run, {row[0] for row in rows})
     routes: dict[tuple[int, ...], tuple[list[Step], dict[tuple[int, int], tuple[int, int, bool, Sequence[Hop]]]]] = {}
