@@ -4,9 +4,10 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <signal.h>
-#include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <sys/un.h>
 #include <unistd.h>
 
@@ -119,8 +120,24 @@ pid_t spawn_daemon(const DaemonOutput& output) {
   }
 }
 
+// Whether somebody has locked the file with flock(). Trying to lock it could be in the way of a daemon that starts.
+bool is_flocked(int fd) {
+  struct stat file {};
+  if (fstat(fd, &file) != 0) {
+    return false;
+  }
+  const std::string id = fmt::format(" {:02x}:{:02x}:{} ", major(file.st_dev), minor(file.st_dev), file.st_ino);
+  std::ifstream locks("/proc/locks");
+  for (std::string line; std::getline(locks, line);) {
+    if (line.find(" FLOCK ") != std::string::npos && line.find(id) != std::string::npos) {
+      return true;
+    }
+  }
+  return false;
+}
+
 // The process that starts a daemon first holds this lock. The daemons of the others give up before the first one
-// answers. Until LTTng 2.13.9 it is a lock of fcntl(), which ends with the start; in 2.13.15 one of flock(), which the
+// answers. In LTTng 2.13.9 it is a lock of fcntl(), which ends with the start; in 2.13.15 one of flock(), which the
 // daemon has until it ends.
 bool another_daemon_starts() {
   const std::string lock_file = std::filesystem::path(pid_file_of_daemon()).replace_extension(".lck");
@@ -131,7 +148,7 @@ bool another_daemon_starts() {
   struct flock lock {};
   lock.l_type = F_WRLCK;
   lock.l_whence = SEEK_SET;
-  const bool held = (fcntl(fd, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK) || flock(fd, LOCK_SH | LOCK_NB) != 0;
+  const bool held = (fcntl(fd, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK) || is_flocked(fd);
   close(fd);
   return held;
 }

@@ -48,7 +48,7 @@ class TopicTypeOf : public fdds::TopicDataType {
   void* create_data() override { return self().create(); }
   void delete_data(void* data) override { self().destroy(data); }
   // Fast DDS asks for XCDR2 as well, because the reader's QoS names no representation. It would want samples from
-  // create() for a loan if the answer was no. Nobody sends XCDR2: nodes of ROS 2 write plain CDR.
+  // create() for a loan if the answer was no. Nodes of ROS 2 with Fast DDS write plain CDR.
   bool is_plain(fdds::DataRepresentationId_t) const override { return has_plain_memory(); }
 #else
   using TopicDataType::getSerializedSizeProvider;
