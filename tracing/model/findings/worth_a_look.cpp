@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/model/findings/finding.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
 #include "tracing/model/findings/finders.hpp"
+#include "tracing/model/findings/finding.hpp"
 #include "tracing/model/findings/quantity_text.hpp"
 #include "tracing/model/findings/result_labels.hpp"
 
