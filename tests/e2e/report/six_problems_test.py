@@ -10,10 +10,12 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from own_daemon import OWN_DAEMON
+
 HERE = Path(__file__).resolve().parent
 EXAMPLES = Path(os.environ['SOURCE_DIRECTORY']) / 'launch_examples'
 PATIENCE = 120  # seconds
-ATTEMPTS = 3  # of a healthy system, on a machine that may be too busy for it
+ATTEMPTS = 3  # on a machine that may be too busy
 
 # Kind, what the subject begins with, a part of the figures, a part of the next step.
 PROBLEMS = [
@@ -37,8 +39,8 @@ class Findings(unittest.TestCase):
         home = self.directory / name
         shutil.rmtree(home, ignore_errors=True)
         environment = {name: value for name, value in os.environ.items() if not name.startswith('ROS_')}
-        environment.update(ROS_HOME=str(home), ROS_TRACE_DIR=str(home / 'traces'))
-        run = subprocess.run([os.environ['LAUNCH_PROGRAM'], '--isolate', file, *words], env=environment, text=True,
+        environment.update(ROS_HOME=str(home), ROS_TRACE_DIR=str(home / 'traces'), LTTNG_HOME=str(home))
+        run = subprocess.run([*OWN_DAEMON, os.environ['LAUNCH_PROGRAM'], '--isolate', file, *words], env=environment, text=True,
                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=PATIENCE)
         self.assertEqual(run.returncode, 0, run.stdout)
         return next((home / 'traces').iterdir())
@@ -48,29 +50,40 @@ class Findings(unittest.TestCase):
                               text=True).stdout
 
     def test_six_problems(self):
+        for _ in range(ATTEMPTS):
+            wrong = list(self.wrong_about_six_problems())
+            if not wrong:
+                return
+        self.fail_unless_busy('\n'.join(wrong))
+
+    def wrong_about_six_problems(self):
         trace = self.record('six', HERE / 'six_problems.launch.xml', f'worker:={os.environ["SIX_PROBLEMS_WORKER"]}')
         findings = json.loads(self.report(trace, '--json'))['findings']
         screen = self.report(trace)
         by_kind = {one['kind']: one for one in findings}
         for kind, subject, figures, following in PROBLEMS:
-            with self.subTest(kind):
-                finding = by_kind.get(kind)
-                self.assertIsNotNone(finding, findings)
-                self.assertTrue(finding['subject'].startswith(subject), finding)
-                self.assertIn(figures, finding['figures'])
-                self.assertIn(following, finding['next'])
-                self.assertIn(finding['subject'], screen)
+            finding = by_kind.get(kind)
+            if finding is None:
+                yield f'{kind} is not among {findings}'
+            elif not (finding['subject'].startswith(subject) and figures in finding['figures']
+                      and following in finding['next'] and finding['subject'] in screen):
+                yield f'{kind}: {finding}'
         # One cause is one finding.
-        self.assertEqual({one['kind'] for one in findings}, {kind for kind, *_ in PROBLEMS}, findings)
+        for finding in findings:
+            if finding['kind'] not in {kind for kind, *_ in PROBLEMS}:
+                yield f'one more: {finding}'
 
     def check_health(self, name, file, *words):
         for attempt in range(ATTEMPTS):
             screen = self.report(self.record(name, file, *words))
             if 'nothing stands out' in screen:
                 return
+        self.fail_unless_busy(screen)
+
+    def fail_unless_busy(self, what):
         if os.getloadavg()[0] > os.cpu_count():
-            self.skipTest(f'the machine is too busy for a healthy system: {screen}')
-        self.fail(screen)
+            self.skipTest(f'skipped, because the machine is too busy to tell what the system does: {what}')
+        self.fail(what)
 
     def test_ping_pong(self):
         self.check_health('ping_pong', EXAMPLES / '01_ping_pong.launch.xml')

@@ -9,12 +9,10 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from own_daemon import OWN_DAEMON
+
 EXAMPLES = Path(os.environ['SOURCE_DIRECTORY']) / 'launch_examples'
 PATIENCE = 120  # seconds
-# A twin stands for all that the trace has, and other tests fire events, too. Root's daemon does not look at LTTNG_HOME.
-OWN_DAEMON = () if os.geteuid() != 0 else (
-    'unshare', '--mount', '--pid', '--fork', '--kill-child', '--mount-proc', '--propagation', 'private', 'bash', '-c',
-    'mkdir -p /run/lttng && mount -t tmpfs tmpfs /run/lttng && "$@"; exit $?', 'own_daemon')
 
 
 class Twin(unittest.TestCase):
