@@ -85,16 +85,22 @@ class Watcher {
   pid_t owner() const { return owner_; }
 
   void begin() {
+    bool has_to_know = false;
     {
       const std::lock_guard lock(mutex_);
       const std::chrono::milliseconds longest = silence_limit;
+      const std::chrono::milliseconds before = limit_;
       silent_since_ = Clock::now();
       limit_ = silent_since_ < short_until_ ? longest / 10 : longest;
       processor_time_ = 0;
       cut_ = false;
       calls_ = true;
+      ++begun_;
+      has_to_know = is_idle_ || limit_ != before;
     }
-    changed_.notify_one();
+    if (has_to_know) {
+      changed_.notify_one();
+    }
   }
 
   // Whether the call was ended.
@@ -108,10 +114,16 @@ class Watcher {
   void watch() {
     std::unique_lock lock(mutex_);
     while (true) {
+      is_idle_ = true;
       changed_.wait(lock, [this] { return calls_; });
-      changed_.wait_for(lock, limit_ / kLooks);
-      if (calls_ && Clock::now() - silent_since_ >= limit_ / kLooks) {
-        look();
+      is_idle_ = false;
+      // A set-up has dozens of short calls: nobody is woken for each.
+      for (std::uint64_t seen = begun_ - 1; calls_ || begun_ != seen;) {
+        seen = begun_;
+        changed_.wait_for(lock, limit_ / kLooks);
+        if (calls_ && Clock::now() - silent_since_ >= limit_ / kLooks) {
+          look();
+        }
       }
     }
   }
@@ -142,8 +154,10 @@ class Watcher {
   std::chrono::milliseconds limit_{0};
   Clock::time_point silent_since_;
   std::uint64_t processor_time_ = 0;  // of the daemon at the last look
+  std::uint64_t begun_ = 0;           // calls
   bool calls_ = false;
-  bool cut_ = false;  // the call
+  bool is_idle_ = false;  // the thread
+  bool cut_ = false;      // the call
   Clock::time_point short_until_;
 };
 
