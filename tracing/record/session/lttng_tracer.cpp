@@ -7,7 +7,6 @@
 #include <optional>
 #include <set>
 #include <system_error>
-#include <thread>
 #include <utility>
 
 #include "base/monotonic_clock.hpp"
@@ -29,12 +28,12 @@
 #include "tracing/record/lttng/daemons_kept_going.hpp"
 #include "tracing/record/lttng/lttng_ctl.hpp"
 #include "tracing/record/lttng/lttng_error.hpp"
-#include "tracing/record/lttng/relay_connection.hpp"
 #include "tracing/record/lttng/session_daemon.hpp"
 #include "tracing/record/plan/trace_config.hpp"
 #include "tracing/record/plan/trace_error.hpp"
 #include "tracing/record/session/event_watch.hpp"
 #include "tracing/record/session/held_up_streams.hpp"
+#include "tracing/record/session/relay_daemon_end.hpp"
 #include "tracing/record/session/run_watch.hpp"
 #include "tracing/record/session/session_details.hpp"
 #include "tracing/record/session/session_end.hpp"
@@ -134,55 +133,6 @@ void end_streams(LossAccount& losses, const std::string& name, const std::string
   wait_for_last_packets(directory, in_files, stopped, give_up);
 }
 
-// The connections of a session that sends its trace to a relay daemon.
-std::optional<RelayConnection> connection_of(const SessionSummary& session) {
-  if (session.snapshot || session.path.empty() || session.path.starts_with('/')) {
-    return std::nullopt;
-  }
-  return RelayConnection(relay_ports(session.path), consumers_of(session_daemon_pid()));
-}
-
-// How to end a session that could not be ended.
-std::string end_it_later(const std::string& session_name) {
-  return fmt::format("then end the session with `launch trace stop {}`", session_name);
-}
-
-// Whether the relay daemon has gone that gets the trace of the session. Throws TraceError if it is stopped: LTTng's
-// consumer waits for its answers, and the session daemon for the consumer, for ever.
-std::optional<Absence> look_for_relay_daemon(const SessionSummary& session) {
-  std::optional<RelayConnection> connection = connection_of(session);
-  if (!connection) {
-    return std::nullopt;
-  }
-  const RelayConnection::State state = connection->look();
-  if (state == RelayConnection::State::kSilent) {
-    throw TraceError(fmt::format("the relay daemon that gets the trace of session '{}' is stopped", session.name),
-                     "continue it with `kill -CONT` and its process id, " + end_it_later(session.name));
-  }
-  if (state != RelayConnection::State::kEnded) {
-    return std::nullopt;
-  }
-  return Absence{.text = "the relay daemon was gone before the session ended: what was recorded since then is lost",
-                 .is_loss = true};
-}
-
-// The same once it goes on, which somebody sees to (daemons_kept_going.hpp).
-std::optional<Absence> wait_for_relay_daemon(const SessionSummary& session) {
-  constexpr std::chrono::seconds kLongest{2};
-  constexpr std::chrono::milliseconds kPause{50};
-  const auto latest = std::chrono::steady_clock::now() + kLongest;
-  while (true) {
-    try {
-      return look_for_relay_daemon(session);
-    } catch (const TraceError&) {
-      if (std::chrono::steady_clock::now() > latest) {
-        throw;
-      }
-    }
-    std::this_thread::sleep_for(kPause);
-  }
-}
-
 class LttngTracer : public Tracer {
  public:
   SetupReport start(const TraceConfig& config) override { return start_session(config); }
@@ -214,10 +164,7 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
   DaemonsKeptGoing daemons;
   if (config.over_network()) {
     // Its session can't even be listed while the session daemon waits for the relay daemon.
-    std::vector<pid_t> connected = consumers_of(session_daemon_pid());
-    connected.push_back(session_daemon_pid());
-    const RelayConnection connection(relay_ports(config.destination()), std::move(connected));
-    daemons.keep_relay_daemons([connection] { return connection.stopped_daemons(); });
+    keep_relay_daemon(daemons, config.destination());
   }
   std::optional<SessionSummary> session;
   try {

@@ -26,13 +26,13 @@
 #include "tracing/record/lttng/installed_program.hpp"
 #include "tracing/record/lttng/lttng_ctl.hpp"
 #include "tracing/record/lttng/lttng_error.hpp"
-#include "tracing/record/lttng/relay_connection.hpp"
 #include "tracing/record/lttng/session_daemon.hpp"
 #include "tracing/record/plan/buffer_sizes.hpp"
 #include "tracing/record/plan/channel_plan.hpp"
 #include "tracing/record/plan/ros_events.hpp"
 #include "tracing/record/plan/trace_config.hpp"
 #include "tracing/record/plan/trace_error.hpp"
+#include "tracing/record/session/relay_daemon_end.hpp"
 #include "tracing/record/session/session_end.hpp"
 #include "tracing/record/session/session_listing.hpp"
 #include "tracing/record/session/snapshot.hpp"
@@ -109,11 +109,7 @@ NewSession::~NewSession() {
   // The set-up may have failed because one of them is stopped.
   DaemonsKeptGoing daemons;
   if (!relay_daemon_.empty()) {
-    // A connection is made by the session daemon, and given to the consumer then.
-    std::vector<pid_t> connected = consumers_of(session_daemon_pid());
-    connected.push_back(session_daemon_pid());
-    const RelayConnection connection(relay_ports(relay_daemon_), connected);
-    daemons.keep_relay_daemons([connection] { return connection.stopped_daemons(); });
+    keep_relay_daemon(daemons, relay_daemon_);
   }
   if (directory_.empty()) {
     lttng_destroy_session_no_wait(name_.c_str());
