@@ -85,7 +85,7 @@ def judge(place, plain, skewed, name, skew, other_machine):
         was_set = f'was set while it was recorded, by {abs(skew) / 1e9:.3f} s'
         if abs(skew) >= 20_000_000 and not any(was_set in clock for clock in seen['clocks']):
             outcome.wrong.append(f'{name} by {skew} ns: not said: {seen["clocks"]}')
-        if early:
+        if early and abs(skew) >= 20_000_000:
             outcome.wrong.append(f'{name} by {skew} ns: {early} messages are taken before they are published')
         return outcome
     if before and abs(skew) >= 1_000_000_000 and early == 0:

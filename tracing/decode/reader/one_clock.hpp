@@ -18,8 +18,8 @@ struct ClockOfTrace {
   ctf::TraceClass& declarations;  // whose clock is changed
 };
 
-// Gives all traces of a session the largest distance among them: a wall clock is rather put forward than back. Returns
-// a sentence for each session whose clock was set by more than what the measurements differ by otherwise.
+// Gives all traces of a session the largest distance among them, if the distances differ by more than the measurements
+// do otherwise: a wall clock is rather put forward than back. Returns a sentence for each such session.
 std::vector<std::string> put_on_one_clock(const std::vector<ClockOfTrace>& traces);
 
 }  // namespace tracing
