@@ -317,13 +317,13 @@ int main(int argc, char** argv) {
   app.add_flag("--count", arguments.count, "Print how many events there are of each name instead")
       ->excludes("--format")
       ->excludes("--limit");
-  app.add_option("--fail-on", arguments.fail_on, "Exit with 3 if what is read lacks lost events: incomplete")
+  app.add_option("--fail-on", arguments.fail_on,
+                 "Exit with 3 if this is the case: incomplete (events or packets were lost)")
       ->option_text("WHAT")
       ->check(CLI::IsMember({"incomplete"}));
   app.footer(
       "Exit code: 0, 1 when a trace can't be read (to its end) or the output can't be written, 2 for wrong arguments, "
-      "3 "
-      "when it fails on what --fail-on names.");
+      "3 when it fails on what --fail-on names.");
   try {
     app.parse(argc, argv);
     arguments.filter.begin = time_bound("--from", from);

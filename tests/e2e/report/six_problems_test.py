@@ -10,11 +10,10 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from own_daemon import OWN_DAEMON
+from own_launch import launch
 
 HERE = Path(__file__).resolve().parent
 EXAMPLES = Path(os.environ['SOURCE_DIRECTORY']) / 'launch_examples'
-PATIENCE = 120  # seconds
 ATTEMPTS = 3  # on a machine that may be too busy
 
 # Kind, what the subject begins with, a part of the figures, a part of the next step.
@@ -38,11 +37,7 @@ class Findings(unittest.TestCase):
     def record(self, name, file, *words):
         home = self.directory / name
         shutil.rmtree(home, ignore_errors=True)
-        environment = {name: value for name, value in os.environ.items() if not name.startswith('ROS_')}
-        environment.update(ROS_HOME=str(home), ROS_TRACE_DIR=str(home / 'traces'), LTTNG_HOME=str(home))
-        run = subprocess.run([*OWN_DAEMON, os.environ['LAUNCH_PROGRAM'], '--isolate', file, *words], env=environment, text=True,
-                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=PATIENCE)
-        self.assertEqual(run.returncode, 0, run.stdout)
+        launch(home, '--isolate', file, *words)
         return next((home / 'traces').iterdir())
 
     def report(self, trace, *words):

@@ -14,8 +14,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from own_launch import launch, started
+
 EXAMPLES = Path(os.environ['SOURCE_DIRECTORY']) / 'launch_examples'
-PATIENCE = 120  # seconds
 
 LINE = re.compile(r'\[(\d+)\.(\d{9})\] .*? (ros2(?:_ext)?:\w+): (.*)')
 FIELD = re.compile(r'(\w+) = (?:"((?:[^"\\]|\\.)*)"|(-?(?:0x)?[0-9A-Fa-f]+)|(\[.*?\](?= \}|, \w+ = )))')
@@ -121,15 +122,9 @@ class Tables(unittest.TestCase):
     def setUp(self):
         self.directory = Path(tempfile.mkdtemp(prefix='truth_test-'))
         self.addCleanup(shutil.rmtree, self.directory)
-        self.environment = {name: value for name, value in os.environ.items() if not name.startswith('ROS_')}
-        self.environment.update(ROS_HOME=str(self.directory), ROS_TRACE_DIR=str(self.directory / 'traces'))
 
-    def record(self, file, *words):
-        run = subprocess.run([os.environ['LAUNCH_PROGRAM'], '--isolate', file, *words], env=self.environment, text=True,
-                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=PATIENCE)
-        self.assertEqual(run.returncode, 0, run.stdout)
-        # Programs of other tests are in the trace, too.
-        self.started = {int(pid) for pid in re.findall(r'process started with pid \[(\d+)\]', run.stdout)}
+    def record(self, file, *words, times=1):
+        self.started = started(launch(self.directory, '--isolate', file, *words, times=times))
         return self.directory / 'traces'
 
     def record_text(self, content, attributes='', events='ros2:*'):
@@ -231,11 +226,7 @@ class Tables(unittest.TestCase):
         file = self.directory / 'appended.launch.xml'
         file.write_text(f'''<launch><trace session-name="appended" append-trace="true"/>
           <executable cmd="{os.environ["EXECUTOR_THREADS_WORKER"]}"/></launch>''')
-        self.record(file)
-        started = self.started
-        trace = self.record(file)
-        self.started |= started
-        self.check(trace, 10)
+        self.check(self.record(file, times=2), 10)
 
     def test_deadlines(self):
         self.check(self.record(EXAMPLES / '28_deadline.launch.xml'), 1)

@@ -4,15 +4,13 @@
 import json
 import os
 import shutil
-import subprocess
 import tempfile
 import unittest
 from pathlib import Path
 
-from own_daemon import OWN_DAEMON
+from own_launch import launch
 
 EXAMPLES = Path(os.environ['SOURCE_DIRECTORY']) / 'launch_examples'
-PATIENCE = 120  # seconds
 
 
 class Twin(unittest.TestCase):
@@ -21,18 +19,12 @@ class Twin(unittest.TestCase):
     def setUpClass(cls):
         cls.directory = Path(tempfile.mkdtemp(prefix='twin_run_test-'))
         cls.addClassCleanup(shutil.rmtree, cls.directory)
-        cls.environment = {name: value for name, value in os.environ.items() if not name.startswith('ROS_')}
-        cls.environment.update(ROS_HOME=str(cls.directory), ROS_TRACE_DIR=str(cls.directory / 'traces'),
-                               LTTNG_HOME=str(cls.directory))
         cls.launch('--isolate', EXAMPLES / '01_ping_pong.launch.xml', 'count:=40', 'period_ms:=50')
         cls.trace = next((cls.directory / 'traces').glob('ping_pong-*'))
 
     @classmethod
     def launch(cls, *words, code=0):
-        run = subprocess.run([*OWN_DAEMON, os.environ['LAUNCH_PROGRAM'], *words], env=cls.environment, text=True, stdout=subprocess.PIPE,
-                             stderr=subprocess.PIPE, timeout=PATIENCE)
-        assert run.returncode == code, (run.returncode, run.stdout, run.stderr)
-        return run
+        return launch(cls.directory, *words, code=code)
 
     def graph(self, trace):
         """{callback: its runs}, {topic: (publishers, subscriptions)} of the nodes /ping and /pong."""

@@ -15,9 +15,10 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from own_launch import launch, started
+
 EXAMPLES = Path(os.environ['SOURCE_DIRECTORY']) / 'launch_examples'
 TOLERANCE = 50_000  # ns
-PATIENCE = 120  # seconds
 
 LINE = re.compile(r'\[(\d+)\.(\d{9})\] .*? ros2:(\w+): (.*)')
 FIELD = re.compile(r'(\w+) = (?:"([^"]*)"|(-?\w+))')
@@ -103,15 +104,9 @@ class WaitingForExecutor(unittest.TestCase):
     def setUp(self):
         self.directory = Path(tempfile.mkdtemp(prefix='waiting_for_executor_test-'))
         self.addCleanup(shutil.rmtree, self.directory)
-        self.environment = {name: value for name, value in os.environ.items() if not name.startswith('ROS_')}
-        self.environment.update(ROS_HOME=str(self.directory), ROS_TRACE_DIR=str(self.directory / 'traces'))
 
     def record(self, file, *words):
-        run = subprocess.run([os.environ['LAUNCH_PROGRAM'], '--isolate', file, *words], env=self.environment, text=True,
-                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=PATIENCE)
-        self.assertEqual(run.returncode, 0, run.stdout)
-        # Programs of other tests are in the trace, too, some of them with messages that this computation does not know.
-        self.started = {int(pid) for pid in re.findall(r'process started with pid \[(\d+)\]', run.stdout)}
+        self.started = started(launch(self.directory, '--isolate', file, *words))
         return next((self.directory / 'traces').iterdir())
 
     def record_text(self, content):

@@ -3,17 +3,14 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cstdlib>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
-#include "tests/support/trace_writer/ping_pong_sequence.hpp"
-#include "tests/support/trace_writer/temporary_directory.hpp"
 #include "tests/support/trace_writer/trace_writer.hpp"
+#include "tests/unit/report/launch_report_case.hpp"
 #include "tracing/decode/reader/trace_reader.hpp"
 
 namespace tracing {
@@ -26,39 +23,6 @@ using ::testing::Not;
 using ::testing::StartsWith;
 using testing::TemporaryDirectory;
 using testing::TraceWriter;
-
-struct Outcome {
-  int exit_code;
-  std::string out;
-  std::string err;
-};
-
-std::string content(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
-Outcome launch_report(const std::string& arguments) {
-  const TemporaryDirectory directory;
-  const fs::path out = directory.path() / "out";
-  const fs::path err = directory.path() / "err";
-  const std::string command = std::string(LAUNCH_REPORT) + " " + arguments + " >" + out.string() + " 2>" + err.string();
-  const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out), content(err)};
-}
-
-void write_ping_pong(TraceWriter& writer) {
-  for (const auto& [time, thread, event] : testing::ping_pong_sequence()) {
-    writer.write(thread.vpid == testing::kPing.vpid ? 0 : 1, time, thread, event);
-  }
-}
-
-class LaunchReport : public ::testing::Test {
- protected:
-  TemporaryDirectory directory_;
-  std::string path_ = directory_.path().string();
-};
 
 TEST_F(LaunchReport, HasColoursWhenTheVariableOfTheNodesSaysSo) {
   TraceWriter writer(directory_.path() / "ust/uid/0/64-bit");
@@ -286,77 +250,6 @@ TEST_F(LaunchReport, ReportsWhatComesBeforeDamageAndFails) {
   EXPECT_THAT(outcome.err, StartsWith("launch report: error: the trace '" + path_ + "' is damaged or ends early: "));
   EXPECT_THAT(outcome.out, HasSubstr("Damaged    the trace '" + path_ + "' is damaged or ends early: "));
   EXPECT_THAT(outcome.out, HasSubstr("Events     57 of 2 processes\n"));
-}
-
-TEST_F(LaunchReport, WritesFilesInsteadOfAReport) {
-  TraceWriter writer(directory_.path() / "trace");
-  write_ping_pong(writer);
-  writer.finish();
-  const std::string out = path_ + "/out";
-  fs::create_directory(out);
-  const Outcome outcome =
-      launch_report(path_ + "/trace --html " + out + "/a.html --perfetto " + out + "/a.json --csv " + out +
-                    "/csv --sql " + out + "/a.db --dot " + out + "/a.dot --analysis-model " + out + "/model");
-  EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_EQ(outcome.err, "");
-  EXPECT_THAT(outcome.out,
-              ::testing::MatchesRegex(out + "/a.html: [0-9.]+ kB\n" + out + "/a.json: [0-9.]+ kB\n" + out + "/csv\n" +
-                                      out + "/a.db: [0-9.]+ kB\n" + out + "/a.dot: [0-9]+ bytes\n" + out + "/model\n"));
-  EXPECT_THAT(content(out + "/a.html"), StartsWith("<!DOCTYPE html>"));
-  EXPECT_EQ(nlohmann::json::parse(content(out + "/a.json"))["otherData"]["begin_ns"], testing::kPingPongBegin);
-  EXPECT_THAT(content(out + "/csv/nodes.csv"), ::testing::EndsWith("/ping\n1,1,/pong\n"));
-  EXPECT_THAT(content(out + "/a.db"), StartsWith("SQLite format 3"));
-  EXPECT_THAT(content(out + "/a.dot"), HasSubstr("digraph system"));
-  EXPECT_THAT(content(out + "/model/callback_instances.csv"), HasSubstr(",80000,False,72\n"));
-}
-
-TEST_F(LaunchReport, WritesAPartOfTheTrace) {
-  TraceWriter writer(directory_.path() / "trace");
-  write_ping_pong(writer);
-  writer.finish();
-  const std::string begin = path_ + "/trace --csv " + path_ + "/csv --from +0.50705";
-  EXPECT_EQ(launch_report(begin).exit_code, 0);
-  EXPECT_THAT(content(path_ + "/csv/callback_instances.csv"),
-              ::testing::MatchesRegex("id,[^\n]*\n0,2,1,1767225600507070000,80000,0,\n"
-                                      "1,0,0,1767225600507220000,30000,0,0\n"));
-  EXPECT_EQ(launch_report(begin + " --to 2026-01-01T00:00:00.5071").exit_code, 0);
-  EXPECT_THAT(content(path_ + "/csv/callback_instances.csv"),
-              ::testing::EndsWith("\n0,2,1,1767225600507070000,80000,0,\n"));
-  EXPECT_EQ(launch_report(path_ + "/trace --analysis-model " + path_ + "/model --from +0.50705 --to +0.5071").out,
-            path_ + "/model\n");
-  EXPECT_THAT(content(path_ + "/model/callback_instances.csv"),
-              ::testing::MatchesRegex("callback_object,[^\n]*\n[0-9]+,1767225600507070000,80000,False,72\n"));
-  EXPECT_THAT(launch_report(begin + " --to never").err, HasSubstr("--to: 'never' is no time; write seconds since "));
-  EXPECT_THAT(launch_report(path_ + "/trace --from +1").err,
-              HasSubstr("--from: goes with the options that write files, such as --html"));
-}
-
-TEST_F(LaunchReport, WritesWhatComesBeforeDamageToFiles) {
-  TraceWriter writer(directory_.path() / "trace");
-  write_ping_pong(writer);
-  writer.write_raw(0, testing::kPingPongBegin + 600'000'000, testing::kPing, 999, "");
-  writer.finish();
-  const Outcome outcome = launch_report(path_ + "/trace --csv " + path_ + "/csv");
-  EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_EQ(outcome.out, path_ + "/csv\n");
-  EXPECT_THAT(outcome.err,
-              StartsWith("launch report: error: the trace '" + path_ + "/trace' is damaged or ends early: "));
-  EXPECT_THAT(content(path_ + "/csv/trace.csv"), HasSubstr(",57,0,0,"));
-  EXPECT_THAT(content(path_ + "/csv/trace.csv"), HasSubstr("is damaged or ends early: "));
-}
-
-TEST_F(LaunchReport, SaysWhichFileCannotBeWritten) {
-  TraceWriter writer(directory_.path());
-  write_ping_pong(writer);
-  writer.finish();
-  for (const char* option : {"--html", "--perfetto", "--sql", "--dot"}) {
-    const Outcome outcome = launch_report(path_ + " " + option + " /nowhere/file");
-    EXPECT_EQ(outcome.exit_code, 1) << option;
-    EXPECT_EQ(outcome.out, "") << option;
-    EXPECT_EQ(outcome.err, "launch report: error: cannot write /nowhere/file: No such file or directory\n") << option;
-  }
-  EXPECT_EQ(launch_report(path_ + " --html /dev/full").err,
-            "launch report: error: cannot write /dev/full: No space left on device\n");
 }
 
 // Both sessions have recorded the same system.

@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Runs launches with a session daemon of their own. A trace holds what all processes fire that its daemon knows, so with the
+machine's daemon it would also hold what tests beside fire.
+"""
+
+import os
+import re
+import subprocess
+
+PATIENCE = 120  # seconds
+STARTED = re.compile(r'process started with pid \[(\d+)\]')
+
+# Root's daemon does not look at LTTNG_HOME, so root gets a /run/lttng of its own. The daemons end with the command.
+IS_ROOT = os.geteuid() == 0
+NAMESPACES = ('unshare', '--mount', '--pid', '--fork', '--kill-child', '--mount-proc', '--propagation', 'private')
+OWN_DIRECTORY = 'mkdir -p /run/lttng && mount -t tmpfs tmpfs /run/lttng || exit 1; '
+
+
+def launch(directory, *words, code=0, times=1):
+    """
+    Runs `launch` with these words, its home in the directory and its traces in `traces` there. Returns the process. With
+    `times` it runs so often, one after the other; each launch must succeed but the last. No two processes have the same id.
+    """
+    environment = {name: value for name, value in os.environ.items() if not name.startswith('ROS_')}
+    environment.update(ROS_HOME=str(directory), ROS_TRACE_DIR=str(directory / 'traces'), LTTNG_HOME=str(directory))
+    script = (OWN_DIRECTORY if IS_ROOT else '') + f'for run in $(seq {times}); do "$@" || exit $?; done'
+    run = subprocess.run([*(NAMESPACES if IS_ROOT else ()), 'bash', '-c', script, 'own_launch', os.environ['LAUNCH_PROGRAM'],
+                          *words], env=environment, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                         timeout=PATIENCE)
+    assert run.returncode == code, (run.returncode, run.stdout, run.stderr)
+    return run
+
+
+def started(run):
+    """The ids of the processes that the launch has started."""
+    return {int(pid) for pid in STARTED.findall(run.stdout + run.stderr)}
