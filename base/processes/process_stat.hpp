@@ -13,7 +13,8 @@ struct ProcessStat {
   std::string name;  // of its program, 15 bytes at most
   char state = '?';  // 'T': stopped, 'Z': ended and not reaped yet
   pid_t parent = 0;
-  std::uint64_t started = 0;  // clock ticks after the boot; with the process number it names a process for good
+  std::uint64_t processor_time = 0;  // clock ticks in user and kernel mode, of all its threads
+  std::uint64_t started = 0;         // clock ticks after the boot; with the process number it names a process for good
 };
 
 // From /proc/PID/stat, proc(5). An empty name when the process can't be seen.

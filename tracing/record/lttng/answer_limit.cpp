@@ -10,12 +10,14 @@
 #include <condition_variable>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <mutex>
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
+
+#include "base/processes/process_stat.hpp"
 
 namespace tracing {
 namespace {
@@ -54,25 +56,7 @@ std::uint64_t processor_time(int connection) {
   if (getsockopt(connection, SOL_SOCKET, SO_PEERCRED, &peer, &size) != 0) {
     return 0;
   }
-  std::ifstream file("/proc/" + std::to_string(peer.pid) + "/stat");
-  std::string text;
-  std::getline(file, text);
-  // Behind the name, which may hold anything: state, ten numbers, then the times in user and kernel mode.
-  std::size_t at = text.rfind(')');
-  for (int i = 0; i < 12 && at != std::string::npos; ++i) {
-    at = text.find(' ', at + 1);
-  }
-  if (at == std::string::npos) {
-    return 0;
-  }
-  std::uint64_t user = 0;
-  std::uint64_t kernel = 0;
-  const char* const end = text.data() + text.size();
-  const auto parsed = std::from_chars(text.data() + at + 1, end, user);
-  if (parsed.ptr != end) {
-    std::from_chars(parsed.ptr + 1, end, kernel);
-  }
-  return user + kernel;
+  return launch::read_process_stat(peer.pid).processor_time;
 }
 
 // A thread that looks at the call under way. It lives as long as the process.
@@ -96,7 +80,7 @@ class Watcher {
       cut_ = false;
       calls_ = true;
       ++begun_;
-      has_to_know = is_idle_ || limit_ != before;
+      has_to_know = std::exchange(is_idle_, false) || limit_ != before;
     }
     if (has_to_know) {
       changed_.notify_one();
@@ -113,18 +97,18 @@ class Watcher {
  private:
   void watch() {
     std::unique_lock lock(mutex_);
+    std::uint64_t seen = 0;
     while (true) {
-      is_idle_ = true;
-      changed_.wait(lock, [this] { return calls_; });
-      is_idle_ = false;
+      is_idle_ = begun_ == seen;
+      changed_.wait(lock, [this, seen] { return begun_ != seen; });
       // A set-up has dozens of short calls: nobody is woken for each.
-      for (std::uint64_t seen = begun_ - 1; calls_ || begun_ != seen;) {
+      do {
         seen = begun_;
         changed_.wait_for(lock, limit_ / kLooks);
         if (calls_ && Clock::now() - silent_since_ >= limit_ / kLooks) {
           look();
         }
-      }
+      } while (calls_ || begun_ != seen);
     }
   }
 
@@ -156,7 +140,7 @@ class Watcher {
   std::uint64_t processor_time_ = 0;  // of the daemon at the last look
   std::uint64_t begun_ = 0;           // calls
   bool calls_ = false;
-  bool is_idle_ = false;  // the thread
+  bool is_idle_ = false;  // the thread, until the next call begins
   bool cut_ = false;      // the call
   Clock::time_point short_until_;
 };

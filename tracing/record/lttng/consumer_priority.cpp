@@ -4,14 +4,17 @@
 #include <fmt/core.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "base/files/small_file.hpp"
 #include "base/processes/process_stat.hpp"
 
 namespace tracing {
@@ -41,10 +44,12 @@ std::vector<fs::path> candidates(pid_t daemon) {
   std::error_code none;
   bool listed = false;
   for (const fs::directory_entry& thread : fs::directory_iterator(fmt::format("/proc/{}/task", daemon), none)) {
-    std::ifstream children(thread.path() / "children");
-    listed = listed || children.is_open();
-    for (pid_t child = 0; children >> child;) {
-      found.emplace_back(fmt::format("/proc/{}", child));
+    const std::optional<std::string> children = launch::read_small_file(thread.path() / "children");
+    listed = listed || children.has_value();
+    for (std::string_view rest = children ? std::string_view(*children) : std::string_view(); !rest.empty();) {
+      const std::size_t end = rest.find(' ');
+      found.push_back(fs::path("/proc") / rest.substr(0, end));
+      rest.remove_prefix(std::min(end, rest.size() - 1) + 1);
     }
   }
   if (listed) {
@@ -58,17 +63,25 @@ std::vector<fs::path> candidates(pid_t daemon) {
   return found;
 }
 
-// The error of the first thread that keeps its priority, or 0.
+// The error of the first thread that keeps its priority, or 0. On Linux a nice value belongs to a thread, and new
+// threads have that of their maker. The main thread is the last to get it: if it has it, all have.
 int prefer(const fs::path& process) {
+  const pid_t main_thread = number_of(process);
+  if (getpriority(PRIO_PROCESS, static_cast<id_t>(main_thread)) == kConsumerNice) {
+    return 0;
+  }
+  const auto prefer_thread = [](pid_t thread) {
+    const bool done = setpriority(PRIO_PROCESS, static_cast<id_t>(thread), kConsumerNice) == 0;
+    return done || errno == ESRCH ? 0 : errno;
+  };
   std::error_code none;
-  // On Linux a nice value belongs to a thread.
   for (const fs::directory_entry& thread : fs::directory_iterator(process / "task", none)) {
-    const auto id = static_cast<id_t>(number_of(thread.path()));
-    if (setpriority(PRIO_PROCESS, id, kConsumerNice) != 0 && errno != ESRCH) {
-      return errno;
+    const pid_t id = number_of(thread.path());
+    if (const int error = id == main_thread ? 0 : prefer_thread(id); error != 0) {
+      return error;
     }
   }
-  return 0;
+  return prefer_thread(main_thread);
 }
 
 }  // namespace

@@ -11,8 +11,10 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -23,6 +25,7 @@
 
 #include "base/environment/home_directory.hpp"
 #include "base/environment/own_environment.hpp"
+#include "base/files/small_file.hpp"
 #include "base/files/unique_fd.hpp"
 #include "base/processes/process_mark.hpp"
 #include "base/processes/process_stat.hpp"
@@ -182,9 +185,10 @@ void start_daemon() {
 
 // 0 when there is none.
 pid_t read_pid(const std::string& pid_file) {
-  std::ifstream file(pid_file);
+  const std::string text = launch::read_small_file(pid_file).value_or("");
   pid_t pid = 0;
-  return file >> pid && pid > 0 ? pid : 0;
+  std::from_chars(text.data(), text.data() + text.size(), pid);
+  return std::max(pid, 0);
 }
 
 // The process that listens where programs find the session daemon. Its pid file may be elsewhere (--pidfile), or gone.
@@ -253,8 +257,12 @@ void check_daemon_not_stopped() {
 }
 
 void check_daemons_not_stopped() {
-  check_daemon_not_stopped();
-  for (const pid_t consumer : consumers_of(session_daemon_pid())) {
+  const pid_t pid = session_daemon_pid();
+  if (pid == 0) {
+    return;
+  }
+  check_not_stopped(pid, launch::read_process_stat(pid));
+  for (const pid_t consumer : consumers_of(pid)) {
     if (launch::read_process_stat(consumer).state == 'T' && !is_kept_going(consumer)) {
       throw TraceError(fmt::format("LTTng's consumer (process {}) is stopped and does not answer", consumer),
                        fmt::format("continue it with `kill -CONT {}`", consumer));
