@@ -52,7 +52,8 @@ def lacking(fired, recorded, process=None):
 def judge(outcome, verdict, fired, recorded):
     lacks = lacking(fired, recorded)
     within = sum(record.begun != record.done for record in fired.values())
-    unfinished = {int(part['cpu']) for part in verdict.get('unwritten', [])}
+    parts = [part for channel in [verdict, *verdict.get('channels', [])] for part in channel.get('unwritten', [])]
+    unfinished = {int(part['cpu']) for part in parts}
     named = unfinished | {int(part['cpu']) for part in verdict.get('lost', [])}
     for cpu, sentence in lacks.items():
         if verdict['complete']:

@@ -68,8 +68,8 @@ TEST(ProcessStat, NothingIsKnownOfAProcessThatHasEnded) {
 }
 
 TEST(SmallFile, IsReadWholeAlsoWhereItHasNoSize) {
-  const std::filesystem::path path = std::filesystem::temp_directory_path() /
-                                     ("small-file-" + std::to_string(getpid()));
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("small-file-" + std::to_string(getpid()));
   const std::string text(10'000, 'x');
   std::ofstream(path) << text;
   EXPECT_EQ(launch::read_small_file(path), text);

@@ -28,11 +28,13 @@ constexpr std::uint64_t kLargestReadWithoutCounts = 100'000'000;  // bytes
 
 }  // namespace
 
-LossesByProcess::LossesByProcess(const TraceConfig& config, LossAccount& losses) : losses_(losses) {
+LossesByProcess::LossesByProcess(const TraceConfig& config, LossAccount& losses)
+    : losses_(losses), counters_(config.event_counters) {
   if (!config.event_counters.empty()) {
     counts_ = EventCounters(config.event_counters).read();
   }
   forgive_pauses(counts_, config.event_counters, config.lttng_session_name());
+  paused_ = was_paused(config.event_counters, config.lttng_session_name());
   losses.cuts = read_cuts(config);
   try {
     events_ = read_recorded_events(config.lttng_session_name());

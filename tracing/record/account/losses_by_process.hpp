@@ -8,6 +8,7 @@
 #include "tracing/record/account/event_counters.hpp"
 #include "tracing/record/account/loss_account.hpp"
 #include "tracing/record/account/loss_attribution.hpp"
+#include "tracing/record/account/process_ends.hpp"
 #include "tracing/record/account/recorded_events.hpp"
 #include "tracing/record/account/stream_packets.hpp"
 #include "tracing/record/account/unwritten_data.hpp"
@@ -24,6 +25,9 @@ class LossesByProcess {
 
   // Processes that did not end properly (unwritten_data.hpp).
   std::vector<std::string> killed() const { return killed_processes(counts_); }
+
+  // Nothing of a session that was paused: LTTng may have ended the streams of its processes before.
+  ProcessEnds process_ends() const { return paused_ ? ProcessEnds() : read_process_ends(counters_, counts_); }
 
   // When the session has gone: which of its rules no program had an event for, by the metadata of the recording.
   void look_for_absent_events(const std::string& recording);
@@ -42,9 +46,11 @@ class LossesByProcess {
   bool overwrites() const;
 
   LossAccount& losses_;
+  std::string counters_;
   std::vector<EventCounts> counts_;
   RecordedEvents events_;
   bool unknown_ = false;
+  bool paused_ = false;
 };
 
 }  // namespace tracing

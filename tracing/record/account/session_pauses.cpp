@@ -53,6 +53,10 @@ void note_resume(const std::string& counters, const std::string& name) {
   note("resume", counters, name);
 }
 
+bool was_paused(const std::string& counters, const std::string& name) {
+  return !counters.empty() && !read_pauses(counters, name).empty();
+}
+
 void forgive_pauses(std::vector<EventCounts>& counts, const std::string& counters, const std::string& name) {
   if (counters.empty()) {
     return;

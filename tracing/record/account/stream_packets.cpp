@@ -106,7 +106,8 @@ void add_packets(const ctf::TraceClass& trace, const fs::path& file, const std::
                          .end = packet.time_end.value_or(0),
                          .bytes = packet.content_bits / 8,
                          .discarded_events = packet.discarded_events.value_or(0),
-                         .sequence_number = packet.sequence_number});
+                         .sequence_number = packet.sequence_number,
+                         .is_empty = packet.content_bits <= packet.events_bit});
     }
   } catch (const std::system_error&) {  // it is gone
   }

@@ -19,6 +19,7 @@ struct Packet {
   std::uint64_t bytes = 0;                            // of events and header, without padding
   std::uint64_t discarded_events = 0;                 // of the stream since its beginning
   std::optional<std::uint64_t> sequence_number = {};  // of the packets of its stream
+  bool is_empty = false;                              // no event is in it
 };
 
 // What one processor recorded into one channel.

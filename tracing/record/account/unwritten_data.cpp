@@ -21,6 +21,7 @@
 #include "base/processes/process_stat.hpp"
 #include "tracing/record/account/loss_account.hpp"
 #include "tracing/record/account/packet_losses.hpp"
+#include "tracing/record/account/process_ends.hpp"
 #include "tracing/record/account/stream_packets.hpp"
 
 namespace tracing {
@@ -29,7 +30,7 @@ namespace {
 constexpr std::size_t kRoomLeftByAWorkingConsumer = 65536;  // bytes; it fills a file system to the last block
 constexpr const char* kRemedy = "make room there, or choose another base-path";
 
-// What one process may leave between the ends of its streams, which LTTng's consumer ends one after the other.
+// Between the ends of the streams of a session that was paused.
 constexpr std::uint64_t kBetweenEnds = 1'000'000'000;  // ns
 constexpr std::chrono::milliseconds kLongestCommit{1000};
 constexpr std::chrono::milliseconds kBetweenLooks{2};
@@ -39,14 +40,18 @@ std::uint64_t end_of(const Stream& stream) {
   return stream.packets.empty() ? 0 : stream.packets.back().end;
 }
 
-// When the streams of each process were ended that has buffers of its own.
-std::map<std::int64_t, std::uint64_t> ends_of_processes(const std::vector<Stream>& streams) {
-  std::map<std::int64_t, std::uint64_t> ends;
+std::map<std::int64_t, EndOfProcess> ends_of_processes(const std::vector<Stream>& streams,
+                                                       const ProcessEnds& lived_until) {
+  std::map<std::int64_t, std::vector<const Stream*>> of_processes;
   for (const Stream& stream : streams) {
     if (stream.pid) {
-      std::uint64_t& end = ends[*stream.pid];
-      end = std::max(end, end_of(stream));
+      of_processes[*stream.pid].push_back(&stream);
     }
+  }
+  std::map<std::int64_t, EndOfProcess> ends;
+  for (const auto& [pid, of_process] : of_processes) {
+    const auto lived = lived_until.find(pid);
+    ends.try_emplace(pid, of_process, lived == lived_until.end() ? 0 : lived->second);
   }
   return ends;
 }
@@ -99,29 +104,32 @@ int error_of_writing(const std::filesystem::path& directory) {
 
 }  // namespace
 
-std::vector<UnwrittenRange> unfinished_streams(const std::vector<Stream>& streams, std::uint64_t stopped) {
+std::vector<UnwrittenRange> unfinished_streams(const std::vector<Stream>& streams, std::uint64_t stopped,
+                                               const ProcessEnds& lived_until) {
   std::vector<UnwrittenRange> found;
+  std::uint64_t latest = stopped;
+  std::uint64_t shared_end = stopped;
   if (stopped == 0) {
     for (const Stream& stream : streams) {
-      stopped = stream.domain != "ust" || stream.pid ? stopped : std::max(stopped, end_of(stream));
+      if (stream.domain == "ust") {
+        latest = std::max(latest, end_of(stream));
+        shared_end = stream.pid ? shared_end : std::max(shared_end, end_of(stream));
+      }
     }
-    stopped -= std::min(stopped, kBetweenEnds);
+    shared_end -= std::min(shared_end, kBetweenEnds);
   }
-  if (stopped == 0 || has_own_clock()) {
+  if (latest == 0 || has_own_clock()) {
     return found;
   }
-  const std::uint64_t first = first_time(streams);
-  const std::uint64_t origin = first < stopped ? first : stopped;  // without a packet no time is known
-  const std::map<std::int64_t, std::uint64_t> ends = ends_of_processes(streams);
+  const std::uint64_t origin = std::min(first_time(streams), latest);  // without a packet no time is known
+  const std::map<std::int64_t, EndOfProcess> ends =
+      ends_of_processes(streams, stopped == 0 ? ProcessEnds() : lived_until);
   for (const Stream& stream : streams) {
     if (stream.domain != "ust") {
       continue;
     }
-    std::uint64_t expected = stopped;
-    if (stream.pid) {
-      const std::uint64_t end = ends.at(*stream.pid);
-      expected = std::min(stopped, end - std::min(end, kBetweenEnds));
-    }
+    const std::uint64_t expected =
+        stream.pid ? std::min(latest, ends.at(*stream.pid).expected_end(stream)) : shared_end;
     const std::uint64_t end = stream.packets.empty() ? origin : end_of(stream);
     if (end >= expected && !stream.packets.empty()) {
       continue;
@@ -136,11 +144,12 @@ std::vector<UnwrittenRange> unfinished_streams(const std::vector<Stream>& stream
   return found;
 }
 
-void find_unwritten(LossAccount& account, const std::vector<Stream>& streams, std::uint64_t stopped) {
+void find_unwritten(LossAccount& account, const std::vector<Stream>& streams, std::uint64_t stopped,
+                    const ProcessEnds& lived_until) {
   if (account.cut_short) {
     return;
   }
-  for (const UnwrittenRange& range : unfinished_streams(streams, stopped)) {
+  for (const UnwrittenRange& range : unfinished_streams(streams, stopped, lived_until)) {
     for (ChannelLoss& channel : account.channels) {
       if (channel.domain == "ust" && channel.channel == range.channel) {
         channel.unwritten.push_back(range);

@@ -13,6 +13,7 @@
 
 #include "tracing/record/account/event_counters.hpp"
 #include "tracing/record/account/loss_account.hpp"
+#include "tracing/record/account/process_ends.hpp"
 #include "tracing/record/account/stream_packets.hpp"
 
 namespace tracing {
@@ -20,13 +21,14 @@ namespace tracing {
 // The streams that lack their end, each with the time from which on it is missing. `stopped` is when the session was
 // asked to stop, or the snapshot was asked for (CLOCK_MONOTONIC, ns). At this moment LTTng ends a packet of every
 // stream, also of idle ones. A stream is therefore unfinished if its last packet ends before. If the moment is not
-// known (0), as of a session that was paused before, the streams are compared with one another. A process that has
-// buffers of its own ends its streams when it ends: they are compared with one another. The streams of the kernel are
-// left out.
-std::vector<UnwrittenRange> unfinished_streams(const std::vector<Stream>& streams, std::uint64_t stopped);
+// known (0), as of a session that was paused before, the streams are compared with one another. The streams of a
+// process that has buffers of its own end when it ends (process_ends.hpp). The streams of the kernel are left out.
+std::vector<UnwrittenRange> unfinished_streams(const std::vector<Stream>& streams, std::uint64_t stopped,
+                                               const ProcessEnds& lived_until = {});
 
 // Adds the unfinished streams to the channels of `account`, unless the wait for their data was given up.
-void find_unwritten(LossAccount& account, const std::vector<Stream>& streams, std::uint64_t stopped);
+void find_unwritten(LossAccount& account, const std::vector<Stream>& streams, std::uint64_t stopped,
+                    const ProcessEnds& lived_until = {});
 
 // Processes of `counts` that are gone and did not end properly: "planner [4711]".
 std::vector<std::string> killed_processes(const std::vector<EventCounts>& counts);

@@ -107,6 +107,9 @@ nlohmann::ordered_json channel_as_json(const ChannelLoss& channel) {
   }
   for (const UnwrittenRange& range : channel.unwritten) {
     json["unwritten"].push_back({{"cpu", range.cpu}, {"begin_ns", range.begin_ns}, {"end_ns", range.end_ns}});
+    if (range.pid) {
+      json["unwritten"].back()["pid"] = *range.pid;
+    }
   }
   if (channel.advised_subbuffer_size != 0) {
     json["would_have_held"] = {{"subbuffer_size", channel.advised_subbuffer_size},

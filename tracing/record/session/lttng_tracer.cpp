@@ -54,7 +54,7 @@ constexpr std::chrono::milliseconds kLongestEndOfAStuckSession{1000};
 void judge(LossAccount& losses, LossesByProcess& by_process, const std::vector<Stream>& streams,
            const std::string& directory, std::uint64_t stopped) {
   explain_losses(losses, streams);
-  find_unwritten(losses, streams, stopped);
+  find_unwritten(losses, streams, stopped, by_process.process_ends());
   losses.damage = describe_damage(losses, {.no_room = why_no_room(directory), .killed = by_process.killed()});
   if (const std::string unreadable = describe_unreadable(directory); !unreadable.empty()) {
     losses.damage += (losses.damage.empty() ? "" : "; ") + unreadable;

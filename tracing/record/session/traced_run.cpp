@@ -11,7 +11,9 @@
 #include <system_error>
 #include <utility>
 
+#include "base/monotonic_clock.hpp"
 #include "tracing/record/account/loss_text.hpp"
+#include "tracing/record/account/process_ends.hpp"
 #include "tracing/record/lttng/installed_program.hpp"
 #include "tracing/record/plan/preload.hpp"
 #include "tracing/record/plan/trace_error.hpp"
@@ -195,7 +197,10 @@ void TracedRun::request_snapshot(const std::string& reason, const std::string& d
   }
 }
 
-void TracedRun::process_ended(const std::string& name) {
+void TracedRun::process_ended(const std::string& name, pid_t pid) {
+  if (config_.buffers_ust == BufferOwner::kProcess) {
+    note_process_end(config_.event_counters, pid, static_cast<std::uint64_t>(launch::monotonic_time()));
+  }
   const std::lock_guard lock(watchers_mutex_);
   if (run_watch_) {
     run_watch_->process_ended(name);

@@ -6,6 +6,8 @@
 // return at once, and request_snapshot(), process_ended() and hurry() may be called from any thread meanwhile.
 #pragma once
 
+#include <sys/types.h>
+
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -79,8 +81,8 @@ class TracedRun {
   void look_around(const Tell& tell);
   // Does nothing if there is no flight recorder at the time. `died`: as of FlightRecorder::request().
   void request_snapshot(const std::string& reason, const std::string& died = "");
-  // A process of the run has ended: with a session that records, look whether it has died within an event.
-  void process_ended(const std::string& name);
+  // A process of the run has ended just now: find out whether it has died within an event, at once or at the end.
+  void process_ended(const std::string& name, pid_t pid);
   // The user is in a hurry: a finish() under way ends at once, with the data that is there.
   void hurry() { hurry_ = true; }
   // Ends the session and tells what it holds and has lost. Throws TraceError when the session can't be reached any
