@@ -98,9 +98,9 @@ TEST(UnwrittenData, OfAProcessWithBuffersOfItsOwnIsWhatItsOtherStreamsHave) {
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].cpu, "1");
   EXPECT_EQ(tracing::describe_unfinished(found, {"planner [7]", "driver [9]"}),
-            "unfinished: planner [7] died within an event, processor 1, since 1.000 s of 2.000 s (channel ros2)");
+            "unfinished: planner [7] died within an event, processor 1, since 1.000 s of 3.000 s (channel ros2)");
   EXPECT_EQ(tracing::describe_unfinished(found, {}),
-            "unfinished: process 7 died within an event, processor 1, since 1.000 s of 2.000 s (channel ros2)");
+            "unfinished: process 7 died within an event, processor 1, since 1.000 s of 3.000 s (channel ros2)");
 }
 
 TEST(UnwrittenData, MayBeAllThatThereWas) {
