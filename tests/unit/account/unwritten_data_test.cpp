@@ -101,6 +101,11 @@ TEST(UnwrittenData, OfAProcessWithBuffersOfItsOwnIsWhatItsOtherStreamsHave) {
             "unfinished: planner [7] died within an event, processor 1, since 1.000 s of 3.000 s (channel ros2)");
   EXPECT_EQ(tracing::describe_unfinished(found, {}),
             "unfinished: process 7 died within an event, processor 1, since 1.000 s of 3.000 s (channel ros2)");
+  of_a_process[1].packets[0].discarded_events = 3;
+  const auto after_losses = tracing::unfinished_streams(of_a_process, 9 * kNsPerSecond);
+  EXPECT_EQ(tracing::describe_unfinished(after_losses, {}),
+            "unfinished: the buffers of process 7 were full to its end, processor 1, since 1.000 s of 3.000 s (channel "
+            "ros2)");
 }
 
 TEST(UnwrittenData, MayBeAllThatThereWas) {

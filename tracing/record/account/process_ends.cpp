@@ -73,9 +73,10 @@ std::uint64_t EndOfProcess::expected_end(const Stream& stream) const {
     return 0;
   }
   const std::uint64_t end = stream.packets.empty() ? 0 : stream.packets.back().end;
-  const bool is_tick = end + kTick < end_ && std::any_of(earlier_.begin(), earlier_.end(), [&](const auto& earlier) {
-    return earlier.first != &stream && earlier.second + kTick >= end && earlier.second <= end + kTick;
-  });
+  const bool is_tick =
+      end + kTick < end_ && std::any_of(earlier_.begin(), earlier_.end(), [&](const auto& earlier) {
+        return earlier.first != &stream && earlier.second + kTick >= end && earlier.second <= end + kTick;
+      });
   return end < least_ || is_tick ? std::max(least_, end_) : least_;
 }
 

@@ -36,7 +36,7 @@ class EndOfProcess {
   std::uint64_t expected_end(const Stream& stream) const;
 
  private:
-  std::uint64_t end_ = 0;                     // of all its streams
+  std::uint64_t end_ = 0;  // of all its streams
   std::uint64_t least_ = 0;
   std::vector<std::pair<const Stream*, std::uint64_t>> earlier_;  // the ends of packets that others followed
 };

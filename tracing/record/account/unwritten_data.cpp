@@ -65,6 +65,9 @@ std::string why_unfinished(const UnwrittenRange& range, std::vector<std::string>
   if (range.pid) {
     const std::string pid = fmt::format("[{}]", *range.pid);
     std::erase_if(killed, [&pid](const std::string& process) { return !process.ends_with(pid); });
+    if (killed.empty() && range.after_losses) {
+      return fmt::format("the buffers of process {} were full to its end", *range.pid);
+    }
     if (killed.empty()) {
       killed.push_back(fmt::format("process {}", *range.pid));
     }
