@@ -3,6 +3,8 @@
 // each client what it has counted itself, as a line of JSON. For counted_losses_test.py.
 //
 // A message holds its number, so a subscription knows which ones it lacks before the last one that came.
+#include <tracetools/tracetools.h>
+
 #include <algorithm>
 #include <cinttypes>
 #include <cstdio>
@@ -76,6 +78,7 @@ class Subscription {
 
   std::int64_t last() const { return numbers_.empty() ? 0 : *numbers_.rbegin(); }
   std::size_t count() const { return numbers_.size(); }
+  const rclcpp::Subscription<Int64>::SharedPtr& get() const { return subscription_; }
   void wait_for(std::int64_t number) {
     spin_until([&] { return last() >= number; });
   }
@@ -160,6 +163,64 @@ void take_in_callback() {
     publisher.publish(10);
     subscription.wait_for(publisher.sent());
   }
+}
+
+// A program without an executor, which throws away two of three messages that it takes.
+void throw_away() {
+  const auto node = make_node("thrower");
+  Publisher publisher(node, "thrower", rclcpp::QoS(100));
+  const auto group = node->create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive, false);
+  rclcpp::SubscriptionOptions options;
+  options.callback_group = group;
+  const auto subscription = node->create_subscription<Int64>(
+      "thrower", rclcpp::QoS(100), [](const Int64&) {}, options);
+  publisher.wait_for_subscriptions(1);
+  rclcpp::WaitSet wait_set;
+  wait_set.add_subscription(subscription);
+  std::size_t taken = 0;
+  std::size_t used = 0;
+  for (int burst = 0; burst < 3; ++burst) {
+    publisher.publish(10);
+    while (static_cast<std::int64_t>(taken) < publisher.sent() &&
+           wait_set.wait().kind() == rclcpp::WaitResultKind::Ready) {
+      Int64 message;
+      rclcpp::MessageInfo info;
+      while (subscription->take(message, info)) {
+        used += ++taken % 3 == 0 ? 1 : 0;
+      }
+    }
+  }
+  wait_set.remove_subscription(subscription);
+  std::printf(
+      "{\"topic\": \"/thrower\", \"node\": \"/thrower\", \"received\": %zu, \"missing\": 0, \"first\": 1, \"used\": "
+      "%zu}\n",
+      taken, used);
+}
+
+// An executor of the program's own, which executes every subscription that is ready, but gives every third message to
+// nobody.
+void execute_some() {
+  const auto node = make_node("own_executor");
+  Publisher publisher(node, "own_executor", rclcpp::QoS(100));
+  const auto group = node->create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive, false);
+  rclcpp::SubscriptionOptions options;
+  options.callback_group = group;
+  Subscription subscription(node, "own_executor", rclcpp::QoS(100), options);
+  publisher.wait_for_subscriptions(1);
+  rclcpp::WaitSet wait_set;
+  wait_set.add_subscription(subscription.get());
+  std::int64_t taken = 0;
+  publisher.publish(31);
+  while (taken < publisher.sent() && wait_set.wait().kind() == rclcpp::WaitResultKind::Ready) {
+    TRACETOOLS_TRACEPOINT(rclcpp_executor_execute,
+                          static_cast<const void*>(subscription.get()->get_subscription_handle().get()));
+    const auto message = std::make_shared<Int64>();
+    rclcpp::MessageInfo info;
+    if (subscription.get()->take(*message, info) && ++taken % 3 != 0) {
+      subscription.get()->handle_message(message, info);
+    }
+  }
+  wait_set.remove_subscription(subscription.get());
 }
 
 // What was published before the subscription was there, and after it had gone.
@@ -256,6 +317,8 @@ int main(int argc, char** argv) {
   overwrite_in_buffer();
   filter();
   take_in_callback();
+  throw_away();
+  execute_some();
   come_late_and_leave_early();
   act();
   kept.clear();

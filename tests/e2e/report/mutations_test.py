@@ -11,6 +11,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from stream_files import packet_ends
+
 PREFIX = Path(os.environ['BUILD_DIRECTORY']) / 'prefix'
 MUTATIONS = 150
 PATIENCE = 120  # seconds
@@ -26,17 +28,6 @@ try:
 except launch_trace.TraceError as error:
     sys.exit(str(error))
 '''
-
-
-def packet_ends(index):
-    """Where the packets of a stream end, but for the last one, by its index (version 1 of LTTng's format)."""
-    content = index.read_bytes()
-    (length,) = struct.unpack_from('>I', content, 12)
-    ends = []
-    for at in range(16, len(content) - length + 1, length):
-        offset, bits = struct.unpack_from('>QQ', content, at)
-        ends.append(offset + bits // 8)
-    return ends[:-1]
 
 
 class Mutations(unittest.TestCase):

@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+The tables of `launch report`, those of JSON and the rows of SQL, against a computation of its own, from what babeltrace2 prints
+of the same trace: callbacks, timers, topics, messages, services and executors.
+"""
+
+import collections
+import json
+import os
+import shutil
+import sqlite3
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+from own_launch import launch, started
+from trace_truth import Truth, events_of
+
+# What the tables hold of each event.
+ROWS = {
+    'callback_instances': '''SELECT processes.vpid, callbacks.address, start_ns, duration_ns FROM callback_instances
+      JOIN callbacks ON callback = callbacks.id JOIN processes ON process = processes.id WHERE callbacks.kind <> 'client' ''',
+    'messages': '''SELECT topics.name, published_ns, taken_ns, callback_ns FROM messages JOIN topics ON topic = topics.id
+      WHERE intra_process = 0 AND taken_ns IS NOT NULL''',
+    'executor_waits': '''SELECT processes.vpid, threads.vtid, begin_ns, end_ns FROM executor_waits
+      JOIN threads ON thread = threads.id JOIN processes ON threads.process = processes.id''',
+}
+
+
+def percentile(values, part):
+    """The nearest rank: the smallest value that at least this part of all do not exceed."""
+    ordered = sorted(values)
+    return ordered[max(-(-len(ordered) * part // 1000), 1) - 1]
+
+
+class TruthCase(unittest.TestCase):
+
+    def setUp(self):
+        self.directory = Path(tempfile.mkdtemp(prefix='truth_test-'))
+        self.addCleanup(shutil.rmtree, self.directory)
+
+    def record(self, file, *words, times=1):
+        self.started = started(launch(self.directory, '--isolate', file, *words, times=times))
+        return self.directory / 'traces'
+
+    def record_text(self, content, attributes='', events='ros2:*', append_timestamp='true'):
+        file = self.directory / 'recorded.launch.xml'
+        file.write_text(f'<launch><trace session-name="truth" append-timestamp="{append_timestamp}" events-ust="{events}" '
+                        f'{attributes}/>'
+                        f'{content}</launch>')
+        return self.record(file)
+
+    def compare(self, summary, values):
+        """A distribution against its values."""
+        self.assertEqual(summary['count'], len(values))
+        if not values:
+            return
+        mean = sum(values) / len(values)
+        self.assertEqual((summary['min_ns'], summary['max_ns']), (min(values), max(values)))
+        self.assertAlmostEqual(summary['mean_ns'], mean, delta=1)
+        if summary['percentiles_are_exact']:
+            for key, part in (('p50_ns', 500), ('p90_ns', 900), ('p99_ns', 990)):
+                self.assertEqual(summary[key], percentile(values, part), key)
+        self.compared += 1
+
+    def check(self, trace, least, code=0, truth=None, is_whole=True):
+        """At least so many distributions have values. The report ends with this code, and says whether anything is missing."""
+        rows = self.directory / 'rows.sqlite'
+        for words in (('--sql', rows), ('--json',)):
+            run = subprocess.run([os.environ['LAUNCH_REPORT'], trace, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            self.assertEqual(run.returncode, code, run.stderr)
+        report = json.loads(run.stdout)
+        self.assertEqual(not (report['losses'] or report['overwritten'] or report['error']), is_whole)
+        truth = truth or Truth(events_of(trace))
+        self.compared = 0
+        self.check_rows(rows, truth)
+        for callback in report['callbacks']:
+            key = callback['vpid'], callback['address']
+            if callback['owner'] == 'client' or callback['vpid'] not in self.started:
+                continue  # its events are those of ros2_ext
+            with self.subTest(callback=callback['node'], symbol=callback['symbol']):
+                self.compare(callback['duration'], truth.durations[key])
+                begins = truth.begins[key]
+                intervals = [after - before for before, after in zip(begins, begins[1:])]
+                self.compare(callback['interval'], intervals)
+                if callback['owner'] == 'timer':
+                    period = truth.period[key]
+                    self.assertEqual(callback['period_ns'], period)
+                    self.compare(callback['jitter'], [abs(interval - period) for interval in intervals])
+                    self.assertEqual(callback['missed'], sum((one + period // 2) // period - 1 for one in intervals
+                                                             if one > period + period // 2))
+                    self.assertEqual(callback['overruns'], sum(one > period for one in truth.durations[key]))
+        for topic in report['topics']:
+            with self.subTest(topic=topic['name']):
+                self.assertEqual(topic['published'], truth.published[topic['name']])
+                self.assertEqual(topic['received'], truth.received[topic['name']])
+                self.compare(topic['latency'], truth.latencies[topic['name']])
+        requests = collections.Counter()
+        responses = collections.Counter()
+        for call in report['calls']:
+            if call['client_vpid'] is None:
+                continue  # not in the trace: the service tells
+            requests[call['client_vpid'], call['service']] += call['requests']
+            responses[call['client_vpid'], call['service']] += call['responses']
+        self.assertEqual(requests, truth.requests)
+        self.assertEqual(+responses, +truth.responses)
+        threads = collections.Counter(process for process, _ in truth.waited)
+        for executor in report['executors']:
+            key = executor['vpid'], executor['vtid']
+            with self.subTest(executor=key):
+                if executor['waited_ns'] is None:
+                    pass
+                elif threads[executor['vpid']] == 1:
+                    self.assertEqual(executor['waited_ns'], truth.waited[key])
+                else:
+                    # While one thread waits for work, the others wait for that one (docs/report.md, "Executors").
+                    self.assertGreaterEqual(executor['waited_ns'], truth.waited[key])
+                self.assertEqual(executor['callbacks'], truth.callbacks_of[key])
+        self.assertGreaterEqual(self.compared, least)
+
+    def check_rows(self, file, truth):
+        """Each callback instance, message and wait, not only their numbers and distributions."""
+        expected = {'callback_instances': truth.instances, 'messages': truth.ways, 'executor_waits': truth.waits}
+        with sqlite3.connect(file) as database:
+            for table, query in ROWS.items():
+                found = collections.Counter(row for row in database.execute(query)
+                                            if table == 'messages' or row[0] in self.started)
+                with self.subTest(table=table):
+                    own = collections.Counter(row for row in expected[table] if table == 'messages' or row[0] in self.started)
+                    self.assertEqual((sorted(map(str, own - found)), sorted(map(str, found - own))), ([], []))
+        database.close()
