@@ -38,9 +38,20 @@ const std::unordered_map<std::string_view, MakePlan>& plan_makers() {
   return makers;
 }
 
+// What the event is called in provider `ros2`.
+std::string name_in_ros2(std::string_view name, Decoder::Provider provider) {
+  constexpr std::string_view kCaret = "ros2_caret:";
+  if (provider == Decoder::Provider::kRos2 || !name.starts_with(kCaret)) {
+    return std::string(name);
+  }
+  name.remove_prefix(kCaret.size());
+  return name == "dds_write" ? std::string(RmwPublish::kName) : "ros2:" + std::string(name);
+}
+
 }  // namespace
 
-Decoder::Decoder(std::function<void(const std::string&)> report) : report_(std::move(report)) {}
+Decoder::Decoder(std::function<void(const std::string&)> report, Provider provider)
+    : report_(std::move(report)), provider_(provider) {}
 Decoder::~Decoder() = default;
 
 const AnyEvent* Decoder::decode(const Event& event) {
@@ -62,7 +73,7 @@ const Decoder::Plan& Decoder::plan_for(const Event& event) {
   }
 
   plans_[id] = std::make_unique<Plan>();
-  const auto maker = plan_makers().find(event.name());
+  const auto maker = plan_makers().find(name_in_ros2(event.name(), provider_));
   if (maker != plan_makers().end()) {
     for (const std::string& problem : maker->second(event, *plans_[id])) {
       report_(problem);

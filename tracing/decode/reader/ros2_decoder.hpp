@@ -16,7 +16,10 @@ class Decoder {
  public:
   // Calls `report` once per event class for fields that are missing or have an unexpected type: "ros2:rmw_publish has
   // no field timestamp". Such events are decoded all the same. Extra fields are ignored.
-  explicit Decoder(std::function<void(const std::string&)> report);
+  // `provider`: whose events are decoded. Those of CARET have the names of ROS 2's, and dds_write stands for
+  // rmw_publish.
+  enum class Provider { kRos2, kCaret };
+  explicit Decoder(std::function<void(const std::string&)> report, Provider provider = Provider::kRos2);
   ~Decoder();
 
   // The event as a struct, valid until the next call; null when it is not one of the 42.
@@ -29,6 +32,7 @@ class Decoder {
   const Plan& plan_for(const Event& event);
 
   std::function<void(const std::string&)> report_;
+  Provider provider_;
   std::vector<std::unique_ptr<Plan>> plans_;  // by EventClass::id
   AnyEvent decoded_;
 };

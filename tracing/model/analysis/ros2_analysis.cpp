@@ -22,6 +22,14 @@ Ros2Analysis::Ros2Analysis(ExecutionSink* sink, std::vector<ChainDefinition> cha
   }
 }
 
+void Ros2Analysis::on_caret_event(const Origin& origin, const ros2::CaretEvent& event) {
+  if (event.kind == ros2::CaretEvent::Kind::kSourceTimestamp) {
+    on_write(origin, event.number);
+  } else {
+    groups_.on(origin, event);
+  }
+}
+
 Ros2Results Ros2Analysis::finish(std::vector<std::optional<ProcessIndex>> places,
                                  const std::vector<ProcessResult>& processes) {
   join_.finish();

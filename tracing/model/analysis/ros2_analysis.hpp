@@ -23,6 +23,7 @@
 #include "tracing/model/execution/sink_list.hpp"
 #include "tracing/model/messages/chain_tracker.hpp"
 #include "tracing/model/messages/delivery_statistics.hpp"
+#include "tracing/model/objects/callback_groups.hpp"
 #include "tracing/model/objects/object_model.hpp"
 
 namespace tracing {
@@ -46,6 +47,7 @@ class Ros2Analysis {
     model_.on(origin, event, qos);
   }
   void on_execution(const Origin& origin, const ros2::ExecutionEvent& event) { join_.on_execution(origin, event); }
+  void on_caret_event(const Origin& origin, const ros2::CaretEvent& event);
   void on_write(const Origin& origin, std::int64_t source_timestamp) { join_.on_write(origin, source_timestamp); }
   void on_allocation(const Origin& origin, std::uint64_t bytes) {
     sinks_.on_allocation({{origin.process, origin.vtid}, origin.time_ns, bytes});
@@ -58,6 +60,7 @@ class Ros2Analysis {
                      const std::vector<ProcessResult>& processes = {});
 
   const ObjectModel& model() const { return model_; }
+  const CallbackGroups& groups() const { return groups_; }
   // Before the first event: also keeps what ChainTracker::passages() and hops() give.
   void keep_chain_passages() { chains_.keep_passages(); }
   const ChainTracker& chains() const { return chains_; }
@@ -69,6 +72,7 @@ class Ros2Analysis {
 
  private:
   ObjectModel model_;
+  CallbackGroups groups_{model_};
   CallbackTiming timing_{model_};
   HoldUps hold_ups_{model_};
   DeliveryStatistics deliveries_{model_};

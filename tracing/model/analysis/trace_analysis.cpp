@@ -15,6 +15,9 @@ void TraceAnalysis::on_event(const Event& event) {
     if (!event.vpid || !event.vtid) {
       lacks_thread_context_ = true;
     }
+    if (!inits_.empty()) {
+      inits_.release(process, [&](const InitsInOrder::Kept& kept) { tell(kept.origin, kept.event); });
+    }
     ros2_.on_event(origin, *decoded);
   } else if (const std::optional<ros2::ObjectEnd> end = ends_.decode(event)) {
     ros2_.on_end(origin, *end);
@@ -28,8 +31,27 @@ void TraceAnalysis::on_event(const Event& event) {
     ros2_.on_allocation(origin, *bytes);
   } else if (const std::optional<std::int64_t> timestamp = writes_.decode(event)) {
     ros2_.on_write(origin, *timestamp);
+  } else if (const ros2::CaretDecoder::Decoded* caret = caret_.decode(event)) {
+    on_caret_event(origin, *caret);
   } else {
     ros2_.on_kernel_event(event, process);
+  }
+}
+
+void TraceAnalysis::on_caret_event(const Origin& origin, const ros2::CaretDecoder::Decoded& decoded) {
+  if (decoded.init_ns) {
+    inits_.keep(origin, *decoded.init_ns, decoded.event);
+    return;
+  }
+  inits_.release(origin.process, [&](const InitsInOrder::Kept& kept) { tell(kept.origin, kept.event); });
+  tell(origin, decoded.event);
+}
+
+void TraceAnalysis::tell(const Origin& origin, const ros2::KnownCaretEvent& event) {
+  if (const auto* const caret = std::get_if<ros2::CaretEvent>(&event)) {
+    ros2_.on_caret_event(origin, *caret);
+  } else {
+    ros2_.on_event(origin, std::get<ros2::AnyEvent>(event));
   }
 }
 
@@ -38,6 +60,7 @@ void TraceAnalysis::on_loss(const Loss& loss) {
 }
 
 TraceResults TraceAnalysis::finish() {
+  inits_.release_all([&](const InitsInOrder::Kept& kept) { tell(kept.origin, kept.event); });
   TraceResults results;
   results.overview = overview_.overview();
   const std::vector<std::optional<ProcessIndex>> places = overview_.places();

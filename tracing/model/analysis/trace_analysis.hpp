@@ -11,9 +11,11 @@
 #include <string>
 #include <utility>
 
+#include "tracing/decode/reader/caret_events.hpp"
 #include "tracing/decode/reader/ext_events.hpp"
 #include "tracing/decode/reader/ros2_decoder.hpp"
 #include "tracing/decode/reader/trace_reader.hpp"
+#include "tracing/model/analysis/inits_in_order.hpp"
 #include "tracing/model/analysis/overview_counter.hpp"
 #include "tracing/model/analysis/results.hpp"
 #include "tracing/model/analysis/ros2_analysis.hpp"
@@ -45,17 +47,23 @@ class TraceAnalysis : public TraceSink {
 
   // What the ids of the sink refer to.
   const ObjectModel& objects() const { return ros2_.model(); }
+  const CallbackGroups& groups() const { return ros2_.groups(); }
   const std::vector<ProcessObject>& processes() const { return overview_.processes().processes(); }
   std::string host_of(ProcessId process) const { return overview_.processes().host_of(process); }
   // Where each process is in TraceResults::overview.processes; nullopt when it is not there.
   std::vector<std::optional<ProcessIndex>> places() const { return overview_.places(); }
 
  private:
+  void on_caret_event(const Origin& origin, const ros2::CaretDecoder::Decoded& decoded);
+  void tell(const Origin& origin, const ros2::KnownCaretEvent& event);
+
   OverviewCounter overview_;
   StartTracker starts_;
   Ros2Analysis ros2_;
   std::vector<std::string> warnings_;
   ros2::Decoder decoder_{[this](const std::string& problem) { warnings_.push_back(problem); }};
+  ros2::CaretDecoder caret_;
+  InitsInOrder inits_;
   ros2::ObjectEndDecoder ends_;
   ros2::ExecutionEventDecoder executions_;
   ros2::LifecycleStateDecoder lifecycle_states_;

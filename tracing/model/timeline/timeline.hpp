@@ -54,9 +54,28 @@ struct ServiceEnd {  // service or client
   std::string name;  // of the service
 };
 
+// An executor and its callback groups are known from the events of CARET alone.
+struct Executor {
+  Index process = kNone;
+  std::uint64_t address = 0;
+  std::string kind;  // single_threaded_executor, …; empty when the trace does not tell
+};
+
+struct CallbackGroup {
+  Index executor = kNone;
+  std::string kind;  // mutually_exclusive, reentrant; likewise
+};
+
+// The time of nodes with use_sim_time, likewise.
+struct SimulatedTime {
+  std::int64_t time_ns = 0;
+  std::int64_t simulated_ns = 0;
+};
+
 struct Callback {
   Index process = kNone;
   Index node = kNone;
+  Index group = kNone;
   CallbackResult::Owner owner = CallbackResult::Owner::kUnknown;
   Index owner_id = kNone;      // in the list of its kind: subscriptions, timers, services, clients
   Index topic = kNone;         // of a subscription
@@ -185,6 +204,9 @@ struct Timeline {
   std::vector<Timer> timers;
   std::vector<ServiceEnd> services;
   std::vector<ServiceEnd> clients;
+  std::vector<Executor> executors;
+  std::vector<CallbackGroup> callback_groups;
+  std::vector<SimulatedTime> simulated_times;  // by time
   std::vector<Callback> callbacks;
   std::vector<Instance> instances;        // by start
   std::vector<Message> messages;          // by time of publication

@@ -74,8 +74,19 @@ void copy_objects(const TraceAnalysis& analysis, Timeline& timeline) {
   for (const ClientObject& client : objects.clients()) {
     timeline.clients.push_back({client.node, client.name});
   }
+  const CallbackGroups& groups = analysis.groups();
+  for (const ExecutorObject& executor : groups.executors()) {
+    timeline.executors.push_back({executor.process, executor.address, executor.kind});
+  }
+  for (const GroupObject& group : groups.groups()) {
+    timeline.callback_groups.push_back({group.executor, group.kind});
+  }
+  for (const ::tracing::SimulatedTime& time : groups.simulated_times()) {
+    timeline.simulated_times.push_back({time.time_ns, time.simulated_ns});
+  }
   for (const CallbackObject& object : objects.callbacks()) {
     timeline.callbacks.push_back(callback_of(object, objects));
+    timeline.callbacks.back().group = groups.group_of(object);
   }
 }
 

@@ -54,7 +54,9 @@ std::vector<ColumnOf<timeline::Callback>> callback_columns() {
           {"symbol", kText, [](System, const Callback& callback) { return text(callback.symbol); },
            "the function, in readable form"},
           {"owner", kInteger, [](System, const Callback& callback) { return reference(callback.owner_id); },
-           "in `subscriptions`, `timers`, `services` or `clients`, as `kind` says"}};
+           "in `subscriptions`, `timers`, `services` or `clients`, as `kind` says"},
+          {"callback_group", kInteger, [](System, const Callback& callback) { return reference(callback.group); },
+           "in `callback_groups`"}};
 }
 
 }  // namespace
@@ -104,6 +106,23 @@ void add_object_tables(const TracedSystem& system, std::vector<Table>& tables) {
        {"period_ns", kInteger, [](System, const auto& timer) { return number(timer.period_ns); }}}));
   tables.push_back(table_of("services", "", system, timeline.services, service_columns()));
   tables.push_back(table_of("clients", "", system, timeline.clients, service_columns()));
+  tables.push_back(table_of<timeline::Executor>(
+      "executors", "of a trace with the events of CARET, which alone tell of them", system, timeline.executors,
+      {{"process", kInteger, [](System, const auto& executor) { return reference(executor.process); },
+        "in `processes`"},
+       {"kind", kText, [](System, const auto& executor) { return text(executor.kind); },
+        "`single_threaded_executor`, `multi_threaded_executor`, `static_single_threaded_executor`"},
+       {"address", kInteger, [](System, const auto& executor) { return number(executor.address); }}}));
+  tables.push_back(table_of<timeline::CallbackGroup>(
+      "callback_groups", "likewise", system, timeline.callback_groups,
+      {{"executor", kInteger, [](System, const auto& group) { return reference(group.executor); }, "in `executors`"},
+       {"kind", kText, [](System, const auto& group) { return text(group.kind); },
+        "`mutually_exclusive`, `reentrant`"}}));
+  tables.push_back(table_of<timeline::SimulatedTime>(
+      "simulated_times", "likewise, with CARET's recorder of clocks: the time of nodes with `use_sim_time`", system,
+      timeline.simulated_times,
+      {{"time_ns", kInteger, [](System, const auto& time) { return number(time.time_ns); }},
+       {"simulated_ns", kInteger, [](System, const auto& time) { return number(time.simulated_ns); }}}));
   tables.push_back(table_of("callbacks", "", system, timeline.callbacks, callback_columns()));
 }
 

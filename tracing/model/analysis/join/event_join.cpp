@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/model/analysis/join/event_join.hpp"
 
+#include <algorithm>
+
 namespace tracing {
 
 void EventJoin::on_event(const Origin& origin, const ros2::AnyEvent& event) {
-  last_ns_ = origin.time_ns;
+  last_ns_ = std::max(last_ns_, origin.time_ns);  // initialisations of CARET are told later than they were recorded
   std::visit([&](const auto& known) { handle(origin, known); }, event);
 }
 
