@@ -117,6 +117,11 @@ class Frames(OpenedRun):
             with self.subTest(module), self.assertRaisesRegex(ImportError, rf'{function}\(\) needs {module}, .* python3-{module}'):
                 getattr(self.run_.nodes, function)()
 
+    @needs('pyarrow')
+    def test_pyarrow_gets_the_same_rows(self):
+        table = self.run_.messages
+        self.assertEqual([tuple(row.values()) for row in table.to_arrow().to_pylist()], table.rows())
+
     @needs('polars')
     def test_polars_gets_the_same_rows(self):
         self.assertEqual(self.run_.messages.to_polars().rows(), self.run_.messages.rows())
