@@ -19,12 +19,14 @@
 #include "tracing/model/twin/build_twin.hpp"
 #include "tracing/model/twin/description/description_file.hpp"
 #include "tracing/model/twin/launch_file.hpp"
+#include "tracing/model/twin/overhead.hpp"
 #include "tracing/model/twin/recording.hpp"
 #include "tracing/model/twin/simulation.hpp"
 #include "tracing/model/twin/what_if.hpp"
 
 namespace {
 
+using tracing::twin::Figures;
 using tracing::twin::System;
 using twin_program::Arguments;
 
@@ -50,6 +52,15 @@ void write_twin(const Arguments& arguments, const System& system, bool ext_event
   options.cpus = limits_cpus ? system.cpus : 0;
   write_file(arguments.folder / "twin.json", tracing::twin::description_of(system));
   write_file(arguments.folder / "twin.xml", tracing::twin::launch_file_of(system, options));
+}
+
+// Runs the twin as it was for a while, and makes its stand-ins as quick as what they stand for.
+void calibrate(const Arguments& arguments, const Figures& recorded, double duration_s, bool ext_events,
+               System& system) {
+  write_twin(arguments, system, ext_events, false);
+  const std::filesystem::path trace = twin_program::run_twin(arguments.folder, duration_s);
+  add_overheads(recorded, figures_of(tracing::twin::read_recording(trace), system), system);
+  std::filesystem::remove_all(trace);
 }
 
 std::string head_of(const Arguments& arguments, const System& system) {
@@ -81,7 +92,7 @@ int twin(const Arguments& arguments) {
   options.seed = arguments.seed;
   options.bytes = arguments.bytes;
   options.sizes = arguments.sizes;
-  const System system = build_twin(recording, options);
+  System system = build_twin(recording, options);
   if (system.callbacks.empty()) {
     throw std::runtime_error(
         fmt::format("the trace in '{}' has no callbacks of nodes to make a twin of", arguments.directory.string()));
@@ -90,13 +101,20 @@ int twin(const Arguments& arguments) {
   for (const std::string& what_if : arguments.what_ifs) {
     apply_what_if(what_if, changed);
   }
+  const Figures recorded = figures_of(recording, system);
+  if (arguments.run && arguments.calibration_s > 0) {
+    calibrate(arguments, recorded, arguments.calibration_s, recording.has_ext_events, system);
+    for (Index index = 0; index < system.callbacks.size(); ++index) {
+      changed.callbacks[index].overhead_ns = system.callbacks[index].overhead_ns;
+    }
+  }
   if (!arguments.folder.empty()) {
     write_twin(arguments, changed, recording.has_ext_events, changed.cpus != system.cpus);
   }
   const auto duration_ns =
       arguments.duration_s > 0 ? static_cast<std::int64_t>(arguments.duration_s * 1e9) : system.duration_ns;
   twin_program::Comparison comparison;
-  comparison.recorded = figures_of(recording, system);
+  comparison.recorded = recorded;
   comparison.simulated = Simulation(system).run(duration_ns);
   if (!arguments.what_ifs.empty()) {
     comparison.changed = Simulation(changed).run(duration_ns);

@@ -48,6 +48,11 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
   app.add_option("--duration", arguments.duration_s, "Seconds that the twin runs; default: as long as the recording")
       ->option_text("SECONDS")
       ->check(CLI::Range(1.0, 86400.0));
+  app.add_option("--calibration", arguments.calibration_s,
+                 "Seconds that --run runs the twin without changes before, to see what the stand-ins need beside their "
+                 "work; 0: not at all; default: 3")
+      ->option_text("SECONDS")
+      ->check(CLI::Range(0.0, 3600.0));
   app.add_option("--cpus", arguments.cpus, "Processors of the recorded machine; default: as the trace tells")
       ->option_text("N")
       ->check(CLI::Range(1, 1024));

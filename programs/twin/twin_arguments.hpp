@@ -23,6 +23,7 @@ struct Arguments {
   std::uint64_t bytes = 64;
   std::map<std::string, std::uint64_t> sizes;
   double duration_s = 0;  // 0: as long as the recording
+  double calibration_s = 3;
 };
 
 // Returns the exit code when there is nothing more to do.

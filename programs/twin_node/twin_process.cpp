@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <queue>
 #include <rclcpp/experimental/executors/events_executor/events_executor.hpp>
 #include <string>
 #include <thread>
@@ -18,6 +19,9 @@ using tracing::twin::Executor;
 using tracing::twin::kNone;
 
 namespace {
+
+// Of shorter runs the processor time is not asked: that takes a microsecond, and hardly any of them is interrupted.
+constexpr std::int64_t kLong = 20'000;
 
 rclcpp::QoS qos_of(const tracing::twin::Qos& qos) {
   rclcpp::QoS result = qos.depth == 0 ? rclcpp::QoS(rclcpp::KeepAll()) : rclcpp::QoS(rclcpp::KeepLast(qos.depth));
@@ -39,10 +43,15 @@ std::shared_ptr<rclcpp::Executor> make_executor(const Executor& executor) {
 }  // namespace
 
 TwinProcess::TwinProcess(const tracing::twin::System& system, Index process)
-    : system_(system), process_(process), rules_(system), sendings_(system.callbacks.size()) {
+    : system_(system),
+      process_(process),
+      rules_(system),
+      sendings_(system.callbacks.size()),
+      plain_(system.callbacks.size()) {
   add_nodes();
   add_groups();
   add_ends();
+  draw_plain_runs();
   add_callbacks();
 }
 
@@ -111,6 +120,28 @@ void TwinProcess::add_ends() {
   }
 }
 
+void TwinProcess::draw_plain_runs() {
+  std::vector<bool> is_input(system_.callbacks.size());
+  for (const Callback& callback : system_.callbacks) {
+    for (const tracing::twin::Output& output : callback.outputs) {
+      for (const Index input : output.inputs) {
+        is_input[input] = true;
+      }
+    }
+  }
+  for (Index index = 0; index < system_.callbacks.size(); ++index) {
+    const Callback& callback = system_.callbacks[index];
+    if (!groups_.contains(callback.group) || !callback.outputs.empty() || is_input[index] || callback.blocked > 0) {
+      continue;
+    }
+    constexpr std::size_t kRounds = 4;
+    tracing::twin::Draw draw(callback.run_times, system_.seed + index);
+    for (std::size_t count = kRounds * callback.run_times.values.size(); count > 0; --count) {
+      plain_[index].times.push_back(draw.next() - callback.overhead_ns);
+    }
+  }
+}
+
 void TwinProcess::add_callbacks() {
   for (Index index = 0; index < system_.callbacks.size(); ++index) {
     const Callback& callback = system_.callbacks[index];
@@ -152,6 +183,12 @@ void TwinProcess::add_callbacks() {
 }
 
 void TwinProcess::run(Index index) {
+  if (std::vector<std::int64_t>& times = plain_[index].times; !times.empty()) {
+    // Nothing that costs as much as the shortest callbacks take.
+    const std::int64_t time_ns = times[plain_[index].used.fetch_add(1, std::memory_order_relaxed) % times.size()];
+    Work(system_.processor_times && time_ns > kLong).until(time_ns);
+    return;
+  }
   const Work work(system_.processor_times);
   const Callback& callback = system_.callbacks[index];
   tracing::twin::Run run;
@@ -161,9 +198,12 @@ void TwinProcess::run(Index index) {
   }
   std::int64_t time_ns = run.time_ns;
   const double share = 1 - callback.blocked;
+  const auto work_until = [&](std::int64_t all_ns, double part) {
+    work.until(std::llround(static_cast<double>(all_ns) * share * part) - callback.overhead_ns);
+  };
   std::int64_t sending_ns = 0;
   for (const std::size_t output : run.outputs) {
-    work.until(std::llround(static_cast<double>(run.time_ns) * share * callback.outputs[output].called));
+    work_until(run.time_ns, callback.outputs[output].called);
     const std::int64_t begin = monotonic_ns();
     send(callback.outputs[output]);
     sending_ns += monotonic_ns() - begin;
@@ -171,7 +211,7 @@ void TwinProcess::run(Index index) {
   if (!run.outputs.empty()) {
     time_ns = time_of_run(index, sending_ns, run.time_ns);
   }
-  work.until(std::llround(static_cast<double>(time_ns) * share));
+  work_until(time_ns, 1);
   if (const auto sleep = std::llround(static_cast<double>(time_ns) * callback.blocked); sleep > 0) {
     sleep_for(sleep);
   }
@@ -217,24 +257,34 @@ void TwinProcess::send(const tracing::twin::Output& output) {
 }
 
 void TwinProcess::start_timers() {
-  // All processes reckon from the same time: the start of the clock. So timers keep their distance.
+  // All processes reckon from the same time: the start of the clock. So timers keep their distance. On a busy machine a
+  // timer may be set too late, and then two that were apart would run at the same time: it is set once more.
   struct Start {
     std::int64_t time_ns;
     const Timer* timer;
+    int tries;
+    bool operator<(const Start& other) const { return time_ns > other.time_ns; }
   };
   // Longer ones begin at once: nobody waits for them.
   constexpr std::int64_t kLongest = 2'000'000'000;
+  constexpr std::int64_t kNear = 100'000;
+  constexpr int kTries = 30;
   const std::int64_t now = monotonic_ns();
-  std::vector<Start> starts;
+  std::priority_queue<Start> starts;
   for (const Timer& timer : timers_) {
     const std::int64_t since = (now - timer.phase_ns) % timer.period_ns;
-    starts.push_back({timer.period_ns > kLongest ? now : now - since + timer.period_ns, &timer});
+    starts.push({timer.period_ns > kLongest ? now : now - since + timer.period_ns, &timer, 0});
   }
-  std::stable_sort(starts.begin(), starts.end(),
-                   [](const Start& left, const Start& right) { return left.time_ns < right.time_ns; });
-  for (const Start& start : starts) {
+  while (!starts.empty() && rclcpp::ok()) {
+    const Start start = starts.top();
+    starts.pop();
     sleep_until(start.time_ns);
     start.timer->timer->reset();
+    if (monotonic_ns() - start.time_ns > kNear && start.tries < kTries && start.timer->period_ns <= kLongest) {
+      start.timer->timer->cancel();
+      const std::int64_t periods = (monotonic_ns() - start.time_ns) / start.timer->period_ns + 1;
+      starts.push({start.time_ns + periods * start.timer->period_ns, start.timer, start.tries + 1});
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 // The nodes, callbacks and executors of one process of a twin.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -33,6 +34,12 @@ class TwinProcess {
     std::int64_t phase_ns = 0;
   };
 
+  // The times of runs that do nothing else, if a callback has no others.
+  struct Plain {
+    std::vector<std::int64_t> times;
+    std::atomic<std::size_t> used{0};
+  };
+
   // How long sending took in the last runs of a callback.
   struct Sendings {
     static constexpr std::size_t kMost = 128;
@@ -43,6 +50,7 @@ class TwinProcess {
   void add_nodes();
   void add_groups();
   void add_ends();
+  void draw_plain_runs();
   void add_callbacks();
   // What a callback does.
   void run(Index callback);
@@ -64,6 +72,7 @@ class TwinProcess {
   std::map<Index, rclcpp::Client<Service>::SharedPtr> clients_;
   std::map<Index, Index> answers_;  // the callback of each client
   std::vector<Sendings> sendings_;  // by callback
+  std::vector<Plain> plain_;        // likewise
   std::vector<Timer> timers_;
   std::vector<std::shared_ptr<void>> kept_;
 };

@@ -79,6 +79,28 @@ TEST_F(ExampleTwin, NamesWhatItLacks) {
   EXPECT_NE(all.find("no events of the kernel's scheduler"), std::string::npos);
 }
 
+// Timers are made one after the other, and first called when the executor begins: at the same time, and most of them
+// late.
+TEST(BuildTwin, TimersKeepTheirDistanceAlthoughTheirFirstCallsAreLate) {
+  testing::HandRecording hand;
+  hand.add_process();
+  const timeline::Index node = hand.add_node("/node");
+  const timeline::Index thread = hand.add_thread(1);
+  const timeline::Index first = hand.add_timer(node);
+  const timeline::Index second = hand.add_timer(node);
+  hand.run(first, thread, 90, 91);
+  hand.run(second, thread, 95, 96);
+  for (const std::int64_t period : {100, 200, 300, 400, 500, 600}) {
+    const std::int64_t late = period == 300 ? 5 : 0;
+    hand.run(first, thread, period + 20 + late, period + 21 + late);
+    hand.run(second, thread, period + 60 + 2 * late, period + 61 + 2 * late);
+  }
+  const System twin = build_twin(hand.recording, {});
+  ASSERT_EQ(twin.callbacks.size(), 2u);
+  EXPECT_EQ(twin.callbacks[0].phase_ns, 0);
+  EXPECT_EQ(twin.callbacks[1].phase_ns, 40);
+}
+
 TEST(BuildTwin, ATimerStandsForWhatWasSentOutsideOfCallbacks) {
   testing::HandRecording hand;
   hand.add_process();

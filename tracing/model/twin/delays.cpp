@@ -72,6 +72,14 @@ class Busy {
     }
   }
 
+  // The run of the same thread before this one, or null.
+  const timeline::Instance* before(timeline::Index index) const {
+    const timeline::Instance& instance = timeline_.instances[index];
+    const std::vector<timeline::Index>& of_thread = by_thread_[instance.thread];
+    const auto place = std::lower_bound(of_thread.begin(), of_thread.end(), index);
+    return place == of_thread.begin() ? nullptr : &timeline_.instances[*(place - 1)];
+  }
+
   // From this time on the callback could have run, as far as its executor and its group are concerned.
   std::int64_t until(timeline::Index callback, std::int64_t time_ns) const {
     std::int64_t until = time_ns;
@@ -120,6 +128,8 @@ std::vector<WayTimes> way_times(const Recording& recording, const FoundExecutors
   const int quiet_load = std::max(1, static_cast<int>(cpus) - 1);
   const Busy busy(timeline, executors);
   std::vector<Samples> samples(timeline.callbacks.size());
+  // Of each executor: gaps of runs that a thread found ready when it had ended another one.
+  std::vector<std::vector<std::int64_t>> of_executor(executors.executors.size());
   for (const timeline::Message& message : timeline.messages) {
     if (message.receiving_instance == timeline::kNone) {
       continue;
@@ -130,6 +140,12 @@ std::vector<WayTimes> way_times(const Recording& recording, const FoundExecutors
     const std::int64_t delay = instance.start_ns - message.published_ns;
     if (delay < 0) {
       continue;  // clocks of two machines
+    }
+    const std::size_t executor = executors.executor_of[instance.callback];
+    const timeline::Instance* const last = busy.before(message.receiving_instance);
+    if (executor != FoundExecutors::kNone && last != nullptr && last->end_ns > message.published_ns &&
+        last->end_ns <= instance.start_ns) {
+      of_executor[executor].push_back(instance.start_ns - last->end_ns);
     }
     if (before > message.published_ns) {
       of.gaps.push_back(std::max<std::int64_t>(0, instance.start_ns - before));
@@ -146,6 +162,15 @@ std::vector<WayTimes> way_times(const Recording& recording, const FoundExecutors
     if (of.quiet.empty()) {
       // The executor was never free. What a message needs at least is in the gap.
       of.quiet = of.gaps;
+    }
+    const std::size_t executor = executors.executor_of[index];
+    const bool has_threads = executor != FoundExecutors::kNone && executors.executors[executor].threads.size() > 1;
+    if (of.gaps.size() < kEnough && (of.gaps.empty() || has_threads)) {
+      // An executor with several threads is seldom kept by its own callbacks, so its few gaps are those of a busy
+      // machine. With fewer threads it will have many: such as its threads had with other callbacks, or at most the
+      // time of a message that a thread is woken for.
+      const bool has_others = executor != FoundExecutors::kNone && of_executor[executor].size() >= kEnough;
+      of.gaps = has_others ? of_executor[executor] : of.quiet;
     }
     times[index] = {Distribution::of(std::move(of.quiet)), Distribution::of(std::move(of.gaps))};
   }

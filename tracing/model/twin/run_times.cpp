@@ -2,7 +2,6 @@
 #include "tracing/model/twin/run_times.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace tracing::twin {
 
@@ -36,10 +35,6 @@ class States {
  private:
   std::vector<std::vector<const timeline::ThreadState*>> by_thread_;
 };
-
-std::int64_t median(std::vector<std::int64_t> values) {
-  return Distribution::of(std::move(values)).quantile(0.5);
-}
 
 }  // namespace
 
@@ -96,15 +91,28 @@ std::int64_t RunTimes::first_due_ns(std::size_t callback, std::int64_t period_ns
   if (starts.empty() || period_ns <= 0) {
     return 0;
   }
-  std::vector<std::int64_t> late;
+  // Where calls are within a period. All are late: most a little, some much, and the first one often, up to a period.
+  // So the timer is due where half of them are nearest to one another, at the first of these.
+  std::vector<std::int64_t> places;
+  places.reserve(starts.size());
   for (const std::int64_t start : starts) {
-    const std::int64_t since = start - starts.front();
-    const auto periods =
-        static_cast<std::int64_t>(std::llround(static_cast<double>(since) / static_cast<double>(period_ns)));
-    late.push_back(since - periods * period_ns);
+    places.push_back((start - starts.front()) % period_ns);
   }
-  // The first call is often later than the others, never earlier than half a period.
-  return starts.front() + std::min<std::int64_t>(0, median(std::move(late)));
+  std::sort(places.begin(), places.end());
+  const std::size_t half = places.size() / 2;
+  std::int64_t due = 0;
+  std::int64_t least = period_ns;
+  for (std::size_t place = 0; place < places.size(); ++place) {
+    const std::size_t last = place + half;
+    const std::int64_t width =
+        last < places.size() ? places[last] - places[place] : places[last - places.size()] + period_ns - places[place];
+    if (width < least) {
+      least = width;
+      due = places[place];
+    }
+  }
+  const bool is_first_early = due < period_ns / 50;
+  return starts.front() + due - (is_first_early ? 0 : period_ns);
 }
 
 }  // namespace tracing::twin

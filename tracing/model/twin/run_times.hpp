@@ -22,7 +22,7 @@ class RunTimes {
   Distribution silent(std::size_t callback) const;
   double blocked(std::size_t callback) const;  // the part in which they needed no processor
   bool has_intra_process(std::size_t callback) const { return callbacks_[callback].intra_process; }
-  // When a timer was due first: most calls are a little late, so the one that was least late counts.
+  // When a timer was due first, which may be long before its first call.
   std::int64_t first_due_ns(std::size_t callback, std::int64_t period_ns) const;
 
  private:

@@ -66,6 +66,7 @@ Json callback_json(const Callback& callback) {
       break;
   }
   json["blocked"] = callback.blocked;
+  json["overhead_ns"] = callback.overhead_ns;
   json["outputs"] = Json::array();
   for (const Output& output : callback.outputs) {
     json["outputs"].push_back(output_json(output));
@@ -162,6 +163,7 @@ Callback read_callback(const Json& json, const System& system, std::size_t callb
       break;
   }
   callback.blocked = std::clamp(json.at("blocked").get<double>(), 0.0, 1.0);
+  callback.overhead_ns = json.value("overhead_ns", std::int64_t{0});
   for (const Json& output : json.at("outputs")) {
     callback.outputs.push_back(read_output(output, system, callbacks));
   }

@@ -104,9 +104,10 @@ struct Callback {
   std::uint64_t runs = 0;      // that were recorded
   Distribution run_times;      // of runs that send something; of all if `silent_run_times` is empty
   Distribution silent_run_times;
-  double blocked = 0;   // the part of a run in which it needs no processor
-  Distribution delays;  // from sending to the begin, if the executor waits for it
-  Distribution gaps;    // from the end of the callback before to the begin, if the executor was busy
+  std::int64_t overhead_ns = 0;  // that a stand-in needs beside its work, as a run of the twin has shown
+  double blocked = 0;            // the part of a run in which it needs no processor
+  Distribution delays;           // from sending to the begin, if the executor waits for it
+  Distribution gaps;             // from the end of the callback before to the begin, if the executor was busy
   std::vector<Output> outputs;
 };
 
