@@ -46,6 +46,24 @@ TEST(Executors, ThreadsThatWaitInTurnsAreOfOneExecutor) {
   EXPECT_EQ(found.executors[0].threads, (std::vector<std::int64_t>{1, 2, 3}));
 }
 
+// As CARET tells them: without waits, and of callbacks that never met.
+TEST(Executors, AndGroupsAreThoseThatTheTraceTells) {
+  TwoThreads hand;
+  hand.run(hand.first, hand.left, 10, 20);
+  hand.run(hand.second, hand.right, 30, 40);
+  hand.recording.timeline.executors = {{0, 0x1, "multi_threaded_executor"}};
+  hand.recording.timeline.callback_groups = {{0, "mutually_exclusive"}, {0, "reentrant"}};
+  hand.recording.timeline.callbacks[hand.first].group = 0;
+  hand.recording.timeline.callbacks[hand.second].group = 1;
+  const FoundExecutors found = find_executors(hand.recording);
+  ASSERT_EQ(found.executors.size(), 1u);
+  EXPECT_EQ(found.executors[0].threads, (std::vector<std::int64_t>{1, 2}));
+  EXPECT_EQ(found.executors[0].recorded_kind, "multi_threaded_executor");
+  ASSERT_EQ(found.groups.size(), 2u);
+  EXPECT_FALSE(found.groups[found.group_of[hand.first]].reentrant);
+  EXPECT_TRUE(found.groups[found.group_of[hand.second]].reentrant);
+}
+
 TEST(Executors, CallbacksThatRanAtTheSameTimeAreInTwoGroups) {
   TwoThreads hand;
   const timeline::Index third = hand.add_timer(hand.node);

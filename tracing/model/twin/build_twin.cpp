@@ -85,9 +85,11 @@ class Builder {
         continue;
       }
       executor_of_[index] = system_.executors.size();
-      const Executor::Kind kind = found.threads.size() > 1 ? Executor::Kind::kMulti
-                                  : found.waits            ? Executor::Kind::kSingle
-                                                           : Executor::Kind::kEvents;
+      const bool is_multi = found.threads.size() > 1 || found.recorded_kind == "multi_threaded_executor";
+      const bool is_single = found.waits || !found.recorded_kind.empty();
+      const Executor::Kind kind = is_multi    ? Executor::Kind::kMulti
+                                  : is_single ? Executor::Kind::kSingle
+                                              : Executor::Kind::kEvents;
       system_.executors.push_back({process_of_[found.process], kind, found.threads.size(), 0});
     }
     for (std::size_t process = 0; process < system_.processes.size(); ++process) {

@@ -13,6 +13,12 @@ namespace {
 
 using ThreadKey = std::pair<timeline::Index, std::int64_t>;  // process, vtid
 
+// As the trace tells it; kNone: it does not.
+timeline::Index executor_of(const timeline::Timeline& timeline, timeline::Index callback) {
+  const timeline::Index group = timeline.callbacks[callback].group;
+  return group == timeline::kNone ? timeline::kNone : timeline.callback_groups[group].executor;
+}
+
 class Threads {
  public:
   explicit Threads(const Recording& recording) {
@@ -108,6 +114,19 @@ class Threads {
   void unite(std::size_t left, std::size_t right) { parent_[root(right)] = root(left); }
 
   void join(const Recording& recording) {
+    std::vector<std::size_t> first_of(recording.timeline.executors.size(), FoundExecutors::kNone);
+    for (const timeline::Instance& instance : recording.timeline.instances) {
+      if (const timeline::Index executor = executor_of(recording.timeline, instance.callback);
+          executor != timeline::kNone) {
+        std::size_t& first = first_of[executor];
+        const std::size_t place = thread_places_.at(instance.thread);
+        if (first == FoundExecutors::kNone) {
+          first = place;
+        } else {
+          unite(first, place);
+        }
+      }
+    }
     std::vector<std::size_t> runner(recording.timeline.callbacks.size(), FoundExecutors::kNone);
     for (const timeline::Instance& instance : recording.timeline.instances) {
       std::size_t& first = runner[instance.callback];
@@ -170,6 +189,14 @@ std::set<std::pair<timeline::Index, timeline::Index>> overlaps_of(const Recordin
 
 FoundExecutors find_executors(const Recording& recording) {
   FoundExecutors found = Threads(recording).executors(recording);
+  const timeline::Timeline& timeline = recording.timeline;
+  for (timeline::Index callback = 0; callback < timeline.callbacks.size(); ++callback) {
+    const timeline::Index recorded = executor_of(timeline, callback);
+    if (recorded != timeline::kNone && found.executor_of[callback] != FoundExecutors::kNone) {
+      found.executors[found.executor_of[callback]].recorded_kind = timeline.executors[recorded].kind;
+    }
+  }
+  std::map<std::pair<timeline::Index, timeline::Index>, std::size_t> recorded_groups;  // by node and group
   const auto overlaps = overlaps_of(recording);
   found.group_of.assign(recording.timeline.callbacks.size(), FoundExecutors::kNone);
   std::vector<std::vector<timeline::Index>> members;
@@ -177,6 +204,16 @@ FoundExecutors find_executors(const Recording& recording) {
     const timeline::Index node = recording.timeline.callbacks[callback].node;
     const std::size_t executor = found.executor_of[callback];
     if (executor == FoundExecutors::kNone || node == timeline::kNone) {
+      continue;
+    }
+    if (const timeline::Index recorded = timeline.callbacks[callback].group; recorded != timeline::kNone) {
+      const auto [known, is_new] = recorded_groups.try_emplace({node, recorded}, members.size());
+      if (is_new) {
+        members.emplace_back();
+        found.groups.push_back({node, executor, timeline.callback_groups[recorded].kind == "reentrant"});
+      }
+      found.group_of[callback] = known->second;
+      members[known->second].push_back(callback);
       continue;
     }
     const bool reentrant = overlaps.contains({callback, callback});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which threads are those of one executor, and which callbacks exclude one another. A trace tells neither; both follow
-// from what ran when.
+// Which threads are those of one executor, and which callbacks exclude one another. A trace of CARET tells both. Of
+// others both follow from what ran when.
 //
 // - Of the threads of one executor only one at a time waits for work. Threads of a process that have waited at the same
 //   time are of two executors; others are of one, and so are those that ran the same callback.
@@ -8,6 +8,7 @@
 //   time is in a reentrant one. Others of the same node and executor are taken for mutually exclusive.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "tracing/model/twin/recording.hpp"
@@ -18,6 +19,7 @@ struct FoundExecutor {
   timeline::Index process = timeline::kNone;
   std::vector<std::int64_t> threads;  // their vtid
   bool waits = false;                 // it tells when it waits; an EventsExecutor does not
+  std::string recorded_kind;          // as timeline::Executor::kind; empty: the trace does not tell
 };
 
 struct FoundGroup {
