@@ -65,6 +65,7 @@ TEST_F(Chains, AreFoundFromWhatCallbacksPublish) {
   EXPECT_EQ(chain.steps[1].topic, "/a");
   EXPECT_EQ(chain.steps[1].until_publish.max_ns, 20);
   EXPECT_EQ(chain.steps[1].transfer.max_ns, 85);
+  EXPECT_EQ(chain.steps[1].transport.max_ns + chain.steps[1].executor.max_ns + chain.steps[1].take.max_ns, 85);
   EXPECT_EQ(chain.steps[1].take.max_ns, 5);
   EXPECT_EQ(chain.steps[1].executor.count, 0u) << "the executor records no waits";
   EXPECT_EQ(chain.steps[2].node, "/drain");

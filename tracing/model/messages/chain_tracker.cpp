@@ -145,6 +145,7 @@ void ChainTracker::on_message(const MessageFlow& message) {
         }
         paths_[path].until_publish.add(sent.published_ns - cause.callback_ns);
         paths_[path].transfer.add(active.begin_ns - sent.published_ns);
+        paths_[path].transport.add(message.taken_ns - sent.published_ns - waited_ns.value_or(0));
         paths_[path].take.add(active.begin_ns - message.taken_ns);
         if (waited_ns) {
           paths_[path].executor.add(*waited_ns);

@@ -48,8 +48,9 @@ struct ChainRecord {
 
   DurationStatistics until_publish;  // from the parent's begin to its publication
   DurationStatistics transfer;       // from there to the begin of this callback
-  DurationStatistics executor;       // part of transfer: the wait for the executor
-  DurationStatistics take;           // part of transfer: from rmw_take on
+  DurationStatistics transport;  // part of transfer: on the way; with the wait for the executor if that is not known
+  DurationStatistics executor;   // part of transfer: the wait for the executor
+  DurationStatistics take;       // part of transfer: from rmw_take on
   DurationStatistics last_callback;  // from the begin to the end of this callback
   DurationStatistics response;       // from an input to the first output that it causes ("best")
   // From the input of the output before to an output: how long something may take that just missed an input

@@ -15,6 +15,7 @@ struct ChainResult {
     std::string topic;              // empty at the begin
     DurationSummary until_publish;
     DurationSummary transfer;
+    DurationSummary transport;
     DurationSummary executor;
     DurationSummary take;
 
@@ -47,6 +48,8 @@ inline constexpr Field<ChainResult::Step> ChainResult::Step::kFields[] = {
     {"until_publish", &Step::until_publish, "from the begin of the callback before to its publication", trait::kPlain,
      &Step::has_message},
     {"transfer", &Step::transfer, "from there to the begin of this callback; its parts follow", trait::kPlain,
+     &Step::has_message},
+    {"transport", &Step::transport, "on the way; `executor` is part of it if that is not known", trait::kPlain,
      &Step::has_message},
     {"executor", &Step::executor, "the wait for the executor; `count` is 0 if the executor records no waits",
      trait::kPlain, &Step::has_message},

@@ -26,6 +26,7 @@ ChainResult chain_result(const Subjects& subjects, const ChainTracker& chains, c
     }
     shown.until_publish = step->until_publish.summary();
     shown.transfer = step->transfer.summary();
+    shown.transport = step->transport.summary();
     shown.executor = step->executor.summary();
     shown.take = step->take.summary();
     if (subjects.is_doubtful(shown.process)) {
