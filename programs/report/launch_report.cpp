@@ -160,7 +160,12 @@ int report_live(const Arguments& arguments) {
 int print_comparison(const Arguments& arguments) {
   tracing::ReportOptions options = text_options(arguments);
   options.top = arguments.top.value_or(10);
-  const tracing::ComparisonOutcome outcome = tracing::compare_runs(arguments.comparison, arguments.paths, options);
+  tracing::ComparisonArguments comparison = arguments.comparison;
+  comparison.html = arguments.files.html;
+  if (!comparison.html.empty()) {
+    comparison.chains = named_chains({comparison.diff.begin(), comparison.diff.end()});
+  }
+  const tracing::ComparisonOutcome outcome = tracing::compare_runs(comparison, arguments.paths, options);
   print_out(outcome.text);
   return outcome.failed ? kFailedOn : kSuccess;
 }

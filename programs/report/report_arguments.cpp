@@ -38,6 +38,20 @@ void check_comparison(const CLI::App& app, const Arguments& arguments) {
   if (!arguments.directories.empty() && !comparison.diff.empty()) {
     throw CLI::ValidationError("--diff", "takes both traces itself; no other directory goes with it");
   }
+  if (comparison.compares()) {
+    for (const tracing::OutputForm& form : tracing::output_forms()) {
+      const bool is_page = form.file == &tracing::OutputFiles::html;
+      if (app.count(form.option) > 0 && (!is_page || comparison.diff.empty())) {
+        throw CLI::ValidationError(form.option, is_page ? "goes with --diff; a baseline has nothing to show"
+                                                        : "does not go with --diff or --baseline");
+      }
+    }
+    for (const char* option : {"--from", "--to"}) {
+      if (app.count(option) > 0) {
+        throw CLI::ValidationError(option, "does not go with --diff or --baseline");
+      }
+    }
+  }
   const auto& fail_on = comparison.fail_on;
   const auto other =
       std::find_if(fail_on.begin(), fail_on.end(), [](const std::string& word) { return word != "incomplete"; });

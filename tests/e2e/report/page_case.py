@@ -26,9 +26,13 @@ DRAWN = '''(selector => {
 })'''
 
 
-def write_page(folder, cycles, options, events, verdict):
-    trace = Path(folder) / 'example'
+def write_trace(trace, cycles, events=()):
     subprocess.run([os.environ['WRITE_EXAMPLE_TRACE'], trace / 'ust', str(cycles), *events], check=True)
+    return trace
+
+
+def write_page(folder, cycles, options, events, verdict):
+    trace = write_trace(Path(folder) / 'example', cycles, events)
     if verdict:
         (trace / 'verdict.json').write_text(json.dumps(verdict))
     page = Path(folder) / f'page-{cycles}.html'
@@ -39,6 +43,7 @@ def write_page(folder, cycles, options, events, verdict):
 class PageTest(unittest.TestCase):
     CYCLES = 100
     DARK = False
+    SIZE = (1280, 900)
     OPTIONS = ()
     EVENTS = ()
     VERDICT = None
@@ -48,9 +53,13 @@ class PageTest(unittest.TestCase):
         if not chromium():
             raise unittest.SkipTest('there is no browser: the package chromium is not installed')
         cls.folder = cls.enterClassContext(tempfile.TemporaryDirectory())
-        page = write_page(cls.folder, cls.CYCLES, cls.OPTIONS, cls.EVENTS, cls.VERDICT)
+        cls.page = cls.make_page()
         cls.browser = cls.enterClassContext(Browser(dark=cls.DARK))
-        cls.page = page
+        cls.browser.set_size(*cls.SIZE)
+
+    @classmethod
+    def make_page(cls):
+        return write_page(cls.folder, cls.CYCLES, cls.OPTIONS, cls.EVENTS, cls.VERDICT)
 
     def setUp(self):
         self.browser.problems.clear()
@@ -64,11 +73,32 @@ class PageTest(unittest.TestCase):
         self.browser.click(f'[data-view={view}]')
         self.browser.wait_for(f'page.shown === "{view}"')
 
+    # Chooses in the list with this label.
+    def choose(self, label, value):
+        self.browser.evaluate(f'''(() => {{
+          const list = document.querySelector('[aria-label="{label}"]');
+          list.value = {value!r};
+          list.dispatchEvent(new Event("change"));
+        }})()''')
+
+    def hash(self):
+        return self.browser.evaluate('decodeURIComponent(location.hash)')
+
+    def chips(self):
+        return self.texts('#selection .chip')
+
+    # What sticks out of the page to the right makes it scroll sideways.
+    def assert_fits(self):
+        self.assertLessEqual(self.browser.evaluate('document.documentElement.scrollWidth - document.documentElement.clientWidth'), 0)
+
     def text(self, selector):
         return self.browser.evaluate(f'document.querySelector({selector!r}).innerText')
 
     def texts(self, selector):
         return self.browser.evaluate(f'[...document.querySelectorAll({selector!r})].map(found => found.innerText.trim())')
+
+    def cells(self, rows):
+        return self.browser.evaluate(f'[...document.querySelectorAll({rows!r})].map(row => [...row.cells].map(cell => cell.innerText.trim()))')
 
     def drawn(self, selector):
         return self.browser.evaluate(f'{DRAWN}({selector!r})')

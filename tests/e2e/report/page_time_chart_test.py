@@ -30,8 +30,8 @@ class TimeChart(page_case.PageTest):
                   box.y + rowTop(chart, chart.index.rowOf({instance})) + kRowHeight / 2];
         }})()''')
 
+    # Nothing was clicked in the chart, and nothing in it has been given the focus.
     def press(self, *keys):
-        self.browser.evaluate('document.querySelector(".time canvas").focus()')
         for key in keys:
             self.browser.key(key)
 
@@ -102,12 +102,82 @@ class TimeChart(page_case.PageTest):
         self.press('Escape')
         self.browser.wait_for('selection.instance === null')
 
+    def test_keys_work_right_after_the_tab_was_clicked_and_wherever_the_focus_is(self):
+        whole = self.view()
+        self.press('w')
+        self.assertLess(self.view()['end'], whole['end'])
+        for focus in ('document.activeElement.blur()', 'document.querySelector("[aria-label=\'Zoom in\']").focus()', 'document.querySelector("input[type=checkbox]").focus()'):
+            with self.subTest(focus):
+                self.browser.evaluate(focus)
+                before = self.view()
+                self.press('ArrowRight')
+                self.assertGreater(self.view()['begin'], before['begin'])
+                self.press('ArrowLeft')
+
+    def test_a_field_that_takes_text_keeps_its_keys(self):
+        self.show('callbacks')
+        self.browser.click('input[type=search]')
+        for key in 'c?2':
+            self.browser.key(key)
+        self.assertEqual(self.browser.evaluate('[page.shown, document.activeElement.value, document.querySelector("dialog") === null]'), ['callbacks', 'c?2', True])
+
+    def test_the_help_lists_the_keys_those_of_the_view_first(self):
+        self.press('?')
+        self.browser.wait_for('document.querySelector("dialog[open]")')
+        self.assertEqual(self.texts('dialog h3')[:2], ['Everywhere', 'Time chart'])
+        self.assertIn('the whole trace', self.texts('dialog dd'))
+        whole = self.view()
+        self.press('w')
+        self.assertEqual(self.view(), whole, 'keys act on the help, not on what is behind it')
+        self.press('Escape')
+        self.browser.wait_for('!document.querySelector("dialog")')
+        self.press('?', '?')
+        self.browser.wait_for('!document.querySelector("dialog")')
+        self.browser.click('#others button')
+        self.browser.wait_for('document.querySelector("dialog[open]")')
+
+    def test_every_key_of_the_help_does_something(self):
+        self.browser.evaluate('timeChartOptions.view = null; select({node: null, instance: null}); drawView("time")')
+        self.assertEqual(self.browser.evaluate(f'''(async () => {{
+          const frame = () => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)));
+          const state = () => JSON.stringify([{self.CHART}.view, {self.CHART}.row, {self.CHART}.arrows, selection.instance]);
+          const idle = [];
+          await frame();
+          for (const {{keys}} of [...keysOf.time, ...keysOf.time]) for (const key of keys) {{
+            {self.CHART}.setView(2e8, 6e8);
+            if (key === 'p') {self.CHART}.show(30);
+            else if (key === 'f') select({{instance: 1}});
+            else if (key === 'ArrowUp') {self.CHART}.row = 2;
+            const before = state();
+            document.body.dispatchEvent(new KeyboardEvent('keydown', {{key, bubbles: true}}));
+            if (state() === before) idle.push(key);
+          }}
+          return idle;
+        }})()'''), [])
+
+    def test_a_chosen_callback_makes_the_others_faint(self):
+        def strong():
+            self.browser.evaluate('new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))')
+            return self.browser.evaluate('''(() => {
+              const canvas = document.querySelector(".time canvas");
+              const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d", {willReadFrequently: true});
+              copy.drawImage(canvas, 0, 0);
+              const {data} = copy.getImageData(kLabelWidth, kMapHeight + kScaleHeight, canvas.width - kLabelWidth, canvas.height - kMapHeight - kScaleHeight);
+              let count = 0;
+              for (let i = 0; i < data.length; i += 4) count += Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]) > 90;
+              return count;
+            })()''')
+        self.press('m')
+        self.browser.evaluate(f'{self.CHART}.setView(20e6, 60e6)')
+        before = strong()
+        self.browser.evaluate('select({callback: 0})')
+        self.assertLess(strong(), 0.5 * before)
+        self.browser.click('[data-chip=callback]')
+        self.assertEqual(strong(), before)
+        self.press('m')
+
     def test_rows_are_threads_or_callbacks(self):
-        self.browser.evaluate('''(() => {
-          const choice = document.querySelector("[aria-label=Rows]");
-          choice.value = "callback";
-          choice.dispatchEvent(new Event("change"));
-        })()''')
+        self.choose('Rows', 'callback')
         self.assertEqual(self.browser.evaluate(f'{self.CHART}.rows.map(row => row.text)'),
                          ['/sensor', 'timer 10.0 ms', '/filter', '/scan', '/display', '/points'])
 
@@ -166,6 +236,16 @@ class StatesOfThreads(page_case.PageTest):
         self.assertIn('here: waited for a processor for 3.50 ms; stress [90] ran instead', self.text('.tip'))
 
 
+# No two boxes cover one another, all are in the picture, and each edge has a way.
+LAYS_OUT = '''((boxes, edges, room) => {
+  const {width, height} = layOut(boxes, edges, room);
+  const [w, h] = [boxes[0].width, boxes[0].height];
+  const apart = boxes.every((a, i) => boxes.every((b, k) => i === k || Math.abs(a.x - b.x) >= w || Math.abs(a.y - b.y) >= h));
+  const inside = boxes.every(box => box.x >= w / 2 && box.x <= width - w / 2 && box.y >= h / 2 && box.y <= height - h / 2);
+  return apart && inside && edges.every(edge => edge.points.length > 0);
+})'''
+
+
 class Scripts(page_case.PageTest):
 
     def test_intervals_know_how_busy_any_time_is(self):
@@ -197,14 +277,19 @@ class Scripts(page_case.PageTest):
         })()'''), [[[0, 4], [1, 3], [2]], [0, 2, 0, 3, -1, 4]])
 
     def test_a_graph_with_circles_gets_a_place_for_each_box(self):
-        self.assertEqual(self.browser.evaluate('''[Infinity, 100].map(room => {
+        self.assertEqual(self.browser.evaluate('''[{width: 1000, height: 1000}, {width: 100, height: 1000}, {width: 1000, height: 100}].map(room => {
           const boxes = Array.from({length: 6}, () => ({width: 80, height: 20}));
           const edges = [[0, 1], [1, 2], [2, 0], [2, 3], [3, 3], [0, 4], [4, 2]].map(([from, to]) => ({from, to}));
-          const {width, height} = layOut(boxes, edges, room);
-          const apart = boxes.every((a, i) => boxes.every((b, k) => i === k || Math.abs(a.x - b.x) >= 80 || Math.abs(a.y - b.y) >= 20));
-          const inside = boxes.every(box => box.x >= 40 && box.x <= width - 40 && box.y >= 10 && box.y <= height - 10);
-          return [apart, inside, edges.every(edge => edge.points.length > 0)];
-        })'''), [[True, True, True]] * 2)
+          return laysOut(boxes, edges, room);
+        })'''.replace('laysOut', LAYS_OUT)), [True] * 3)
+
+    def test_a_long_graph_and_a_wide_one_are_folded(self):
+        self.assertEqual(self.browser.evaluate('''[[...Array(150).keys()].map(i => [i, i + 1]), [...Array(150).keys()].map(i => [0, i + 1])].map(pairs => {
+          const boxes = Array.from({length: 151}, () => ({width: 180, height: 40}));
+          const fits = laysOut(boxes, pairs.map(([from, to]) => ({from, to})), {width: 1200, height: 700});
+          const {width, height} = layOut(boxes, pairs.map(([from, to]) => ({from, to})), {width: 1200, height: 700});
+          return [fits, Math.min(1200 / width, 700 / height) > 0.25];
+        })'''.replace('laysOut', LAYS_OUT)), [[True, True]] * 2)
 
     def test_durations_have_three_digits_and_a_unit(self):
         self.assertEqual(self.browser.evaluate('[0, 999, 1000, 999499, 999500, 1e6, 45.6e6, 999.6e6, 107e9, NaN, -1500].map(formatDuration)'),

@@ -41,8 +41,10 @@ constexpr std::int64_t us(std::int64_t microseconds) {
 
 class Example {
  public:
-  Example(const std::filesystem::path& directory, ExampleEvents events)
-      : writer_(directory, {.packet_size = 1 << 20}), has_scheduler_(events == ExampleEvents::kRosAndScheduler) {}
+  Example(const std::filesystem::path& directory, ExampleEvents events, const ExampleVariant& variant)
+      : writer_(directory, {.packet_size = 1 << 20}),
+        has_scheduler_(events == ExampleEvents::kRosAndScheduler),
+        variant_(variant) {}
 
   void begin() {
     exec(kSensor, "sensor-1", 3, -30'000'000);
@@ -73,7 +75,7 @@ class Example {
   void cycle(std::uint64_t number) {
     const std::int64_t begin = kExampleFirstCycle - kExampleBegin + static_cast<std::int64_t>(number) * kExamplePeriod;
     const std::int64_t late = number % 10 == 9 ? us(1000) : 0;
-    const std::int64_t work = number % 20 == 19 ? us(4000) : us(400);
+    const std::int64_t work = number % 20 == 19 ? us(4000) : us(variant_.usual_us);
     const std::int64_t scan = begin + late + us(100);
     const std::int64_t points = begin + late + us(300) + work - us(100);
     execute(kSensor, begin + late, kTimer);
@@ -169,6 +171,18 @@ class Example {
     write(thread, published - us(5), RclcppPublish{kMessage});
     write(thread, published - us(3), RclPublish{kPublisher, kMessage});
     write(thread, published, RmwPublish{kRmwPublisher, kMessage, kExampleBegin + published});
+    if (variant_.has_writes) {
+      if (!dds_write_) {
+        dds_write_ = writer_.declare("dds:write",
+                                     "\t\tinteger { size = 64; align = 8; signed = 0; } _writer;\n"
+                                     "\t\tinteger { size = 64; align = 8; signed = 1; } _timestamp;\n");
+      }
+      std::string payload;
+      detail::append(payload, std::uint64_t{kRmwPublisher});
+      detail::append(payload, kExampleBegin + published);
+      writer_.write_raw(static_cast<unsigned>(thread.vpid - kSensor.vpid), kExampleBegin + published + us(3), thread,
+                        *dds_write_, payload);
+    }
   }
 
   void take(const Thread& thread, std::int64_t after, std::int64_t published) {
@@ -188,13 +202,16 @@ class Example {
   TraceWriter writer_;
   SchedulerWriter scheduler_{writer_};
   bool has_scheduler_;
+  ExampleVariant variant_;
   std::optional<std::uint16_t> exec_;
+  std::optional<std::uint16_t> dds_write_;
 };
 
 }  // namespace
 
-void write_example_system(const std::filesystem::path& directory, std::uint64_t cycles, ExampleEvents events) {
-  Example example(directory, events);
+void write_example_system(const std::filesystem::path& directory, std::uint64_t cycles, ExampleEvents events,
+                          const ExampleVariant& variant) {
+  Example example(directory, events, variant);
   example.begin();
   for (std::uint64_t number = 0; number < cycles; ++number) {
     example.cycle(number);

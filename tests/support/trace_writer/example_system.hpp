@@ -30,8 +30,13 @@ inline constexpr std::int64_t kExamplePeriod = 10'000'000;
 
 enum class ExampleEvents { kRos, kRosAndScheduler };
 
+struct ExampleVariant {
+  std::int64_t usual_us = 400;  // how long the callback of /filter takes, in most cycles
+  bool has_writes = false;      // dds:write, 3 us after rmw_publish: two more events in a cycle
+};
+
 // Creates the directory. A cycle has 28 events, and at most 7 of the scheduler.
 void write_example_system(const std::filesystem::path& directory, std::uint64_t cycles,
-                          ExampleEvents events = ExampleEvents::kRos);
+                          ExampleEvents events = ExampleEvents::kRos, const ExampleVariant& variant = {});
 
 }  // namespace tracing::testing

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// write_example_trace DIRECTORY CYCLES [scheduler]: for tests in Python, and for measurements.
+// write_example_trace DIRECTORY CYCLES [scheduler] [writes] [slow]: for tests in Python, and for measurements.
 #include <cstdlib>
 #include <string>
 
@@ -7,9 +7,22 @@
 
 int main(int argc, char** argv) {
   using tracing::testing::ExampleEvents;
-  if (argc != 3 && (argc != 4 || argv[3] != std::string("scheduler"))) {
+  ExampleEvents events = ExampleEvents::kRos;
+  tracing::testing::ExampleVariant variant;
+  for (int i = 3; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "scheduler") {
+      events = ExampleEvents::kRosAndScheduler;
+    } else if (word == "writes") {
+      variant.has_writes = true;
+    } else if (word == "slow") {
+      variant.usual_us = 1'400;
+    } else {
+      return 2;
+    }
+  }
+  if (argc < 3) {
     return 2;
   }
-  const ExampleEvents events = argc == 4 ? ExampleEvents::kRosAndScheduler : ExampleEvents::kRos;
-  tracing::testing::write_example_system(argv[1], std::strtoull(argv[2], nullptr, 10), events);
+  tracing::testing::write_example_system(argv[1], std::strtoull(argv[2], nullptr, 10), events, variant);
 }

@@ -7,6 +7,7 @@
 
 #include "tests/support/traced_example/traced_example.hpp"
 #include "tracing/model/findings/finding.hpp"
+#include "tracing/show/page/comparison_page.hpp"
 
 namespace tracing {
 namespace {
@@ -57,6 +58,63 @@ TEST(Page, HasTheFindingsAndChainsOfTheReport) {
             "Display::on_points(sensor_msgs::msg::PointCloud2 const&)");
   EXPECT_EQ(facts["topics"][chain["steps"][1]["topic"].get<int>()], "/scan");
   EXPECT_EQ(chain["response"]["max"], system.results.ros2.chains[0].response.max_ns);
+}
+
+TEST(Page, HasThePercentilesOfEachPartOfAChain) {
+  const TracedSystem system = testing::traced_example(100);
+  const nlohmann::json facts = nlohmann::json::parse(content(html_page(system), "facts"));
+  const ChainResult::Step& step = system.results.ros2.chains[0].steps[1];
+  const nlohmann::json& shown = facts["chains"][0]["steps"][1];
+  for (const auto& [key, times] : {std::pair{"until_publish", step.until_publish},
+                                   {"transport", step.transport},
+                                   {"executor", step.executor},
+                                   {"take", step.take}}) {
+    EXPECT_EQ(shown[key]["p50"], times.p50_ns) << key;
+    EXPECT_EQ(shown[key]["p90"], times.p90_ns) << key;
+    EXPECT_EQ(shown[key]["p99"], times.p99_ns) << key;
+    EXPECT_EQ(shown[key]["max"], times.max_ns) << key;
+  }
+  // Of the first message it is not known how long it waited for the executor.
+  const auto sum_of = [](const DurationSummary& times) { return times.mean_ns * static_cast<double>(times.count); };
+  EXPECT_EQ(step.executor.count, step.transport.count - 1);
+  EXPECT_NEAR(sum_of(step.transport) + sum_of(step.executor) + sum_of(step.take), sum_of(step.transfer), 1);
+}
+
+TEST(Page, CountsProcessesOfTheKernelAloneByTheirNames) {
+  TracedSystem system;
+  ProcessResult sensor{.vpid = 101, .name = "sensor", .events = 5};
+  ProcessResult others{.name = "kworker", .events = 900};
+  others.folded = 300;
+  system.results.overview.processes = {sensor, others};
+  system.timeline.processes = {{.vpid = 101, .name = "sensor", .place = 0}};
+  for (std::int64_t pid = 1; pid <= 300; ++pid) {
+    system.timeline.processes.push_back({.vpid = pid, .name = "kworker", .place = 1});
+  }
+  const std::string text = content(html_page(system), "facts");
+  const nlohmann::json facts = nlohmann::json::parse(text);
+  ASSERT_EQ(facts["processes"].size(), 301u);
+  EXPECT_EQ(facts["processes"][0]["name"], "sensor");
+  EXPECT_EQ(facts["processes"][300], 0);
+  EXPECT_EQ(facts["folded"],
+            nlohmann::json::parse(R"json([{"name":"kworker","host":"","count":300,"events":900}])json"));
+  EXPECT_LT(text.size(), 3'000u) << "not a row for each of them";
+}
+
+TEST(Page, OfTwoRunsHasTheDataOfBothAndTheComparison) {
+  const TracedSystem system = testing::traced_example(10);
+  PageRun before{
+      page_facts(system), page_columns(system.timeline), {{"/a, timer 1 s"}, {"/a (timer 1 s)"}, {"</script>"}}};
+  PageRun after{page_facts(testing::traced_example(20)), page_columns(testing::traced_example(20).timeline), {}};
+  const std::string page = comparison_page({before, after}, R"json({"version":1,"changes":[]})json");
+  EXPECT_EQ(nlohmann::json::parse(content(page, "facts-before"))["instances"], 30);
+  EXPECT_EQ(nlohmann::json::parse(content(page, "facts"))["instances"], 60);
+  EXPECT_EQ(content(page, "columns-before"), before.columns);
+  EXPECT_EQ(content(page, "columns"), after.columns);
+  const nlohmann::json comparison = nlohmann::json::parse(content(page, "comparison"));
+  EXPECT_EQ(comparison["version"], 1);
+  EXPECT_EQ(comparison["names"][0]["callbacks"][0], "/a, timer 1 s");
+  EXPECT_EQ(comparison["names"][0]["subscriptions"][0], "</script>");
+  EXPECT_EQ(comparison["names"][1]["steps"].size(), 0u);
 }
 
 TEST(Page, SaysThatTheTraceWasStillBeingWritten) {

@@ -103,6 +103,24 @@ TEST_F(ComparisonCommand, SaysThatNothingHasChanged) {
   EXPECT_THAT(outcome.out, HasSubstr("\nResult     no change holds\n"));
 }
 
+TEST_F(ComparisonCommand, WritesAPageOfBothRuns) {
+  const std::string before = trace("before", 200'000);
+  const std::string after = trace("after", 2'200'000);
+  const std::string page = directory_.path() / "both.html";
+  const Outcome outcome = run("--diff " + before + " " + after + " --html " + page + " --fail-on slower");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_THAT(outcome.out,
+              StartsWith(run("--diff " + before + " " + after + " --fail-on slower").out + "\n" + page + ": "))
+      << "the same, read once for both";
+  EXPECT_THAT(content(page), HasSubstr("id=\"facts-before\">{\"version\":1,\"directory\":\"" + before + "\""));
+  EXPECT_THAT(content(page), HasSubstr("id=\"comparison\">{\"version\":1,\"before\":{\"source\":\"" + before + "\""));
+  run(before + " --save-baseline " + base_);
+  const Outcome of_baseline = run("--diff " + base_ + " " + after + " --html " + page);
+  EXPECT_EQ(of_baseline.exit_code, 1);
+  EXPECT_THAT(of_baseline.err, HasSubstr("--html needs the traces of both runs, and " + base_ + " is no directory"));
+}
+
 TEST_F(ComparisonCommand, FailsOnWhatTheUserNames) {
   const std::string both = "--diff " + trace("before", 200'000) + " " + trace("after", 2'200'000);
   const Outcome failed = run(both + " --fail-on slower");
@@ -217,6 +235,12 @@ TEST_F(ComparisonCommand, ChecksItsOptions) {
             "--confidence: '40%' is no confidence; write a part above 50% and below 100%");
   EXPECT_EQ(usage_error("--diff " + usual + " " + usual + " --fail-on slow"),
             "--fail-on slow is unknown, expected slower, faster, changed, overall, gone, new, incomplete");
+  EXPECT_EQ(usage_error("--diff " + usual + " " + usual + " --csv " + base_),
+            "--csv: does not go with --diff or --baseline");
+  EXPECT_EQ(usage_error(usual + " --baseline " + base_ + " --html " + base_),
+            "--html: goes with --diff; a baseline has nothing to show");
+  EXPECT_EQ(usage_error("--diff " + usual + " " + usual + " --html " + base_ + " --from +1"),
+            "--from: does not go with --diff or --baseline");
   EXPECT_EQ(usage_error("--summary"), "directory is required");
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "tests/support/trace_writer/example_system.hpp"
+#include "tests/support/trace_writer/temporary_directory.hpp"
 #include "tests/support/traced_example/traced_example.hpp"
 
 namespace tracing::timeline {
@@ -47,11 +48,27 @@ TEST_F(ExampleTimeline, FollowsAMessageFromCallbackToCallback) {
   EXPECT_EQ(scan.publishing_instance, 0u);
   EXPECT_EQ(scan.receiving_instance, 1u);
   EXPECT_FALSE(scan.repeated);
+  EXPECT_EQ(scan.written_after_ns, 0u) << "the trace has no dds:write";
   EXPECT_EQ(timeline_.instances[1].message, 0u);
   EXPECT_EQ(timeline_.instances[1].start_ns, kExampleFirstCycle + 300'000);
   const Message& points = timeline_.messages[1];
   EXPECT_EQ(points.publishing_instance, 1u);
   EXPECT_EQ(points.receiving_instance, 2u);
+}
+
+TEST(TimelineOfWrites, KnowsWhenAMessageWasWritten) {
+  const testing::TemporaryDirectory directory;
+  testing::write_example_system(directory.path(), 3, testing::ExampleEvents::kRos, {.has_writes = true});
+  TimelineRecorder recorder;
+  TraceAnalysis analysis(&recorder);
+  TraceReader(directory.path()).read(analysis);
+  const TraceResults results = analysis.finish();
+  const Timeline timeline = recorder.finish(analysis, results.overview);
+  ASSERT_EQ(timeline.messages.size(), 6u);
+  for (const Message& message : timeline.messages) {
+    EXPECT_EQ(message.written_after_ns, 3'000u);
+  }
+  static_assert(sizeof(Message) == 56, "a trace has millions of them");
 }
 
 TEST_F(ExampleTimeline, KeepsMessagesThatNobodyTook) {

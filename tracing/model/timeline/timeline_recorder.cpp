@@ -196,6 +196,10 @@ Message TimelineRecorder::message_of(const Publication& publication) {
   if (publication.rclcpp_ns != 0) {
     message.called_ns = publication.rclcpp_ns;
   }
+  // It is in the trace a little after rmw_publish.
+  constexpr std::int64_t kMostAfter = (1 << 24) - 1;
+  const std::int64_t after_ns = publication.written_ns - publication.published_ns;
+  message.written_after_ns = after_ns > 0 && after_ns <= kMostAfter ? static_cast<std::uint32_t>(after_ns) : 0;
   message.topic = publication.topic;
   message.publisher = publication.publisher;
   message.publishing_thread = thread_of(publication.thread);

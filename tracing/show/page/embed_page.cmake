@@ -4,6 +4,9 @@
 set(code "")
 foreach(script IN LISTS SCRIPTS)
   file(READ ${script} text)
+  # Every page has the scripts: without the comments that are lines of their own, and without indentation.
+  string(REGEX REPLACE "\n *//[^\n]*" "" text "\n${text}")
+  string(REGEX REPLACE "\n +" "\n" text "${text}")
   string(APPEND code "// ${script}\n${text}\n")
 endforeach()
 foreach(part IN ITEMS LICENSE uPlot.min.css uPlot.iife.min.js)

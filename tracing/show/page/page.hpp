@@ -11,8 +11,15 @@ namespace tracing {
 
 std::string html_page(const TracedSystem& system);
 
-// The page without data. A comment /*facts*/ and a comment /*columns*/ stand where they belong.
+// The page without data. A comment /*facts*/ and a comment /*columns*/ stand where they belong, and a comment
+// <!--before--> where those of a run belong with which this one is compared.
 extern const std::string_view kPageTemplate;
+
+// Puts a text in the place of a comment.
+void fill_place(std::string& page, std::string_view comment, const std::string& text);
+
+// JSON that may stand in an HTML element `script`: no text in it ends the element, or begins a comment.
+std::string script_text(std::string json);
 
 // What the page says once: objects, counts, losses, results. JSON that may stand in an HTML element `script`. Times
 // count from the timeline's begin.

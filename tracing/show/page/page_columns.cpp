@@ -116,6 +116,7 @@ void add_messages(ColumnBuffer& buffer, const Timeline& timeline) {
   add_repeated_column(buffer, messages, callback_of(&Message::receiving_instance), &Message::subscription);
   add_repeated_column(buffer, messages, &Message::publisher, &Message::publishing_thread);
   add_column(buffer, messages, &Message::repeated);
+  add_column(buffer, messages, [](const Message& message) { return message.written_after_ns; });
 }
 
 // Thread by thread, each in the order of time.

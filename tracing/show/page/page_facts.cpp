@@ -212,17 +212,31 @@ Json overview(const TracedSystem& system, std::int64_t begin_ns) {
           {"losses", facts.of(overview.losses)}};
 }
 
+// 0 for a process that has events of the kernel alone: `folded` counts it, and nothing refers to it.
 Json processes(const Timeline& timeline, const TraceOverview& overview) {
   Json list = Json::array();
   for (const timeline::Process& process : timeline.processes) {
     ProcessResult result = process.place ? overview.processes[*process.place] : ProcessResult{};
-    if (result.folded > 1) {
-      result = {.folded = 1};  // the counts are those of all
+    if (result.folded > 0) {
+      list.push_back(0);
+      continue;
     }
     result.vpid = process.vpid;
     result.name = process.name;
     result.host = process.host;
     list.push_back(ResultFacts(timeline.begin_ns).with({}, result));
+  }
+  return list;
+}
+
+// The processes that have events of the kernel alone, by name.
+Json folded_processes(const TraceOverview& overview) {
+  Json list = Json::array();
+  for (const ProcessResult& process : overview.processes) {
+    if (process.folded > 0) {
+      list.push_back(
+          {{"name", process.name}, {"host", process.host}, {"count", process.folded}, {"events", process.events}});
+    }
   }
   return list;
 }
@@ -302,6 +316,7 @@ std::string page_facts(const TracedSystem& system) {
              {"messages", timeline.messages.size()},
              {"states", timeline.states.size()},
              {"processes", processes(timeline, system.results.overview)},
+             {"folded", folded_processes(system.results.overview)},
              {"overview", overview(system, timeline.begin_ns)},
              {"findings", findings(system)},
              {"chains", chains(system)},
@@ -310,12 +325,7 @@ std::string page_facts(const TracedSystem& system) {
              {"warnings", system.results.warnings}};
   facts.update(objects(timeline));
   facts.update(result_facts(system));
-  std::string text = facts.dump(-1, ' ', false, Json::error_handler_t::replace);
-  // No text in it may end the script element, or begin a comment.
-  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
-    text.replace(at, 1, "\\u003c");
-  }
-  return text;
+  return script_text(facts.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace tracing

@@ -9,9 +9,10 @@
 #include <stdexcept>
 
 #include "tracing/model/compare/baseline_file.hpp"
-#include "tracing/model/compare/run_recorder.hpp"
 #include "tracing/model/findings/quantity_text.hpp"
 #include "tracing/show/export/output_file.hpp"
+#include "tracing/show/page/comparison_page.hpp"
+#include "tracing/show/report/compared_run.hpp"
 
 namespace tracing {
 
@@ -29,41 +30,6 @@ std::optional<std::pair<double, std::string>> number_and_unit(const std::string&
   std::string unit(end, text.data() + text.size());
   unit.erase(0, unit.find_first_not_of(' '));
   return std::pair(number, unit);
-}
-
-compare::RunSummary read_run(const std::vector<fs::path>& directories) {
-  compare::RunRecorder recorder;
-  TraceAnalysis analysis(&recorder);
-  TraceReader reader(directories, TraceReader::Clocks::kOne);
-  std::string error;
-  TraceResults results;
-  try {
-    reader.read(analysis);
-    results = analysis.finish();
-  } catch (const TraceReadError& failure) {
-    results = analysis.finish();
-    if (results.overview.events == 0) {
-      throw;
-    }
-    error = failure.what();
-  }
-  compare::RunSummary run = recorder.finish(analysis, results);
-  run.directory = directories.front().native();
-  const RecordedVerdict verdict = read_verdicts(directories);
-  if (has_losses(results.overview, verdict)) {
-    run.remark = loss_phrase(results.overview, verdict);
-  }
-  if (error.empty()) {
-    error = missing_content(verdict, reader);
-  }
-  if (!error.empty()) {
-    run.remark += (run.remark.empty() ? "" : ", ") + error;
-  }
-  if (!run.measurements.empty()) {
-    return run;
-  }
-  throw std::runtime_error(
-      fmt::format("{} has no callback, message or call of a service, so it can't be compared", run.directory));
 }
 
 // A directory is a trace, anything else a baseline.
@@ -105,17 +71,10 @@ std::optional<double> confidence_of(const std::string& text) {
   return share > 0.5 && share < 1 ? std::optional(share) : std::nullopt;
 }
 
-ComparisonOutcome compare_runs(const ComparisonArguments& arguments, const std::vector<fs::path>& directories,
-                               const ReportOptions& options) {
-  ComparisonReport report;
-  report.options = arguments.options;
-  if (!arguments.diff.empty()) {
-    report.before = read_side(arguments.diff[0]);
-    report.after = read_side(arguments.diff[1]);
-  } else {
-    report.before = compare::read_baseline(arguments.baseline);
-    report.after = {directories.front().native(), {read_run(directories)}};
-  }
+namespace {
+
+ComparisonReport compared(const ComparisonArguments& arguments, compare::Runs before, compare::Runs after) {
+  ComparisonReport report{std::move(before), std::move(after), arguments.options, {}};
   report.comparison = compare::compare(report.before, report.after, report.options);
   if (report.comparison.compared == 0) {
     throw std::runtime_error(fmt::format("{} and {} have no callback, hop, chain or service in common",
@@ -126,6 +85,45 @@ ComparisonOutcome compare_runs(const ComparisonArguments& arguments, const std::
         "{} and {} have too few samples to compare anything: a callback or message must occur 16 times in each run",
         report.before.source, report.after.source));
   }
+  return report;
+}
+
+// The page has the timelines of both runs, so each must be a trace.
+ComparisonOutcome compare_with_page(const ComparisonArguments& arguments, const ReportOptions& options) {
+  PagedRun runs[2];
+  compare::Runs sides[2];
+  for (const std::size_t side : {0, 1}) {
+    const fs::path directory = fs::weakly_canonical(arguments.diff[side]);
+    if (!fs::is_directory(directory)) {
+      throw std::runtime_error(fmt::format(
+          "--html needs the traces of both runs, and {} is no directory: a baseline has no callbacks to show",
+          arguments.diff[side]));
+    }
+    runs[side] = read_run_for_page(directory, arguments.chains);
+    sides[side] = {directory.native(), {std::move(runs[side].summary)}};
+  }
+  const ComparisonReport report = compared(arguments, std::move(sides[0]), std::move(sides[1]));
+  const std::vector<std::string> failed = failures(report, arguments.fail_on);
+  OutputFile file(arguments.html);
+  file.write(comparison_page({runs[0].page, runs[1].page}, comparison_json(report, failed)));
+  file.finish();
+  return {fmt::format("{}\n{}: {}\n", comparison_text(report, failed, options), arguments.html.native(),
+                      format_size(fs::file_size(arguments.html))),
+          !failed.empty()};
+}
+
+}  // namespace
+
+ComparisonOutcome compare_runs(const ComparisonArguments& arguments, const std::vector<fs::path>& directories,
+                               const ReportOptions& options) {
+  if (!arguments.html.empty()) {
+    return compare_with_page(arguments, options);
+  }
+  const bool is_diff = !arguments.diff.empty();
+  compare::Runs before = is_diff ? read_side(arguments.diff[0]) : compare::read_baseline(arguments.baseline);
+  compare::Runs after =
+      is_diff ? read_side(arguments.diff[1]) : compare::Runs{directories.front().native(), {read_run(directories)}};
+  const ComparisonReport report = compared(arguments, std::move(before), std::move(after));
   const std::vector<std::string> failed = failures(report, arguments.fail_on);
   return {arguments.json ? comparison_json(report, failed) : comparison_text(report, failed, options), !failed.empty()};
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tracing/model/chains/chain_definition.hpp"
 #include "tracing/show/report/comparison_report.hpp"
 
 namespace tracing {
@@ -20,6 +21,8 @@ struct ComparisonArguments {
   compare::CompareOptions options;
   std::set<std::string> fail_on;
   bool json = false;
+  std::filesystem::path html;           // with `diff` of two traces: also a page with both
+  std::vector<ChainDefinition> chains;  // those that the user has named, for the page
 
   bool compares() const { return !diff.empty() || !baseline.empty(); }
 };

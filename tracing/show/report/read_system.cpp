@@ -3,6 +3,7 @@
 
 #include "tracing/decode/reader/trace_reader.hpp"
 #include "tracing/model/analysis/trace_analysis.hpp"
+#include "tracing/model/execution/sink_list.hpp"
 #include "tracing/model/timeline/timeline_recorder.hpp"
 #include "tracing/show/report/recorded_facts.hpp"
 
@@ -41,7 +42,10 @@ TracedSystem read_system(const std::vector<std::filesystem::path>& directories, 
   TracedSystem system;
   system.directory = std::filesystem::weakly_canonical(directories.front());
   timeline::TimelineRecorder recorder;
-  TraceAnalysis analysis(&recorder, options.chains);
+  SinkList sinks;
+  sinks.add(&recorder);
+  sinks.add(options.also);
+  TraceAnalysis analysis(options.also == nullptr ? static_cast<ExecutionSink*>(&recorder) : &sinks, options.chains);
   if (options.with_details) {
     recorder.record_details(analysis);
   }
@@ -60,6 +64,9 @@ TracedSystem read_system(const std::vector<std::filesystem::path>& directories, 
   system.results = analysis.finish();
   if (system.error.empty()) {
     system.error = missing_content(system.verdict, reader);
+  }
+  if (options.at_end) {
+    options.at_end(analysis, system.results);
   }
   system.timeline = recorder.finish(analysis, system.results.overview);
   return system;

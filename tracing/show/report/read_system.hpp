@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <set>
 #include <vector>
 
 #include "tracing/decode/reader/trace_sink.hpp"
+#include "tracing/model/analysis/trace_analysis.hpp"
 #include "tracing/model/chains/chain_definition.hpp"
 #include "tracing/model/timeline/traced_system.hpp"
 
@@ -19,6 +21,8 @@ struct SystemOptions {
   bool with_analysis = true;                 // false: only `beside` gets the events
   std::set<std::int64_t> processes = {};     // only userspace events of these; empty: of all
   TraceSink* beside = nullptr;               // also gets the events
+  ExecutionSink* also = nullptr;             // is told what the timeline is told
+  std::function<void(const TraceAnalysis& analysis, const TraceResults& results)> at_end = {};  // after the analysis
 };
 
 // Reads the traces once, as one. What ends the reading early, or is known to be missing, is TracedSystem::error. Throws

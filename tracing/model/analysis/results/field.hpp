@@ -164,7 +164,7 @@ inline constexpr Field<DurationSummary> kDurationFields[] = {
     {"stddev_ns", &DurationSummary::stddev_ns, "of the sample, with decimals", trait::kNotOnPage},
     {"min_ns", &DurationSummary::min_ns, "", trait::kNotOnPage},
     {"p50_ns", &DurationSummary::p50_ns, "nearest rank: the smallest value that at least half of all don't exceed"},
-    {"p90_ns", &DurationSummary::p90_ns, "", trait::kNotOnPage},
+    {"p90_ns", &DurationSummary::p90_ns, ""},
     {"p99_ns", &DurationSummary::p99_ns, ""},
     {"p999_ns", &DurationSummary::p999_ns, "99.9 %", trait::kNotOnPage},
     {"p9999_ns", &DurationSummary::p9999_ns, "99.99 %", trait::kNotOnPage},

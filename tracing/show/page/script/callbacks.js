@@ -27,10 +27,10 @@ function callbacksView(data) {
   const view = panel('Callbacks', table, element('p', {class: 'note'},
     'Interval: from one start to the next. Jitter, of a timer: how far the intervals are from its period, at p99.'));
   view.refresh = change => {
-    if ('callback' in change) {
-      table.update();
-      showPlots();
-    }
+    if ('node' in change || 'topic' in change) return false;
+    table.update();
+    showPlots();
+    return true;
   };
   return [view, plots];
 }
@@ -48,8 +48,7 @@ function memoryColumns(data) {
 function callbackPlots(data, row) {
   const {callback} = row;
   const level = callback.period > 0 ? {value: callback.period, name: 'period'} : null;
-  const name = [nodeName(data, callback.node), callback.label].filter(Boolean).join(' · ');
-  const section = panel(name,
+  const section = panel(callback.name,
     callback.symbol ? element('p', {class: 'note place'}, callback.symbol) : null,
     element('div', {class: 'plots'},
       timePlot('Duration over time', row.times, row.values, 'duration'),

@@ -2,12 +2,14 @@
 // The data of the page: the facts as they stand in it, and its columns as typed arrays. Times count from the first
 // event. References that are -1 refer to nothing.
 
-async function loadData() {
-  const facts = JSON.parse(document.getElementById('facts').textContent);
-  const packed = Uint8Array.from(atob(document.getElementById('columns').textContent.trim()), c => c.charCodeAt(0));
+// `run`: '' for the run of the page, '-before' for the run that it is compared with.
+async function loadData(run = '') {
+  const facts = JSON.parse(document.getElementById(`facts${run}`).textContent);
+  const packed = Uint8Array.from(atob(document.getElementById(`columns${run}`).textContent.trim()), c => c.charCodeAt(0));
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'));
   const read = columnReader(new Uint8Array(await new Response(stream).arrayBuffer()));
-  const data = {...facts, instances: readInstances(read, facts.instances)};
+  const processes = facts.processes.map(process => process || {vpid: 0, name: '', host: null, events: 0});  // of the kernel alone
+  const data = {...facts, processes, instances: readInstances(read, facts.instances)};
   data.messages = readMessages(read, facts.messages, instance => instance < 0 ? -1 : data.instances.callback[instance]);
   data.states = readStates(read, facts.states);
   connect(data);
@@ -80,7 +82,8 @@ function readMessages(read, count, callbackOf) {
   const subscription = read.repeatedReferences(count, i => callbackOf(to[i]));
   const thread = read.repeatedReferences(count, i => publisher[i]);
   const repeated = read.column(Uint8Array, count, read.number);
-  return {count, published, called, taken, publisher, subscription, thread, from, to, repeated};
+  const written = read.column(Float64Array, count, read.number);  // after `published`; 0: not in the trace
+  return {count, published, called, written, taken, publisher, subscription, thread, from, to, repeated};
 }
 
 // Thread by thread.
@@ -120,7 +123,14 @@ function connect(data) {
   data.instancesIn = group(instances.thread, instances.count, data.threads.length);
   data.statesIn = group(data.states.thread, data.states.count, data.threads.length);
   data.publishedBy = group(messages.from, messages.count, instances.count);
-  data.callbacks.forEach((callback, id) => { callback.label = callbackLabel(data, callback, id); });
+  const seen = new Map();
+  data.callbacks.forEach((callback, id) => {
+    callback.label = callbackLabel(data, callback);
+    callback.color = id;
+    const name = [nodeName(data, callback.node), callback.label].filter(Boolean).join(' · ');
+    seen.set(name, (seen.get(name) ?? 0) + 1);
+    callback.name = seen.get(name) === 1 ? name : `${name} #${seen.get(name)}`;
+  });
 }
 
 // group(keys)(key) gives the indices at which the key stands, in order.
@@ -144,6 +154,11 @@ function callbackLabel(data, callback) {
   }
 }
 
+// "/filter · /scan"; others with the same name are numbered.
+function callbackName(data, id) {
+  return data.callbacks[id].name;
+}
+
 // With several machines in the trace, what runs on one of them is called after it: "left: /camera".
 function nodeName(data, node) {
   if (node === null || node === undefined) return '';
@@ -157,7 +172,7 @@ function processName(data, process) {
 }
 
 function hostOf(data, process) {
-  data.hasSeveralHosts ??= data.processes.some(({host}) => host !== data.processes[0].host);
+  data.hasSeveralHosts ??= new Set(data.processes.map(({host}) => host).filter(host => host !== null)).size > 1;
   return data.hasSeveralHosts && data.processes[process] ? `${data.processes[process].host}: ` : '';
 }
 

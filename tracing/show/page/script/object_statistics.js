@@ -2,9 +2,12 @@
 // Statistics of callbacks, topics and threads, from the instances and messages that the page holds.
 
 // Each is computed once.
-const computed = {callbacks: new Map(), topics: new Map()};
+function computedOf(data) {
+  return data.computed ??= {callbacks: new Map(), topics: new Map(), subscriptions: null};
+}
 
 function callbackStatistics(data, id) {
+  const computed = computedOf(data);
   if (!computed.callbacks.has(id)) {
     const list = data.instancesOf(id);
     const {start, end, finished} = data.instances;
@@ -23,6 +26,7 @@ function callbackStatistics(data, id) {
 
 // Latencies are from the publication to the start of the callback. A message that several subscriptions take has several.
 function topicStatistics(data) {
+  const computed = computedOf(data);
   if (computed.topics.size > 0) return [...computed.topics.values()];
   const {messages, instances} = data;
   const topics = data.topics.map((name, id) => ({id, name, publishers: 0, subscriptions: 0, published: 0, taken: 0, missed: 0, times: [], values: [], publishedAt: []}));

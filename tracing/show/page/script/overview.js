@@ -31,6 +31,7 @@ function overviewView(data) {
   const nodes = data.nodes.length;
   const topics = data.topics.filter(name => !isInternalTopic(name)).length;
   const found = data.findings;
+  const ofKernel = data.folded.reduce((sum, {count}) => sum + count, 0);
   return [
     data.error ? element('div', {class: 'panel trouble', role: 'alert'}, `The trace could not be read to its end: ${data.error}`) : null,
     data.is_open ? element('div', {class: 'panel', role: 'alert'}, 'The trace was still being written when this page was made. It holds what was complete then.') : null,
@@ -39,14 +40,15 @@ function overviewView(data) {
     element('div', {class: 'tiles'},
       tile(formatDuration(data.duration), 'recorded'), tile(formatCount(overview.events), 'events'),
       tile(lost, lost === 'none' ? 'events lost' : 'lost', lost === 'none' ? 'good' : 'bad'),
-      tile(formatCount(data.processes.filter(process => process.events > 0).length), 'processes'), tile(formatCount(nodes), 'nodes'), tile(formatCount(topics), 'topics'),
+      tile(formatCount(data.processes.filter(process => process.events > 0).length), ofKernel === 0 ? 'processes' : `processes, ${formatCount(ofKernel)} more of the kernel's events`), tile(formatCount(nodes), 'nodes'), tile(formatCount(topics), 'topics'),
       tile(formatCount(data.instances.count), 'callbacks run'), tile(formatCount(data.messages.count), 'messages')),
     data.absences.length + data.unseen_chains.length + data.overwritten.length === 0 ? null : panel('Not there', element('ul', {class: 'absences'},
       ...[...data.absences, ...data.overwritten, ...data.unseen_chains.map(name => `chain '${name}': no callbacks were seen that cause one another in this order`)]
         .map(text => element('li', {}, text)))),
     panel('Worth looking at', found.length === 0 ? element('p', {class: 'faint'}, 'Nothing stands out.') :
       element('ul', {class: 'findings'}, ...found.map(finding => element('li', {}, element('button', {onclick: () => openFinding(finding)},
-        element('span', {class: 'what'}, finding.title), element('span', {class: 'subject'}, finding.subject), element('span', {}, finding.figures)))))),
+        element('span', {class: 'what'}, finding.title), element('span', {class: 'subject'}, finding.subject), element('span', {}, finding.figures)),
+      finding.next ? element('p', {class: 'next'}, `next: ${finding.next}`) : null)))),
     panel('Trace', element('div', {class: 'facts'}, element('dl', {}, ...[
       ['Directory', data.directory],
       ['Begin', new Date(data.begin_ms).toISOString().replace('T', ' ').replace('Z', ' UTC')],

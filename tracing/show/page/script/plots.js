@@ -96,3 +96,22 @@ function cumulativePlot(title, sorted, name) {
     axes: axes(durationTicks, (_, ticks) => ticks.map(t => `${Math.round(t * 100)} %`)),
   }, [values, shares]);
 }
+
+// The cumulative distributions of two runs in one plot.
+function cumulativeOfBoth(title, [before, after]) {
+  const least = Math.min(before[0], after[0]);
+  // Each begins at 0, below the smallest of both. Of equal values the last share counts.
+  const values = uPlot.join([before, after].map(sorted => {
+    const {values: times, shares} = cumulative(sorted);
+    const points = new Map([[least * 0.999, 0], [times[0] * 0.9999, 0], ...times.map((time, i) => [time, shares[i]])]);
+    return [[...points.keys()], [...points.values()]];
+  }));
+  const line = (label, name) => ({label, stroke: color(name), width: 2, spanGaps: true, paths: uPlot.paths.stepped({align: 1}), points: {show: false},
+    value: (_, v) => v === null || v === undefined ? '–' : formatPercent(v)});
+  const isLogarithmic = least > 0 && Math.max(before.at(-1), after.at(-1)) > 30 * least;
+  return makePlot(title, {
+    scales: {x: isLogarithmic ? {time: false, distr: 3} : {time: false}, y: {range: [0, 1]}},
+    series: [{label: 'time', value: (_, v) => v === null ? '–' : formatDuration(v)}, line('before', 'before'), line('after', 'after')],
+    axes: axes(durationTicks, (_, ticks) => ticks.map(t => `${Math.round(t * 100)} %`)),
+  }, values);
+}

@@ -24,7 +24,18 @@ function processesView(data) {
     isActive: row => row.nodes.some(({node_id}) => node_id === selection.node)});
   return [panel('Processes', table, element('p', {class: 'note'},
     'Ready: everything exists that the program makes before it waits for work for the first time. Times count from when its program began to run.')),
-  data.starts.length === 0 ? null : startBars(data), data.startup ? criticalPath(data.startup) : null];
+  foldedProcesses(data), data.starts.length === 0 ? null : startBars(data), data.startup ? criticalPath(data.startup) : null];
+}
+
+// Those that have events of the kernel alone; those of one name are one row.
+function foldedProcesses(data) {
+  if (data.folded.length === 0) return null;
+  const count = data.folded.reduce((sum, row) => sum + row.count, 0);
+  return panel(`${plural(count, 'process')} more of the kernel's events`, dataTable(data.folded, [
+    {title: 'Name', value: row => row.name || 'without a name', wide: true}, ...(data.hasSeveralHosts ? [{title: 'Machine', value: row => row.host || '?'}] : []),
+    {title: 'Processes', value: row => row.count, show: row => formatCount(row.count)},
+    {title: 'Events', value: row => row.events, show: row => formatCount(row.events)},
+  ], {name: 'name', sort: data.hasSeveralHosts ? 3 : 2, descending: true, limit: 20}), element('p', {class: 'note'}, 'They have no events of ROS 2. Those of one name are one row.'));
 }
 
 // The phases of a start, in their order: until what, and a hue.

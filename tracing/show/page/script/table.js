@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A table that the reader sorts and filters.
 //
-// columns: [{title, value: row => number or text, show: row => text (default: the value), wide}]. A column is one of
-// texts if the value of its first row is a text. options: {sort: index of the column, descending, choose: row => …,
+// columns: [{title, value: row => number or text, show: row => text or element (default: the value), order: row => number
+// by which it is sorted instead, wide}]. A column is one of texts if the value of its first row is a text. options: {sort: index of the column, descending, choose: row => …,
 // isActive: row => boolean, limit: rows that are shown at first, name: what the rows are}.
 function dataTable(rows, columns, options = {}) {
   let sort = options.sort ?? 0;
@@ -27,13 +27,14 @@ function dataTable(rows, columns, options = {}) {
     const words = filter.value.toLowerCase().split(/\s+/).filter(Boolean);
     if (words.length === 0) return rows.slice();
     return rows.filter(row => {
-      const text = columns.map(column => String(column.show ? column.show(row) : column.value(row))).join(' ').toLowerCase();
+      const text = columns.map(column => column.show ? column.show(row) : column.value(row)).map(cell => cell instanceof Node ? cell.textContent : String(cell)).join(' ').toLowerCase();
       return words.every(word => text.includes(word));
     });
   }
 
   function compare(left, right) {
-    const [a, b] = [columns[sort].value(left), columns[sort].value(right)];
+    const value = columns[sort].order ?? columns[sort].value;
+    const [a, b] = [value(left), value(right)];
     if (typeof a === 'string') return a.localeCompare(b, 'en', {numeric: true});
     // What has no value comes last.
     if (Number.isNaN(a) || Number.isNaN(b)) return (Number.isNaN(a) - Number.isNaN(b)) * (descending ? -1 : 1);

@@ -1,37 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the time chart tells of one instance of a callback: when, how long, why, and what came of it.
 
-// The instances before and after an instance, along messages, with these messages. At most `most` of each.
-function causes(data, instance, most = 200) {
-  const {instances, messages} = data;
-  const before = [];
-  const after = [];
-  const along = [];
-  for (let i = instance; before.length < most;) {
-    const message = instances.message[i];
-    if (message < 0) break;
-    along.push(message);
-    i = messages.from[message];
-    if (i < 0) break;
-    before.push(i);
-  }
-  const open = [instance];
-  while (open.length > 0 && after.length < most) {
-    for (const message of data.publishedBy(open.shift())) {
-      if (messages.to[message] < 0) continue;
-      along.push(message);
-      after.push(messages.to[message]);
-      open.push(messages.to[message]);
-    }
-  }
-  return {before, after, messages: along};
-}
-
 function instanceText(data, instance) {
   const {instances, messages} = data;
   const callback = data.callbacks[instances.callback[instance]];
   const lines = [
-    [nodeName(data, callback.node), callback.label].filter(Boolean).join(' · '),
+    callback.name,
     callback.symbol && callback.symbol !== callback.label ? callback.symbol : null,
     `${formatDuration(instances.end[instance] - instances.start[instance])} from ${formatTime(instances.start[instance])}`,
   ];
@@ -54,12 +28,9 @@ function instanceDetails(data, instance, show) {
   const place = lowerBound(same, instance);
   const gap = place > 0 ? instances.start[instance] - instances.start[same[place - 1]] : null;
   const link = (to, text) => element('button', {onclick: () => show(to)}, text);
-  const nameOf = to => {
-    const other = data.callbacks[instances.callback[to]];
-    return `${nodeName(data, other.node)} · ${other.label}`;
-  };
+  const nameOf = to => callbackName(data, instances.callback[to]);
   const facts = [
-    ['Callback', [nodeName(data, callback.node), callback.label].filter(Boolean).join(' · ')],
+    ['Callback', callback.name],
     ['Symbol', callback.symbol],
     ['Thread', `${thread.vtid} of ${processName(data, thread.process)}`],
     ['Start', formatTime(instances.start[instance], 1)],

@@ -9,8 +9,7 @@ const kLabelWidth = 200;     // of the names of rows; less where there is little
 const kStateHeight = 4;      // of the strip that tells what a thread did
 const kMostArrows = 400;
 
-// chart: {data, rows, index, view: {begin, end, top}, width, height, hovered, map}. `view.top` is how far rows are
-// scrolled.
+// `chart` is a TimeChart. Its `view.top` is how far rows are scrolled.
 function drawTimeChart(context, chart) {
   const {width, height} = chart;
   const style = {};
@@ -28,7 +27,7 @@ function drawTimeChart(context, chart) {
   context.clip();
   drawRows(context, chart, style);
   chart.arrowsHidden = drawArrows(context, chart, style);
-  drawChosen(context, chart, style);
+  drawFlow(context, chart, style);
   context.restore();
 }
 
@@ -47,18 +46,19 @@ function timeX(chart, time) {
 
 // How busy the whole trace is, with the part that is shown.
 function drawMap(context, chart, style) {
-  const {map, width, view} = chart;
+  const {map, width, view, limits} = chart;
   const span = width - labelWidth(chart);
+  const x = time => labelWidth(chart) + (time - limits.begin) / (limits.end - limits.begin) * span;
+  const step = chart.duration / map.length;
   const most = Math.max(...map, 1e-9);
   context.fillStyle = style.row;
   context.fillRect(labelWidth(chart), 0, span, kMapHeight - 6);
   context.fillStyle = style.faint;
   map.forEach((share, i) => {
     const height = share / most * (kMapHeight - 8);
-    context.fillRect(labelWidth(chart) + i * span / map.length, kMapHeight - 6 - height, Math.max(1, span / map.length), height);
+    context.fillRect(x(i * step), kMapHeight - 6 - height, Math.max(1, x(step) - x(0)), height);
   });
-  const x0 = labelWidth(chart) + view.begin / chart.duration * span;
-  const x1 = labelWidth(chart) + view.end / chart.duration * span;
+  const [x0, x1] = [x(view.begin), x(view.end)];
   context.globalAlpha = 0.18;
   context.fillStyle = style.accent;
   context.fillRect(x0, 0, Math.max(2, x1 - x0), kMapHeight - 6);
@@ -94,6 +94,7 @@ function drawScale(context, chart, style) {
 function drawRows(context, chart, style) {
   const {rows, view, width, data} = chart;
   const span = width - labelWidth(chart);
+  const marked = chart.options.marked();
   rows.forEach((row, i) => {
     const top = rowTop(chart, i);
     const height = row.heading ? kHeadHeight : kRowHeight;
@@ -122,15 +123,16 @@ function drawRows(context, chart, style) {
     const draw = (intervals, inset) => intervals.draw(view.begin, view.end, span, (from, to, id, share) => {
       const x = Math.max(from, 0);
       const w = Math.max(Math.min(to, span) - x, 1);
-      context.globalAlpha = 0.35 + 0.65 * share;  // what is short can be seen, too
-      context.fillStyle = barColor(data.instances.callback[id], style.lightness);
+      const callback = data.instances.callback[id];
+      context.globalAlpha = (0.35 + 0.65 * share) * (marked === null || marked === callback ? 1 : 0.3);  // what is short can be seen, too
+      context.fillStyle = barColor(data.callbacks[callback].color, style.lightness);
       context.fillRect(labelWidth(chart) + x, top + 3 + inset, w, barHeight - inset);
       if (data.states.count > 0 && row.callback !== undefined && share === 1 && w > 2) {
         drawStates(context, chart, style, statesOf(data, data.instances.thread[id]), top + height - 2 - kStateHeight, id);
       }
       if (w > 60 && share === 1 && inset === 0) {
         context.fillStyle = '#10151d';
-        context.fillText(fitted(context, data.callbacks[data.instances.callback[id]].label, w - 10), labelWidth(chart) + x + 5, top + 3 + barHeight / 2);
+        context.fillText(fitted(context, data.callbacks[callback].label, w - 10), labelWidth(chart) + x + 5, top + 3 + barHeight / 2);
       }
     });
     for (let intervals = row.intervals, inset = 0; intervals; intervals = intervals.nested, inset = Math.min(inset + 5, 10)) draw(intervals, inset);
@@ -216,30 +218,4 @@ function drawArrows(context, chart, style) {
   for (const ends of visible) drawArrow(context, ends);
   context.restore();
   return 0;
-}
-
-// The chosen instance, and the messages that led to it and from it.
-function drawChosen(context, chart, style) {
-  if (selection.instance === null) return;
-  const {data, index} = chart;
-  const {before, after, messages} = causes(data, selection.instance);
-  context.save();
-  context.beginPath();
-  context.rect(labelWidth(chart), 0, chart.width, chart.height);
-  context.clip();
-  context.strokeStyle = context.fillStyle = style.accent;
-  for (const instance of [selection.instance, ...before, ...after]) {
-    const row = index.rowOf(instance);
-    if (row < 0) continue;
-    const x = timeX(chart, data.instances.start[instance]);
-    const w = Math.max(2, timeX(chart, data.instances.end[instance]) - x);
-    context.lineWidth = instance === selection.instance ? 3 : 1.5;
-    context.strokeRect(x, rowTop(chart, row) + 2, w, heightOfBars(data) + 2);
-  }
-  context.lineWidth = 2;
-  for (const message of messages) {
-    const ends = arrowEnds(chart, message);
-    if (ends) drawArrow(context, ends);
-  }
-  context.restore();
 }

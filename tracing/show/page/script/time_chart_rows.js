@@ -3,13 +3,14 @@
 // needs no heading.
 
 // [{heading, text}] or [{text, intervals, thread or callback, states of the thread or null}]. `by`: 'thread' or 'callback'.
-function timeChartRows(data, by) {
+// `isShown(callback)`: whether the reader wants to see it.
+function timeChartRows(data, by, isShown) {
   const groups = new Map();
   const groupOf = (key, heading) => {
     if (!groups.has(key)) groups.set(key, {heading, rows: []});
     return groups.get(key).rows;
   };
-  const chosen = data.callbacks.map(callback => isChosen(data, callback));
+  const chosen = data.callbacks.map(isShown);
   if (by === 'thread') {
     data.threads.forEach((thread, id) => {
       const ids = data.instancesIn(id).filter(i => chosen[data.instances.callback[i]]);
@@ -41,14 +42,14 @@ function processHeading(data, process) {
 }
 
 // Row of each instance, for the ends of arrows: rowOf(instance) and rowOfThread(thread); -1 if it has none.
-function rowIndex(data, rows, by) {
+function rowIndex(data, rows, by, isShown) {
   const ofThread = new Int32Array(data.threads.length).fill(-1);
   const ofCallback = new Int32Array(data.callbacks.length).fill(-1);
   rows.forEach((row, i) => {
     if (row.thread !== undefined) ofThread[row.thread] = i;
     if (row.callback !== undefined) ofCallback[row.callback] = i;
   });
-  const chosen = data.callbacks.map(callback => isChosen(data, callback));
+  const chosen = data.callbacks.map(isShown);
   const {instances} = data;
   return {
     rowOf: instance => by === 'thread'

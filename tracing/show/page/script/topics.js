@@ -25,10 +25,10 @@ function topicsView(data) {
   const view = panel('Topics', table, element('p', {class: 'note'},
     'Latency: from the publication (rmw_publish) to the start of the callback. Not taken: by any subscription in the trace, although there is one.'));
   view.refresh = change => {
-    if ('topic' in change) {
-      table.update();
-      showPlots();
-    }
+    if ('node' in change) return false;
+    table.update();
+    showPlots();
+    return true;
   };
   return [view, plots];
 }
