@@ -53,6 +53,22 @@ class Flow(page_case.PageTest):
         self.browser.evaluate(f'showInTime(page.data, {lost})')
         self.assertIn('nobody took this message of /points', [row[1] for row in self.steps()])
 
+    # As if the publisher of /scan used the last /points that had come.
+    def test_kept_messages_belong_to_it(self):
+        self.browser.evaluate('page.data.kept = [[0, 1]]; page.data.computed = undefined; select({instance: 4})')
+        steps = [row[1] for row in self.steps()]
+        self.assertEqual(steps[0], '/sensor · timer 10.0 ms begins')
+        kept = steps.index('/display · /points begins, its message is kept')
+        self.assertEqual(steps[kept + 1], '/sensor · timer 10.0 ms begins', 'the callback that published comes last')
+
+    def test_what_a_publisher_has_kept_goes_on_with_it(self):
+        self.browser.evaluate('page.data.kept = [[0, 1]]; page.data.computed = undefined')
+        self.assertEqual(self.browser.evaluate('sentLater(page.data, 2).map(message => [page.data.messages.from[message], page.data.topics[topicOf(page.data, message)]])'), [[3, '/scan']])
+        self.assertEqual(self.browser.evaluate('causesOf(page.data, page.data.instances.message[4])'), [3, 2])
+        self.assertEqual(self.browser.evaluate('causesOf(page.data, page.data.instances.message[1])'), [0])
+        self.browser.evaluate('select({instance: 5}); select({instance: 2})')
+        self.assertIn('298 callbacks, 200 messages', self.text('.flow p'), 'all that follows, each once')
+
     def test_it_says_what_the_thread_did_in_the_meantime(self):
         # As if /filter had been busy with something else while the message was on its way.
         self.browser.evaluate('''(() => {

@@ -59,6 +59,9 @@ class Example {
     node(kFilter, us(1000), "filter");
     publisher(kFilter, us(1100), "/points");
     subscription(kFilter, us(1200), "/scan", "Filter::on_scan(sensor_msgs::msg::LaserScan const&)");
+    if (variant_.has_links) {
+      write(kFilter, us(1300), MessageLinkPeriodicAsync{{kSubscription}, {kPublisher}});
+    }
     node(kDisplay, us(2000), "display");
     subscription(kDisplay, us(2200), "/points", "Display::on_points(sensor_msgs::msg::PointCloud2 const&)");
     write(kDisplay, us(2300), RclLifecycleStateMachineInit{kNode, kStateMachine});

@@ -32,6 +32,7 @@ enum class ExampleEvents { kRos, kRosAndScheduler };
 
 struct ExampleVariant {
   std::int64_t usual_us = 400;  // how long the callback of /filter takes, in most cycles
+  bool has_links = false;       // /filter declares that it publishes what it keeps of /scan
   bool has_writes = false;      // dds:write, 3 us after rmw_publish: two more events in a cycle
 };
 

@@ -56,14 +56,26 @@ TEST_F(ExampleTimeline, FollowsAMessageFromCallbackToCallback) {
   EXPECT_EQ(points.receiving_instance, 2u);
 }
 
-TEST(TimelineOfWrites, KnowsWhenAMessageWasWritten) {
+Timeline timeline_of(const testing::ExampleVariant& variant) {
   const testing::TemporaryDirectory directory;
-  testing::write_example_system(directory.path(), 3, testing::ExampleEvents::kRos, {.has_writes = true});
+  testing::write_example_system(directory.path(), 3, testing::ExampleEvents::kRos, variant);
   TimelineRecorder recorder;
   TraceAnalysis analysis(&recorder);
   TraceReader(directory.path()).read(analysis);
   const TraceResults results = analysis.finish();
-  const Timeline timeline = recorder.finish(analysis, results.overview);
+  return recorder.finish(analysis, results.overview);
+}
+
+TEST_F(ExampleTimeline, KnowsWhichMessagesAreKeptForWhichPublisher) {
+  EXPECT_TRUE(timeline_.kept.empty());
+  const Timeline timeline = timeline_of({.has_links = true});
+  ASSERT_EQ(timeline.kept.size(), 1u);
+  EXPECT_EQ(timeline.topics[timeline.publishers[timeline.kept[0].publisher].topic], "/points");
+  EXPECT_EQ(timeline.topics[timeline.subscriptions[timeline.kept[0].subscription].topic], "/scan");
+}
+
+TEST_F(ExampleTimeline, KnowsWhenAMessageWasWritten) {
+  const Timeline timeline = timeline_of({.has_writes = true});
   ASSERT_EQ(timeline.messages.size(), 6u);
   for (const Message& message : timeline.messages) {
     EXPECT_EQ(message.written_after_ns, 3'000u);

@@ -112,6 +112,8 @@ class ChainTracker : public ExecutionSink {
   void finish();
 
   const std::vector<ChainRecord>& paths() const { return paths_; }
+  // Of each publisher whose node keeps messages: the subscriptions, as user code has declared them.
+  const std::map<ObjectId, std::vector<ObjectId>>& links() const { return links_; }
   bool is_full() const { return is_full_; }  // there were more paths
 
  protected:

@@ -44,6 +44,12 @@ struct Endpoint {  // publisher or subscription
   std::optional<ros2::EndpointQos> qos = std::nullopt;
 };
 
+// What the publisher sends is also caused by the last message that the subscription got: user code has declared it.
+struct KeptMessage {
+  Index publisher = kNone;
+  Index subscription = kNone;
+};
+
 struct Timer {
   Index node = kNone;
   std::int64_t period_ns = 0;
@@ -204,6 +210,7 @@ struct Timeline {
   std::vector<std::string> topics;
   std::vector<Endpoint> publishers;
   std::vector<Endpoint> subscriptions;
+  std::vector<KeptMessage> kept;
   std::vector<Timer> timers;
   std::vector<ServiceEnd> services;
   std::vector<ServiceEnd> clients;

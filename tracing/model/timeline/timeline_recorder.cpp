@@ -65,6 +65,11 @@ void copy_objects(const TraceAnalysis& analysis, Timeline& timeline) {
   for (const EndpointObject& end : objects.subscriptions()) {
     timeline.subscriptions.push_back({end.node, end.topic, end.queue_depth, end.qos});
   }
+  for (const auto& [publisher, subscriptions] : analysis.chains().links()) {
+    for (const ObjectId subscription : subscriptions) {
+      timeline.kept.push_back({publisher, subscription});
+    }
+  }
   for (const TimerObject& timer : objects.timers()) {
     timeline.timers.push_back({timer.node, timer.period_ns});
   }

@@ -180,6 +180,10 @@ Json objects(const Timeline& timeline) {
                          {"period", callback.period_ns},
                          {"symbol", callback.symbol}});
   }
+  Json kept = Json::array();
+  for (const timeline::KeptMessage& one : timeline.kept) {
+    kept.push_back({one.publisher, one.subscription});
+  }
   Json others = Json::array();
   for (const timeline::OtherThread& other : timeline.other_threads) {
     others.push_back({{"tid", other.tid}, {"name", other.name}});
@@ -197,6 +201,7 @@ Json objects(const Timeline& timeline) {
           {"publishers", endpoints(timeline.publishers)},
           {"subscriptions", endpoints(timeline.subscriptions)},
           {"callbacks", callbacks},
+          {"kept", kept},
           {"other_threads", others},
           {"lifecycle", lifecycle}};
 }

@@ -2,7 +2,7 @@
 // The single runs of a chain that the page holds: found from the messages, back from the last callback.
 
 // The runs, by the time of their end: [{first, last: instances, response}]. Of an input that has several outputs, the first
-// one counts. Where a node has kept a message, only the report knows what caused what, so there are none.
+// one counts.
 function chainRuns(data, chain) {
   const computed = computedOf(data);
   computed.chains ??= new Map();
@@ -20,10 +20,10 @@ function findRuns(data, chain) {
     let first = last;
     for (let k = steps.length - 1; k > 0 && first >= 0; --k) {
       const message = instances.message[first];
-      first = message < 0 || topicOf(data, message) !== steps[k].topic ? -1 : messages.from[message];
-      if (first >= 0 && instances.callback[first] !== steps[k - 1].callback) first = -1;
+      first = message < 0 || topicOf(data, message) !== steps[k].topic ? -1 :
+        causesOf(data, message).find(cause => instances.callback[cause] === steps[k - 1].callback) ?? -1;
     }
-    const isLonger = first >= 0 && !chain.name && instances.message[first] >= 0 && messages.from[instances.message[first]] >= 0;
+    const isLonger = first >= 0 && !chain.name && instances.message[first] >= 0 && causesOf(data, instances.message[first]).length > 0;
     if (first <= newest || isLonger) continue;  // none, or overtaken by a newer input; or a part of a longer chain
     newest = first;
     runs.push({first, last, response: instances.end[last] - instances.start[first]});

@@ -6,61 +6,101 @@ const kMostOnWay = 200;  // messages, before and after
 
 // {instance, begin, end, instances, messages, steps, isCut}. A step is {time, depth, kind, instance or message}, in the order
 // in which the list shows them; kinds: 'begin' and 'end' of an instance, 'call', 'publish', 'write', 'take', 'lost' of a message.
+// `isKept` marks an instance whose message was kept for the publication that follows.
 function messageFlow(data, instance) {
-  const {instances, messages} = data;
-  const flow = {instance, instances: [], messages: [], steps: [], isCut: false};
-  const led = [];  // the messages that led to the instance, the first one first
-  for (let i = instance, seen = new Set(); i >= 0 && !seen.has(i);) {
-    seen.add(i);
-    flow.instances.push(i);
-    const message = instances.message[i];
-    if (message < 0) break;
-    flow.isCut ||= led.length >= kMostOnWay;
-    if (flow.isCut) break;
-    led.unshift(message);
-    i = messages.from[message];
+  return new FlowFinder(data, instance).flow;
+}
+
+class FlowFinder {
+  constructor(data, instance) {
+    this.data = data;
+    this.flow = {instance, instances: [instance], messages: [], steps: [], isCut: false};
+    this.lead(instance, 0, false);
+    this.follow(instance, 0);
+    const times = this.flow.steps.map(({time}) => time);
+    this.flow.begin = Math.min(...times);
+    this.flow.end = Math.max(...times);
   }
-  const step = (time, depth, kind, what) => { if (!Number.isNaN(time)) flow.steps.push({time, depth, kind, ...what}); };
-  const sent = (message, depth) => {
+
+  step(time, depth, kind, what) {
+    if (!Number.isNaN(time)) this.flow.steps.push({time, depth, kind, ...what});
+  }
+
+  // Whether there is room for another message, which has not been met yet.
+  isNew(message) {
+    if (this.flow.messages.includes(message)) return false;
+    if (this.flow.messages.length >= kMostOnWay) this.flow.isCut = true;
+    return !this.flow.isCut;
+  }
+
+  // What led to an instance, the first of it first. Kept messages come before the one that made the callback publish.
+  lead(instance, depth) {
+    const {data, flow} = this;
+    const message = data.instances.message[instance];
+    if (message < 0 || !this.isNew(message)) return;
     flow.messages.push(message);
-    if (messages.called[message] < messages.published[message]) step(messages.called[message], depth, 'call', {message});
-    step(messages.published[message], depth, 'publish', {message});
-    if (messages.written[message] > 0) step(messages.published[message] + messages.written[message], depth, 'write', {message});
-  };
-  led.forEach(message => {
-    const from = messages.from[message];
-    if (from >= 0) step(instances.start[from], 0, 'begin', {instance: from});
-    sent(message, 0);
-    step(messages.taken[message], 0, 'take', {message});
-  });
-  let after = 0;
-  const run = (i, depth, path) => {
-    step(instances.start[i], depth, 'begin', {instance: i});
-    let last = -1;
-    for (const message of data.publishedBy(i)) {
-      if (++after > kMostOnWay) {
-        flow.isCut = true;
-        break;
+    const own = data.messages.from[message];
+    const causes = causesOf(data, message);
+    for (const cause of [...causes.filter(cause => cause !== own), ...causes.filter(cause => cause === own)]) {
+      const isKept = cause !== own;
+      if (!flow.instances.includes(cause)) {
+        flow.instances.push(cause);
+        this.lead(cause, depth + (isKept ? 1 : 0));
       }
+      this.step(data.instances.start[cause], depth + (isKept ? 1 : 0), 'begin', {instance: cause, isKept});
+    }
+    this.send(message, depth);
+    this.step(data.messages.taken[message], depth, 'take', {message});
+  }
+
+  send(message, depth) {
+    const {called, published, written} = this.data.messages;
+    if (called[message] < published[message]) this.step(called[message], depth, 'call', {message});
+    this.step(published[message], depth, 'publish', {message});
+    if (written[message] > 0) this.step(published[message] + written[message], depth, 'write', {message});
+  }
+
+  // What came of an instance.
+  follow(instance, depth) {
+    const {data} = this;
+    const {start, end} = data.instances;
+    this.step(start[instance], depth, 'begin', {instance});
+    this.followMessages(data.publishedBy(instance), depth + 1);
+    this.step(end[instance], depth, 'end', {instance});
+    // Other callbacks that publish what this one has kept.
+    let publisher = -1;
+    for (const message of sentLater(data, instance)) {
+      const from = data.messages.from[message];
+      if (!this.isNew(message)) continue;
+      if (from >= 0 && from !== publisher) {
+        this.step(start[from], depth + 1, 'begin', {instance: from});
+        if (!this.flow.instances.includes(from)) this.flow.instances.push(from);
+      }
+      publisher = from;
+      this.followMessages([message], depth + 2);
+    }
+  }
+
+  followMessages(list, depth) {
+    const {data, flow} = this;
+    const {messages} = data;
+    let isSent = false;
+    for (const message of list) {
+      if (!this.isNew(message)) continue;
+      flow.messages.push(message);
       // A publication is in the list once for each subscription that took it.
-      if (messages.repeated[message] && last >= 0) flow.messages.push(message);
-      else sent(message, depth + 1);
-      last = message;
+      if (!messages.repeated[message] || !isSent) this.send(message, depth);
+      isSent = true;
       const to = messages.to[message];
-      step(messages.taken[message], depth + 1, 'take', {message});
+      this.step(messages.taken[message], depth, 'take', {message});
       if (to < 0) {
-        if (Number.isNaN(messages.taken[message]) && hasSubscription(data, message)) step(messages.published[message], depth + 1, 'lost', {message});
-      } else if (!path.has(to)) {
+        if (Number.isNaN(messages.taken[message]) && hasSubscription(data, message)) this.step(messages.published[message], depth, 'lost', {message});
+      } else if (!flow.instances.includes(to)) {
         flow.instances.push(to);
-        run(to, depth + 1, new Set(path).add(to));
+        this.follow(to, depth);
       }
     }
-    step(instances.end[i], depth, 'end', {instance: i});
-  };
-  run(instance, 0, new Set(flow.instances));
-  flow.begin = Math.min(...flow.steps.map(({time}) => time));
-  flow.end = Math.max(...flow.steps.map(({time}) => time));
-  return flow;
+  }
 }
 
 function hasSubscription(data, message) {
@@ -68,13 +108,13 @@ function hasSubscription(data, message) {
   return data.subscriptions.some(end => end.topic === topic);
 }
 
-function stepText(data, {kind, instance, message}) {
+function stepText(data, {kind, instance, message, isKept}) {
   const {instances, messages} = data;
   const topic = message === undefined ? '' : data.topics[topicOf(data, message)] ?? 'a topic that is not in the trace';
   const isWithin = message !== undefined && messages.to[message] >= 0 && instances.intraProcess(messages.to[message]);
   const taker = () => nodeName(data, data.subscriptions[messages.subscription[message]]?.node);
   switch (kind) {
-    case 'begin': return `${callbackName(data, instances.callback[instance])} begins`;
+    case 'begin': return `${callbackName(data, instances.callback[instance])} begins${isKept ? ', its message is kept' : ''}`;
     case 'end': return instances.finished(instance) ? `${callbackName(data, instances.callback[instance])} ends` : `${callbackName(data, instances.callback[instance])} has no end in the trace`;
     case 'call': return `publish() of ${topic} is called`;
     case 'publish': return isWithin ? `${topic} is put into the buffers of its process` : `${topic} is given to the middleware (rmw_publish)`;

@@ -49,8 +49,13 @@ function drawStages(context, chart, style, message) {
     const text = `${name} ${formatDuration(to - from)}`;
     if (Math.abs(x1 - x0) < context.measureText(text).width + 8) return;
     context.font = '10px system-ui, "DejaVu Sans", sans-serif';
+    const left = Math.max(x0, labelWidth(chart)) + 4;
+    context.globalAlpha = 0.8;
+    context.fillStyle = style.panel;
+    context.fillRect(left - 2, y - 11, context.measureText(text).width + 4, 11);
+    context.globalAlpha = 1;
     context.fillStyle = style.text;
-    context.fillText(text, Math.max(x0, labelWidth(chart)) + 4, y - 5);
+    context.fillText(text, left, y - 5);
     context.font = '12px system-ui, "DejaVu Sans", sans-serif';
   };
   const from = messages.from[message] >= 0 ? index.rowOf(messages.from[message]) : index.rowOfThread(messages.thread[message]);
