@@ -80,6 +80,9 @@ TEST(Preload, DevelopmentPackageIsNotNeeded) {
 
 TEST(Preload, FindsTheInstalledLibraries) {
   const PreloadPlan plan = plan_preload({"lttng_ust_libc:malloc"});
+  if (!HAS_TRACEPOINTS && plan.libraries.empty()) {
+    GTEST_SKIP() << "skipped, because LTTng-UST is not installed (liblttng-ust1)";
+  }
   ASSERT_EQ(plan.libraries.size(), 2u);
   EXPECT_TRUE(std::filesystem::exists(plan.libraries[0]));
   EXPECT_TRUE(std::filesystem::exists(plan.libraries[1]));
