@@ -2,8 +2,10 @@
 """The stub of the module launch_trace says what the module has."""
 
 import ast
+import functools
 import importlib.util
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -54,6 +56,24 @@ def is_public(name):
     return not name.startswith('_')
 
 
+class NewNotation(ast.NodeTransformer):
+    """Union[A, B] and Optional[A] become A | B and A | None."""
+
+    def visit_Subscript(self, node):
+        self.generic_visit(node)
+        name = ast.unparse(node.value)
+        if name not in ('Optional', 'Union'):
+            return node
+        parts = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
+        return functools.reduce(lambda left, right: ast.BinOp(left, ast.BitOr(), right),
+                                parts + [ast.Constant(None)] * (name == 'Optional'))
+
+
+def in_new_notation(said):
+    """What mypy says, with the types in its quotation marks as newer versions write them."""
+    return re.sub(r'"([^"]*)"', lambda match: f'"{ast.unparse(NewNotation().visit(ast.parse(match[1], mode="eval")))}"', said)
+
+
 class Stub(unittest.TestCase):
 
     def test_names_are_those_of_the_module(self):
@@ -100,13 +120,13 @@ class Stub(unittest.TestCase):
             program.write_text(PROGRAM)
             result = subprocess.run([sys.executable, '-m', 'mypy', '--cache-dir', directory, str(program)],
                                     capture_output=True, text=True, cwd=directory)
-            said = result.stdout.replace(str(program), 'program.py')
+            said = in_new_notation(result.stdout.replace(str(program), 'program.py'))
         self.assertEqual(said.splitlines()[:4], [
             'program.py:6: note: Revealed type is "builtins.int"',
-            'program.py:9: note: Revealed type is "Union[builtins.int, None]"',
-            'program.py:11: note: Revealed type is "Union[builtins.str, None]"',
+            'program.py:9: note: Revealed type is "builtins.int | None"',
+            'program.py:11: note: Revealed type is "builtins.str | None"',
             'program.py:12: error: Argument 2 to "columns" of "Trace" has incompatible type "int"; expected '
-            '"Optional[Sequence[str]]"  [arg-type]'], said + result.stderr)
+            '"Sequence[str] | None"  [arg-type]'], said + result.stderr)
 
     @unittest.skipUnless(HAS_MYPY, 'mypy is not installed')
     def test_mypy_finds_the_types_of_tables(self):
@@ -115,12 +135,12 @@ class Stub(unittest.TestCase):
             program.write_text(PROGRAM_WITH_TABLES)
             result = subprocess.run([sys.executable, '-m', 'mypy', '--cache-dir', directory, str(program)],
                                     capture_output=True, text=True, cwd=directory)
-            said = result.stdout.replace(str(program), 'program.py')
+            said = in_new_notation(result.stdout.replace(str(program), 'program.py'))
         self.assertEqual(said.splitlines()[:3], [
             'program.py:5: note: Revealed type is "launch_trace._table.Table"',
             'program.py:6: note: Revealed type is "launch_trace._table.Table"',
             'program.py:7: error: Argument 1 to "open" has incompatible type "int"; expected '
-            '"Union[str, PathLike[str], Sequence[Union[str, PathLike[str]]]]"  [arg-type]'], said + result.stderr)
+            '"str | PathLike[str] | Sequence[str | PathLike[str]]"  [arg-type]'], said + result.stderr)
 
 
 if __name__ == '__main__':
