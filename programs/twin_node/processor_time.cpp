@@ -26,7 +26,7 @@ long preemptions_of_thread() {
 
 }  // namespace
 
-Work::Work(bool processor_time) : begin_ns_(monotonic_ns()), processor_time_(processor_time) {
+Work::Work(std::int64_t begin_ns, bool processor_time) : begin_ns_(begin_ns), processor_time_(processor_time) {
   if (processor_time_) {
     used_ns_ = time_of(CLOCK_THREAD_CPUTIME_ID);
     preemptions_ = preemptions_of_thread();

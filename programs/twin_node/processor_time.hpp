@@ -6,13 +6,13 @@
 
 namespace twin_node {
 
-// Counts from its construction: the time that passes, or with `processor_time` the time that the thread has a processor
-// (CLOCK_THREAD_CPUTIME_ID). As long as nobody has taken the processor away these are the same, so that is asked only
-// at the end: the question itself takes longer than the shortest callbacks.
+// Counts from `begin_ns` (monotonic_ns()), or soon after: the time that passes, or with `processor_time` the time that
+// the thread has a processor (CLOCK_THREAD_CPUTIME_ID). As long as nobody has taken the processor away these are the
+// same, so that is asked only at the end: the question itself takes longer than the shortest callbacks.
 class Work {
  public:
-  explicit Work(bool processor_time);
-  // Goes on until this much has been done since the construction.
+  Work(std::int64_t begin_ns, bool processor_time);
+  // Goes on until this much has been done since then.
   void until(std::int64_t time_ns) const;
 
  private:

@@ -43,15 +43,10 @@ std::shared_ptr<rclcpp::Executor> make_executor(const Executor& executor) {
 }  // namespace
 
 TwinProcess::TwinProcess(const tracing::twin::System& system, Index process)
-    : system_(system),
-      process_(process),
-      rules_(system),
-      sendings_(system.callbacks.size()),
-      plain_(system.callbacks.size()) {
+    : system_(system), process_(process), rules_(system), quick_(system), sendings_(system.callbacks.size()) {
   add_nodes();
   add_groups();
   add_ends();
-  draw_plain_runs();
   add_callbacks();
 }
 
@@ -120,28 +115,6 @@ void TwinProcess::add_ends() {
   }
 }
 
-void TwinProcess::draw_plain_runs() {
-  std::vector<bool> is_input(system_.callbacks.size());
-  for (const Callback& callback : system_.callbacks) {
-    for (const tracing::twin::Output& output : callback.outputs) {
-      for (const Index input : output.inputs) {
-        is_input[input] = true;
-      }
-    }
-  }
-  for (Index index = 0; index < system_.callbacks.size(); ++index) {
-    const Callback& callback = system_.callbacks[index];
-    if (!groups_.contains(callback.group) || !callback.outputs.empty() || is_input[index] || callback.blocked > 0) {
-      continue;
-    }
-    constexpr std::size_t kRounds = 4;
-    tracing::twin::Draw draw(callback.run_times, system_.seed + index);
-    for (std::size_t count = kRounds * callback.run_times.values.size(); count > 0; --count) {
-      plain_[index].times.push_back(draw.next() - callback.overhead_ns);
-    }
-  }
-}
-
 void TwinProcess::add_callbacks() {
   for (Index index = 0; index < system_.callbacks.size(); ++index) {
     const Callback& callback = system_.callbacks[index];
@@ -183,33 +156,36 @@ void TwinProcess::add_callbacks() {
 }
 
 void TwinProcess::run(Index index) {
-  if (std::vector<std::int64_t>& times = plain_[index].times; !times.empty()) {
-    // Nothing that costs as much as the shortest callbacks take.
-    const std::int64_t time_ns = times[plain_[index].used.fetch_add(1, std::memory_order_relaxed) % times.size()];
-    Work(system_.processor_times && time_ns > kLong).until(time_ns);
-    return;
-  }
-  const Work work(system_.processor_times);
+  const std::int64_t begin_ns = monotonic_ns();
   const Callback& callback = system_.callbacks[index];
+  std::int64_t drawn_ns = 0;
+  const std::vector<std::size_t>* outputs = nullptr;
   tracing::twin::Run run;
-  {
+  if (quick_.knows(index)) {
+    const tracing::twin::QuickRuns::Run next = quick_.next(index);
+    drawn_ns = next.time_ns;
+    outputs = next.outputs;
+  } else {
     const std::lock_guard lock(rules_mutex_);
     run = rules_.next_run(index);
+    drawn_ns = run.time_ns;
+    outputs = run.outputs.empty() ? nullptr : &run.outputs;
   }
-  std::int64_t time_ns = run.time_ns;
+  const Work work(begin_ns, system_.processor_times && drawn_ns > kLong);
+  std::int64_t time_ns = drawn_ns;
   const double share = 1 - callback.blocked;
   const auto work_until = [&](std::int64_t all_ns, double part) {
     work.until(std::llround(static_cast<double>(all_ns) * share * part) - callback.overhead_ns);
   };
-  std::int64_t sending_ns = 0;
-  for (const std::size_t output : run.outputs) {
-    work_until(run.time_ns, callback.outputs[output].called);
-    const std::int64_t begin = monotonic_ns();
-    send(callback.outputs[output]);
-    sending_ns += monotonic_ns() - begin;
-  }
-  if (!run.outputs.empty()) {
-    time_ns = time_of_run(index, sending_ns, run.time_ns);
+  if (outputs != nullptr) {
+    std::int64_t sending_ns = 0;
+    for (const std::size_t output : *outputs) {
+      work_until(drawn_ns, callback.outputs[output].called);
+      const std::int64_t begin = monotonic_ns();
+      send(callback.outputs[output]);
+      sending_ns += monotonic_ns() - begin;
+    }
+    time_ns = time_of_run(index, sending_ns, drawn_ns);
   }
   work_until(time_ns, 1);
   if (const auto sleep = std::llround(static_cast<double>(time_ns) * callback.blocked); sleep > 0) {

@@ -2,7 +2,6 @@
 // The nodes, callbacks and executors of one process of a twin.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "tracing/model/twin/description/output_rules.hpp"
+#include "tracing/model/twin/description/quick_runs.hpp"
 #include "tracing/model/twin/description/twin_system.hpp"
 
 namespace twin_node {
@@ -34,12 +34,6 @@ class TwinProcess {
     std::int64_t phase_ns = 0;
   };
 
-  // The times of runs that do nothing else, if a callback has no others.
-  struct Plain {
-    std::vector<std::int64_t> times;
-    std::atomic<std::size_t> used{0};
-  };
-
   // How long sending took in the last runs of a callback.
   struct Sendings {
     static constexpr std::size_t kMost = 128;
@@ -50,7 +44,6 @@ class TwinProcess {
   void add_nodes();
   void add_groups();
   void add_ends();
-  void draw_plain_runs();
   void add_callbacks();
   // What a callback does.
   void run(Index callback);
@@ -64,6 +57,7 @@ class TwinProcess {
   const Index process_;
   std::mutex rules_mutex_;
   tracing::twin::OutputRules rules_;
+  tracing::twin::QuickRuns quick_;
   std::map<Index, rclcpp::Node::SharedPtr> nodes_;
   std::map<Index, std::shared_ptr<rclcpp::Executor>> executors_;
   std::map<Index, rclcpp::CallbackGroup::SharedPtr> groups_;
@@ -72,7 +66,6 @@ class TwinProcess {
   std::map<Index, rclcpp::Client<Service>::SharedPtr> clients_;
   std::map<Index, Index> answers_;  // the callback of each client
   std::vector<Sendings> sendings_;  // by callback
-  std::vector<Plain> plain_;        // likewise
   std::vector<Timer> timers_;
   std::vector<std::shared_ptr<void>> kept_;
 };
