@@ -244,7 +244,8 @@ void TwinProcess::start_timers() {
   // Longer ones begin at once: nobody waits for them.
   constexpr std::int64_t kLongest = 2'000'000'000;
   constexpr std::int64_t kNear = 100'000;
-  constexpr int kTries = 30;
+  constexpr std::int64_t kAhead = 300'000;
+  constexpr int kTries = 10;
   const std::int64_t now = monotonic_ns();
   std::priority_queue<Start> starts;
   for (const Timer& timer : timers_) {
@@ -254,7 +255,9 @@ void TwinProcess::start_timers() {
   while (!starts.empty() && rclcpp::ok()) {
     const Start start = starts.top();
     starts.pop();
-    sleep_until(start.time_ns);
+    sleep_until(start.time_ns - kAhead);  // a thread wakes up late
+    while (monotonic_ns() < start.time_ns) {
+    }
     start.timer->timer->reset();
     if (monotonic_ns() - start.time_ns > kNear && start.tries < kTries && start.timer->period_ns <= kLongest) {
       start.timer->timer->cancel();
