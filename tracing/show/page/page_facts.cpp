@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -32,7 +33,12 @@ class ResultFacts {
   }
   // Null if nothing was measured.
   Json of(const DurationSummary& summary) const {
-    return summary.count == 0 ? Json(nullptr) : with_fields(Json::object(), summary, kDurationFields);
+    if (summary.count == 0) {
+      return nullptr;
+    }
+    Json durations = with_fields(Json::object(), summary, kDurationFields);
+    durations["mean"] = std::llround(summary.mean_ns);  // a page has thousands of them
+    return durations;
   }
   template <HasFields Result>
   Json of(const std::vector<Result>& results) const {

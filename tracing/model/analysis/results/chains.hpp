@@ -47,7 +47,7 @@ inline constexpr Field<ChainResult::Step> ChainResult::Step::kFields[] = {
      &Step::has_message},
     {"until_publish", &Step::until_publish, "from the begin of the callback before to its publication", trait::kPlain,
      &Step::has_message},
-    {"transfer", &Step::transfer, "from there to the begin of this callback; its parts follow", trait::kPlain,
+    {"transfer", &Step::transfer, "from there to the begin of this callback; its parts follow", trait::kNotOnPage,
      &Step::has_message},
     {"transport", &Step::transport, "on the way; `executor` is part of it if that is not known", trait::kPlain,
      &Step::has_message},
