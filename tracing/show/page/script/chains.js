@@ -67,15 +67,19 @@ function timeOf(hops, statistic) {
 }
 
 // Opens the time chart at the run whose response is at the percentile.
-function runButton(data, chain, runs, statistic) {
+function runButton(data, chain, statistic) {
   const name = {p50: 'run at p50', p90: 'run at p90', p99: 'run at p99', max: 'longest run'}[statistic];
   if (statistic === 'max') {
     const slowest = longestRun(data, chain);
     return element('button', {disabled: slowest < 0, onclick: () => showInTime(data, slowest, chain.longest_end - chain.response.max)}, name);
   }
-  const run = runAt(runs, kShares[statistic]);
-  return element('button', {disabled: !run, title: run ? formatDuration(run.response) : 'The page does not hold its single runs',
-    onclick: () => showInTime(data, run.last, data.instances.start[run.first])}, name);
+  const button = element('button', {onclick: () => {
+    const run = runAt(chainRuns(data, chain), kShares[statistic]);
+    if (run) showInTime(data, run.last, data.instances.start[run.first]);
+    button.disabled = !run;
+    button.title = run ? '' : 'The page does not hold its runs';
+  }}, name);
+  return button;
 }
 
 // The instance at the end of the longest run, or -1 when the page does not hold it.
@@ -92,7 +96,6 @@ function timesText(name, {mean, p50, p90, p99, max}) {
 function chainBar(data, chain, longest, statistic) {
   const hops = hopsOf(data, chain);
   const nodeOf = step => nodeName(data, data.callbacks[step.callback].node);
-  const runs = chainRuns(data, chain);
   const label = hops.map(hop => `${hop.name} ${formatDuration(hop.times[statistic])}`).join('; ');
   const whole = timeOf(hops, statistic);
   const key = chain.steps.map(step => `${step.topic} ${step.callback}`).join();
@@ -103,7 +106,7 @@ function chainBar(data, chain, longest, statistic) {
       element('span', {}, `${plural(chain.steps.length, 'callback')}, ${plural(chain.response.count, 'run')}${chain.doubtful ? ' (events were lost)' : ''}`),
       element('span', {}, timesText('response', chain.response)),
       chain.budget === null ? null : element('span', {class: chain.over_budget > 0 ? 'bad' : 'good'}, `${formatCount(chain.over_budget)} over the budget of ${formatDuration(chain.budget)}`),
-      ...['max', 'p50', 'p90', 'p99'].map(which => runButton(data, chain, runs, which))),
+      ...['max', 'p50', 'p90', 'p99'].map(which => runButton(data, chain, which))),
     element('div', {class: 'hops', role: 'img', 'aria-label': label, style: `width: ${Math.max(2, 100 * whole / longest)}%`},
       ...hops.map(hop => element('div', {title: `${hop.name}\n${timesText('', hop.times).trim()}`,
         style: `flex: ${Math.max(hop.times[statistic], 1)} 1 0; background: ${hopColor(hop.kind)}`},
