@@ -80,6 +80,24 @@ class CountingSink : public tracing::TraceSink {
   bool lost_unknown = false;
   std::set<std::string> fields;  // and contexts
 
+  // Counts without a look at each event, if that is possible. Returns false if the events must be read.
+  bool count(tracing::TraceReader& reader, tracing::TraceSink& losses) {
+    const std::optional<tracing::EventCounts> counted = filter_.is_of_names() ? reader.count() : std::nullopt;
+    if (!counted) {
+      return false;
+    }
+    for (const auto& [event_class, events] : counted->events) {
+      if (filter_.accepts_name(*event_class)) {
+        place_of(*event_class) += events;
+      }
+    }
+    for (const tracing::Loss& loss : counted->losses) {
+      losses.on_loss(loss);
+    }
+    reader.throw_damage();
+    return true;
+  }
+
   void on_event(const tracing::Event& event) override {
     if (filter_.is_behind(event)) {
       throw tracing::EndOfReading();
@@ -87,13 +105,7 @@ class CountingSink : public tracing::TraceSink {
     if (!filter_.accepts(event)) {
       return;
     }
-    const std::size_t id = event.event_class->id;
-    if (id >= counts_.size()) {
-      counts_.resize(id + 1);
-      names_.resize(id + 1);
-    }
-    if (counts_[id]++ == 0) {
-      names_[id] = event.name();
+    if (place_of(*event.event_class)++ == 0) {
       fields.insert(event.event_class->fields.begin(), event.event_class->fields.end());
       const std::vector<std::string>& contexts = event.event_class->contexts;
       std::copy_if(contexts.begin(), contexts.end(), std::inserter(fields, fields.end()),
@@ -111,6 +123,17 @@ class CountingSink : public tracing::TraceSink {
   }
 
  private:
+  std::uint64_t& place_of(const tracing::EventClass& event_class) {
+    if (event_class.id >= counts_.size()) {
+      counts_.resize(event_class.id + 1);
+      names_.resize(event_class.id + 1);
+    }
+    if (counts_[event_class.id] == 0) {
+      names_[event_class.id] = event_class.name;
+    }
+    return counts_[event_class.id];
+  }
+
   tracing::EventFilter& filter_;
   std::optional<std::uint64_t> left_;
   std::vector<std::uint64_t> counts_;  // by EventClass::id
@@ -173,14 +196,14 @@ class LossNote : public tracing::TraceSink {
   tracing::TraceSink& sink_;
 };
 
-// Reads as much as possible and returns the exit code.
-int read_all(const Arguments& arguments, tracing::TraceSink& sink) {
+// Reads as much as possible and returns the exit code. With a counter it is enough to count, if nothing else is wanted.
+int read_all(const Arguments& arguments, tracing::TraceSink& sink, CountingSink* counter) {
   bool lacks_descriptions = false;
   try {
     tracing::TraceReader reader(arguments.directories);
     say_what_is_open(reader);
     say_what_is_missing(reader);
-    if (arguments.limit != 0) {
+    if (arguments.limit != 0 && (counter == nullptr || !counter->count(reader, sink))) {
       reader.read(sink);
     }
     lacks_descriptions = reader.lacks_descriptions();
@@ -201,12 +224,12 @@ int read_all(const Arguments& arguments, tracing::TraceSink& sink) {
   return kSuccess;
 }
 
-int read_into(const Arguments& arguments, tracing::TraceSink& sink) {
+int read_into(const Arguments& arguments, tracing::TraceSink& sink, CountingSink* counter = nullptr) {
   if (arguments.fail_on.empty()) {
-    return read_all(arguments, sink);
+    return read_all(arguments, sink, counter);
   }
   LossNote note(sink);
-  const int exit_code = read_all(arguments, note);
+  const int exit_code = read_all(arguments, note, counter);
   if (exit_code != kSuccess || !note.has_losses) {
     return exit_code;
   }
@@ -216,7 +239,7 @@ int read_into(const Arguments& arguments, tracing::TraceSink& sink) {
 
 int print_count(Arguments& arguments) {
   CountingSink counter(arguments.filter);
-  const int exit_code = read_into(arguments, counter);
+  const int exit_code = read_into(arguments, counter, &counter);
   std::uint64_t total = 0;
   for (const auto& [name, count] : counter.counts()) {
     total += count;

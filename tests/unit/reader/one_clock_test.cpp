@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Traces of one session, recorded while the wall clock of the machine was set.
-#include "tracing/decode/reader/one_clock.hpp"
+#include "tracing/decode/reader/direct/one_clock.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -10,13 +10,14 @@
 
 #include "launch_trace/reader.hpp"
 #include "tracing/decode/reader/event.hpp"
+#include "tracing/decode/reader/struct_fields.hpp"
 
 namespace launch_trace {
 
 // An event class, and how its events are read as the struct that stands for them.
 struct KnownClass : EventClass {
-  const void* view = nullptr;              // the address of view_of<Struct>; null: there is no struct
-  std::vector<std::uint8_t> view_indices;  // for tracing::read_fields()
+  const void* view = nullptr;                    // the address of view_of<Struct>; null: there is no struct
+  std::vector<tracing::FieldPlace> view_places;  // for tracing::read_fields()
 };
 
 template <class Struct>

@@ -15,7 +15,7 @@ template <class Struct>
 void set_view_of(KnownClass& known, const tracing::Event& event) {
   known.view = &view_of<Struct>;
   // The caller sees in the struct what is not there.
-  known.view_indices = tracing::field_indices<Struct>(event, [](const std::string&) {});
+  known.view_places = tracing::field_places<Struct>(event, [](const std::string&) {});
 }
 
 using SetView = void (*)(KnownClass&, const tracing::Event&);
@@ -44,7 +44,7 @@ bool read(const Event& event, Struct& fields) {
   if (known.view != &view_of<Struct>) {
     return false;
   }
-  tracing::read_fields(Access::event(event), known.view_indices, fields);
+  tracing::read_fields(Access::event(event), known.view_places, fields);
   return true;
 }
 

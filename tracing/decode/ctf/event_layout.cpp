@@ -125,6 +125,12 @@ StreamLayout::StreamLayout(const TraceClass& trace, const StreamDeclaration& str
     }
     auto layout = std::make_unique<EventLayout>(event, i);
     layout->is_simple = is_simple(event_context_) && is_simple(layout->context) && is_simple(layout->payload);
+    if (layout->is_simple && event_context_.fixed_size() && layout->context.fixed_size() &&
+        layout->payload.fixed_size()) {
+      layout->context_offset = *event_context_.fixed_size();
+      layout->payload_offset = layout->context_offset + *layout->context.fixed_size();
+      layout->fixed_size = layout->payload_offset + *layout->payload.fixed_size();
+    }
     if (event.id < kDenseIds) {
       if (event.id >= dense_.size()) {
         dense_.resize(event.id + 1);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -46,6 +47,11 @@ struct EventLayout {
   StructureDecoder payload;
   // The contexts of the stream, those of the event, and the payload are simple and have not too many fields.
   bool is_simple = false;
+  // If these three are simple and their size never differs: the bytes of all, and where the contexts of the event and
+  // the payload begin.
+  std::optional<std::uint32_t> fixed_size;
+  std::uint32_t context_offset = 0;
+  std::uint32_t payload_offset = 0;
 };
 
 class StreamLayout {

@@ -15,6 +15,33 @@ namespace tracing::ctf {
 // Reads `size` bits (at most 64) from `bit` on, where bit 0 is the first bit of the packet.
 std::uint64_t read_bits(const std::uint8_t* packet, std::uint64_t bit, std::uint32_t size, bool big_endian);
 
+// Reads a number that begins at a byte and has the machine's byte order, its bits extended to 64. Not for kBits.
+[[gnu::always_inline]] inline std::uint64_t load_number(const std::uint8_t* bytes, NumberAccess access) {
+  const auto load = [bytes]<class Number>(Number number) {
+    std::memcpy(&number, bytes, sizeof number);
+    return number;
+  };
+  switch (access) {
+    case NumberAccess::kUnsigned8:
+      return *bytes;
+    case NumberAccess::kUnsigned16:
+      return load(std::uint16_t{});
+    case NumberAccess::kUnsigned32:
+      return load(std::uint32_t{});
+    case NumberAccess::kSigned8:
+      return static_cast<std::uint64_t>(static_cast<std::int64_t>(static_cast<std::int8_t>(*bytes)));
+    case NumberAccess::kSigned16:
+      return static_cast<std::uint64_t>(static_cast<std::int64_t>(load(std::int16_t{})));
+    case NumberAccess::kSigned32:
+      return static_cast<std::uint64_t>(static_cast<std::int64_t>(load(std::int32_t{})));
+    case NumberAccess::kUnsigned64:
+    case NumberAccess::kSigned64:
+    case NumberAccess::kBits:
+      break;
+  }
+  return load(std::uint64_t{});
+}
+
 struct Field {
   const FieldClass* type = nullptr;
   const std::uint8_t* packet = nullptr;  // where the packet begins
@@ -36,36 +63,10 @@ struct Field {
 
   // Any number but a real one, its bits extended to 64.
   std::uint64_t raw() const {
-    const std::uint8_t* const bytes = packet + bit / 8;
-    switch (type->access) {
-      case NumberAccess::kUnsigned8:
-        return *bytes;
-      case NumberAccess::kUnsigned16:
-        return load<std::uint16_t>(bytes);
-      case NumberAccess::kUnsigned32:
-        return load<std::uint32_t>(bytes);
-      case NumberAccess::kUnsigned64:
-      case NumberAccess::kSigned64:
-        return load<std::uint64_t>(bytes);
-      case NumberAccess::kSigned8:
-        return static_cast<std::uint64_t>(static_cast<std::int64_t>(static_cast<std::int8_t>(*bytes)));
-      case NumberAccess::kSigned16:
-        return static_cast<std::uint64_t>(static_cast<std::int64_t>(load<std::int16_t>(bytes)));
-      case NumberAccess::kSigned32:
-        return static_cast<std::uint64_t>(static_cast<std::int64_t>(load<std::int32_t>(bytes)));
-      case NumberAccess::kBits:
-        break;
-    }
-    return raw_bits();
+    return type->access == NumberAccess::kBits ? raw_bits() : load_number(packet + bit / 8, type->access);
   }
 
  private:
-  template <class Number>
-  static Number load(const std::uint8_t* bytes) {
-    Number number;
-    std::memcpy(&number, bytes, sizeof number);
-    return number;
-  }
   std::uint64_t raw_bits() const;
 };
 

@@ -126,6 +126,7 @@ void StreamFile::read(std::uint8_t* to, std::size_t count, std::size_t at) const
     if (file.status().st_dev != device_ || file.status().st_ino != inode_) {
       throw DamagedPacket("another file has taken the place of this file");
     }
+    const std::size_t begin = at;
     while (count > 0) {
       const ssize_t got = file.read(to, count, at);
       if (got < 0) {
@@ -138,7 +139,9 @@ void StreamFile::read(std::uint8_t* to, std::size_t count, std::size_t at) const
       at += static_cast<std::size_t>(got);
       count -= static_cast<std::size_t>(got);
     }
-    file.advise(at, kReadAhead, POSIX_FADV_WILLNEED);
+    if (begin == 0 || begin / kReadAhead != at / kReadAhead) {
+      file.advise(at, 2 * kReadAhead, POSIX_FADV_WILLNEED);
+    }
   } catch (const std::system_error& error) {
     throw DamagedPacket(error.code().message());
   }

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "tracing/decode/ctf/field.hpp"
-#include "tracing/decode/ctf/stream_cursor.hpp"
+#include "tracing/decode/ctf/streams/stream_cursor.hpp"
 #include "tracing/decode/ctf/trace_class.hpp"
 #include "tracing/decode/reader/recording.hpp"
 

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "launch_trace/typed_events.hpp"
@@ -93,31 +94,74 @@ constexpr std::string_view type_name(FieldType type) {
   return "";
 }
 
-// The indices, in the recorded payload, of the struct's fields in their order; kMissingField for one that is not there
-// or has another type. Calls `report` for each of the latter.
+// Where an event class has a field of a struct.
+struct FieldPlace {
+  std::uint8_t index = kMissingField;  // in the recorded payload
+  // A number that has the same place in all events of the class is read from there. kBits: it is no such number.
+  ctf::NumberAccess access = ctf::NumberAccess::kBits;
+  std::uint32_t offset = 0;  // bytes from the beginning of the payload
+};
+
+constexpr bool is_read_as_number(FieldType type) {
+  return type == FieldType::kPointer || type == FieldType::kUint64 || type == FieldType::kInt64 ||
+         type == FieldType::kBool;
+}
+
+template <FieldType type>
+FieldPlace place_of(const Event& event, std::size_t index) {
+  FieldPlace place{.index = static_cast<std::uint8_t>(index)};
+  if (!is_read_as_number(type) || event.record == nullptr || event.record->places == nullptr ||
+      !event.record->decoder->fixed_size()) {
+    return place;
+  }
+  const ctf::NumberAccess access = event.record->decoder->type()->members[index].type->access;
+  // Of the largest unsigned numbers an integer is not read.
+  const bool may_not_fit = access == ctf::NumberAccess::kUnsigned64;
+  if (may_not_fit && (type == FieldType::kInt64 || type == FieldType::kBool)) {
+    return place;
+  }
+  place.access = access;
+  place.offset = event.record->places[index].offset;
+  return place;
+}
+
+// The places of the struct's fields in their order; kMissingField for one that is not there or has another type. Calls
+// `report` for each of the latter.
 template <class Struct, class Report>
-std::vector<std::uint8_t> field_indices(const Event& event, Report report) {
-  std::vector<std::uint8_t> indices;
+std::vector<FieldPlace> field_places(const Event& event, Report report) {
+  std::vector<FieldPlace> places;
   Struct example;
   Struct::for_each_field(example, [&]<FieldType type>(std::string_view name, auto& member) {
     const std::optional<std::size_t> found = event.event_class->index_of(name);
     if (found && *found < kMissingField && read_field<type>(event.field(*found), member)) {
-      indices.push_back(static_cast<std::uint8_t>(*found));
+      places.push_back(place_of<type>(event, *found));
       return;
     }
-    indices.push_back(kMissingField);
+    places.emplace_back();
     report(found ? fmt::format("{}: field {} is not {}", Struct::kName, name, type_name(type))
                  : fmt::format("{} has no field {}", Struct::kName, name));
   });
-  return indices;
+  return places;
 }
 
 template <class Struct>
-void read_fields(const Event& event, const std::vector<std::uint8_t>& indices, Struct& fields) {
-  const std::uint8_t* index = indices.data();
+void read_fields(const Event& event, const std::vector<FieldPlace>& places, Struct& fields) {
+  const FieldPlace* next = places.data();
   Struct::for_each_field(fields, [&]<FieldType type>(std::string_view, auto& member) {
-    if (const std::uint8_t field = *index++; field != kMissingField) {
-      read_field<type>(event.field(field), member);
+    const FieldPlace& place = *next++;
+    if constexpr (is_read_as_number(type)) {
+      if (place.access != ctf::NumberAccess::kBits) {
+        const std::uint64_t number = ctf::load_number(event.record->base + place.offset, place.access);
+        if constexpr (type == FieldType::kBool) {
+          member = number != 0;
+        } else {
+          member = static_cast<std::decay_t<decltype(member)>>(number);
+        }
+        return;
+      }
+    }
+    if (place.index != kMissingField) {
+      read_field<type>(event.field(place.index), member);
     }
   });
 }

@@ -6,7 +6,7 @@
 
 #include "tracing/decode/ctf/trace_class.hpp"
 #include "tracing/decode/reader/babeltrace_reader.hpp"
-#include "tracing/decode/reader/direct_reader.hpp"
+#include "tracing/decode/reader/direct/direct_reader.hpp"
 #include "tracing/decode/reader/missing_files.hpp"
 #include "tracing/decode/reader/open_trace.hpp"
 #include "tracing/decode/reader/trace_discovery.hpp"
@@ -90,6 +90,10 @@ void TraceReader::read(TraceSink& sink) {
     // The sink needs no more.
   }
   throw_damage();
+}
+
+std::optional<EventCounts> TraceReader::count() {
+  return implementation_->direct ? implementation_->direct->count() : std::nullopt;
 }
 
 TraceItem TraceReader::next() {

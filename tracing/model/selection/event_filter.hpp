@@ -37,6 +37,9 @@ class EventFilter {
 
   // Must be called for each event of the trace, in order.
   bool accepts(const Event& event);
+  // Whether its name alone decides about an event. Then accepts_name() tells the same as accepts().
+  bool is_of_names() const { return processes.empty() && nodes.empty() && conditions.empty() && !begin && !end; }
+  bool accepts_name(const EventClass& event_class);
   // The event is at `end` or later. As all later events are, too, the reading may end here.
   bool is_behind(const Event& event);
   // To be called before the events of another reading.
@@ -50,7 +53,6 @@ class EventFilter {
 
  private:
   std::int64_t absolute(const TimeBound& bound, const Event& event);
-  bool accepts_name(const EventClass& event_class);
   bool accepts_process(const Event& event) const;
 
   std::vector<std::int8_t> names_;  // by EventClass::id: 1 accepted, 0 not, -1 not known yet

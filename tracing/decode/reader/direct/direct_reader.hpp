@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tracing/decode/reader/event_counts.hpp"
 #include "tracing/decode/reader/trace_sink.hpp"
 
 namespace tracing {
@@ -31,6 +32,7 @@ class DirectReader {
   void read(TraceSink& sink);
   // As in TraceReader.
   TraceItem next();
+  std::optional<EventCounts> count();
   void throw_damage() const;
   const std::vector<std::string>& damage() const { return damage_; }
   const std::vector<std::string>& clock_notes() const { return clock_notes_; }
@@ -42,14 +44,17 @@ class DirectReader {
   struct Trace;
   struct OpenStream;
 
+  void find_streams();
   void open_streams();
   void open_trace(Trace& trace);
   bool advance_to_earliest();
   void advance(OpenStream& stream);
+  void note(const OpenStream& stream, const ctf::DamagedPacket& damage);
 
   std::filesystem::path directory_;
   std::deque<TraceDescription> descriptions_;
   std::vector<std::unique_ptr<Trace>> traces_;  // as descriptions_
+  bool are_found_ = false;
   bool is_begun_ = false;
   std::vector<std::unique_ptr<OpenStream>> streams_;
   OpenStream* earliest_ = nullptr;  // the stream whose item is given

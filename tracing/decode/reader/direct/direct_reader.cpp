@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/decode/reader/direct_reader.hpp"
+#include "tracing/decode/reader/direct/direct_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -8,12 +8,14 @@
 #include <system_error>
 #include <tuple>
 
-#include "tracing/decode/ctf/metadata_text.hpp"
-#include "tracing/decode/ctf/packet.hpp"
-#include "tracing/decode/ctf/stream_cursor.hpp"
+#include "tracing/decode/ctf/streams/read_ahead.hpp"
+#include "tracing/decode/ctf/streams/stream_cursor.hpp"
 #include "tracing/decode/ctf/trace_class.hpp"
-#include "tracing/decode/reader/one_clock.hpp"
-#include "tracing/decode/reader/stream_class.hpp"
+#include "tracing/decode/reader/direct/declarations.hpp"
+#include "tracing/decode/reader/direct/one_clock.hpp"
+#include "tracing/decode/reader/direct/packet_counting.hpp"
+#include "tracing/decode/reader/direct/stream_class.hpp"
+#include "tracing/decode/reader/direct/stream_files.hpp"
 #include "tracing/decode/reader/trace_read_error.hpp"
 
 namespace tracing {
@@ -21,59 +23,6 @@ namespace tracing {
 namespace fs = std::filesystem;
 
 namespace {
-
-// Sorts the packets of one stream, from all its files, by time. A packet that is in several snapshots counts once.
-void put_in_order(std::vector<ctf::Packet>& packets) {
-  const auto key = [](const ctf::Packet& packet) {
-    return std::tuple(packet.time_begin, packet.sequence_number, packet.time_end, packet.content_bits);
-  };
-  std::stable_sort(packets.begin(), packets.end(),
-                   [&](const ctf::Packet& a, const ctf::Packet& b) { return key(a) < key(b); });
-  const auto same = [&](const ctf::Packet& a, const ctf::Packet& b) {
-    return a.sequence_number && a.file != b.file && key(a) == key(b);
-  };
-  packets.erase(std::unique(packets.begin(), packets.end(), same), packets.end());
-}
-
-// The stream files of a trace, in the order of their names. There is an error when another program has removed the
-// directory.
-std::vector<fs::path> stream_files(const fs::path& directory, std::error_code& error) {
-  std::vector<fs::path> files;
-  fs::directory_iterator entry(directory, error);
-  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-    const std::string name = entry->path().filename();
-    std::error_code gone;
-    if (entry->is_regular_file(gone) && name != "metadata" && !name.starts_with('.')) {
-      files.push_back(entry->path());
-    }
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-// The metadata of a trace that is still being written may end anywhere. What follows the last whole block is left out.
-ctf::TraceClass parse_growing_metadata(const std::string& text) {
-  constexpr std::string_view kEndOfBlock = "\n};";
-  try {
-    return ctf::parse_metadata(text);
-  } catch (const ctf::UnsupportedTrace&) {
-    const std::size_t end = text.rfind(kEndOfBlock);
-    return end == std::string::npos ? ctf::TraceClass() : ctf::parse_metadata(text.substr(0, end + kEndOfBlock.size()));
-  }
-}
-
-// libbabeltrace2 does not come to an end with such metadata.
-ctf::TraceClass parse_cut_metadata(const fs::path& file, const std::string& text) {
-  ctf::TraceClass declarations;
-  try {
-    declarations = parse_growing_metadata(text);
-  } catch (const ctf::UnsupportedTrace&) {
-  }
-  if (declarations.streams.empty()) {
-    throw TraceReadError(fmt::format("'{}' is damaged or ends early, before it describes an event", file.string()), "");
-  }
-  return declarations;
-}
 
 void add_names(const ctf::FieldClassPtr& structure, std::vector<std::string>& names) {
   if (!structure) {
@@ -91,6 +40,14 @@ Recording recording_of_trace(const ctf::TraceClass& trace) {
                        .trace_creation_datetime = trace.environment_text("trace_creation_datetime"),
                        .clock_uuid = trace.clocks.empty() ? std::string() : trace.clocks.begin()->second.uuid,
                        .trace_uuid = trace.uuid});
+}
+
+Loss loss_of(const ctf::StreamLoss& loss, const Stream& stream) {
+  return {.kind = loss.of_packets ? Loss::Kind::kPackets : Loss::Kind::kEvents,
+          .stream = &stream,
+          .begin_ns = loss.begin_ns,
+          .end_ns = loss.end_ns,
+          .count = loss.count};
 }
 
 // The path that messages and losses show.
@@ -137,7 +94,7 @@ struct DirectReader::OpenStream {
   Loss loss_;
 };
 
-TraceItem DirectReader::OpenStream::give() {
+[[gnu::always_inline]] inline TraceItem DirectReader::OpenStream::give() {
   if (item == ctf::StreamCursor::Item::kEvent) {
     event_.event_class = &trace.event_classes[cursor.event().index];
     event_.timestamp_ns = cursor.time_ns();
@@ -149,11 +106,7 @@ TraceItem DirectReader::OpenStream::give() {
     event_.event_context = &cursor.event_context();
     return {&event_, nullptr};
   }
-  loss_.kind = item == ctf::StreamCursor::Item::kDiscardedEvents ? Loss::Kind::kEvents : Loss::Kind::kPackets;
-  loss_.stream = &description;
-  loss_.begin_ns = cursor.time_ns();
-  loss_.end_ns = cursor.loss_end_ns();
-  loss_.count = cursor.lost();
+  loss_ = loss_of(cursor.loss(), description);
   return {nullptr, &loss_};
 }
 
@@ -163,11 +116,8 @@ DirectReader::DirectReader(const fs::path& directory, const std::vector<fs::path
   std::map<std::string, std::size_t> by_identity;
   std::vector<std::size_t> length;  // of the metadata that each trace uses
   for (const fs::path& path : traces) {
-    const auto [text, is_cut] = ctf::read_metadata_text(path / "metadata");
     const bool is_open = std::find(open.begin(), open.end(), path) != open.end();
-    ctf::TraceClass declarations = is_open  ? parse_growing_metadata(text)
-                                   : is_cut ? parse_cut_metadata(path / "metadata", text)
-                                            : ctf::parse_metadata(text);
+    auto [declarations, size, is_cut] = read_declarations(path / "metadata", is_open);
     if (is_cut && !is_open) {
       note(fmt::format("'{}' is damaged or ends early: it does not describe all events", (path / "metadata").string()));
     }
@@ -185,9 +135,9 @@ DirectReader::DirectReader(const fs::path& directory, const std::vector<fs::path
       trace.is_open = true;
     }
     // The metadata of a session only grow, so the longest text is the newest.
-    if (text.size() >= length[known->second]) {
+    if (size >= length[known->second]) {
       trace.declarations = std::move(declarations);
-      length[known->second] = text.size();
+      length[known->second] = size;
     }
   }
 
@@ -286,20 +236,24 @@ void DirectReader::open_trace(Trace& trace) {
 }
 
 // Moves a stream to its next item. Where a packet is damaged, notes the damage and goes on behind it.
-void DirectReader::advance(OpenStream& stream) {
+[[gnu::always_inline]] inline void DirectReader::advance(OpenStream& stream) {
   for (;;) {
     try {
       stream.item = stream.cursor.next();
       return;
     } catch (const ctf::DamagedPacket& damage) {
-      if (stream.trace.is_open && dynamic_cast<const ctf::UndescribedPacket*>(&damage) != nullptr) {
-        lacks_descriptions_ = true;
-        continue;
-      }
-      const ctf::Packet& packet = stream.cursor.packet();
-      note(fmt::format("'{}', the packet at byte {}: {}", stream.description.name, packet.offset, damage.what()));
+      note(stream, damage);
     }
   }
+}
+
+void DirectReader::note(const OpenStream& stream, const ctf::DamagedPacket& damage) {
+  if (stream.trace.is_open && dynamic_cast<const ctf::UndescribedPacket*>(&damage) != nullptr) {
+    lacks_descriptions_ = true;
+    return;
+  }
+  const ctf::Packet& packet = stream.cursor.packet();
+  note(fmt::format("'{}', the packet at byte {}: {}", stream.description.name, packet.offset, damage.what()));
 }
 
 namespace {
@@ -309,8 +263,11 @@ constexpr auto kLaterFirst = [](const auto* a, const auto* b) { return a->is_lat
 }  // namespace
 
 // Before the first item.
-void DirectReader::open_streams() {
-  is_begun_ = true;
+void DirectReader::find_streams() {
+  if (are_found_) {
+    return;
+  }
+  are_found_ = true;
   for (const auto& trace : traces_) {
     open_trace(*trace);
   }
@@ -318,6 +275,17 @@ void DirectReader::open_streams() {
     note(fmt::format("'{}' lacks {} of the {} bytes that the session recorded", directory_.string(),
                      *expected_bytes_ - content_bytes_, *expected_bytes_));
   }
+  // What all streams have in memory is bounded as long as there are not too many of them.
+  constexpr std::size_t kOfAll = 2 << 20;  // bytes
+  const std::size_t of_each = streams_.empty() ? kOfAll : kOfAll / streams_.size();
+  for (const auto& stream : streams_) {
+    stream->cursor.set_block_size(std::clamp<std::size_t>(of_each, 32 << 10, 128 << 10));
+  }
+}
+
+void DirectReader::open_streams() {
+  is_begun_ = true;
+  find_streams();
   for (const auto& stream : streams_) {
     advance(*stream);
     if (stream->item != ctf::StreamCursor::Item::kEnd) {
@@ -328,7 +296,7 @@ void DirectReader::open_streams() {
 }
 
 // Moves behind the item that was given. Returns whether there is another one.
-bool DirectReader::advance_to_earliest() {
+[[gnu::always_inline]] inline bool DirectReader::advance_to_earliest() {
   if (!is_begun_) {
     open_streams();
   }
@@ -353,11 +321,55 @@ bool DirectReader::advance_to_earliest() {
   return true;
 }
 
+std::optional<EventCounts> DirectReader::count() {
+  find_streams();
+  std::vector<CountedStream> counted;
+  for (const auto& stream : streams_) {
+    counted.push_back({stream->cursor.layout(), stream->cursor.packets(),
+                       std::vector<std::uint64_t>(stream->trace.event_classes.size())});
+  }
+  if (!count_packets(counted)) {
+    return std::nullopt;
+  }
+  EventCounts counts;
+  for (std::size_t i = 0; i < streams_.size(); ++i) {
+    OpenStream& stream = *streams_[i];
+    for (std::size_t index = 0; index < counted[i].counts.size(); ++index) {
+      if (counted[i].counts[index] > 0) {
+        counts.events.push_back({&stream.trace.event_classes[index], counted[i].counts[index]});
+      }
+    }
+    for (const ctf::StreamLoss& loss : ctf::losses_of(counted[i].packets, counted[i].layout.clock())) {
+      counts.losses.push_back(loss_of(loss, stream.description));
+    }
+  }
+  return counts;
+}
+
 TraceItem DirectReader::next() {
   return advance_to_earliest() ? earliest_->give() : TraceItem();
 }
 
 void DirectReader::read(TraceSink& sink) {
+  find_streams();
+  constexpr std::uint64_t kLeast = 8 << 20;  // bytes, below which threads are not worth their start
+  constexpr std::size_t kMostThreads = 3;    // more would wait for the one that gets the events
+  const std::size_t others = usable_processors() - 1;
+  const std::size_t threads = content_bytes_ < kLeast ? 0 : std::min({others, kMostThreads, streams_.size()});
+  ctf::ReadAhead read_ahead(threads);
+  struct Stop {
+    std::vector<std::unique_ptr<OpenStream>>& streams;
+    ~Stop() {
+      for (const auto& stream : streams) {
+        stream->cursor.stop_reading_ahead();
+      }
+    }
+  } stop{streams_};
+  for (const auto& stream : streams_) {
+    if (threads > 0) {
+      stream->cursor.read_ahead(read_ahead);
+    }
+  }
   while (advance_to_earliest()) {
     const TraceItem item = earliest_->give();
     if (item.event != nullptr) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/decode/reader/one_clock.hpp"
+#include "tracing/decode/reader/direct/one_clock.hpp"
 
 #include <fmt/format.h>
 
