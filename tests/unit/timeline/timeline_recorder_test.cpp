@@ -109,9 +109,10 @@ TEST_F(ExampleTimeline, HasTheStatesOfLifecycleNodes) {
 TEST(TimelineRecorder, RepeatsAPublicationForEachSubscription) {
   TimelineRecorder recorder;
   TraceAnalysis analysis(&recorder);
-  Publication publication{.topic = 0, .publisher = 0, .thread = {0, 1}, .published_ns = 100};
+  Publication publication{.number = 1, .topic = 0, .publisher = 0, .thread = {0, 1}, .published_ns = 100};
   recorder.on_publication(publication);
   Publication other = publication;
+  other.number = 2;
   other.published_ns = 150;
   recorder.on_publication(other);
   recorder.on_message({.publication = publication, .subscription = 1, .taking_thread = {0, 2}, .taken_ns = 120});

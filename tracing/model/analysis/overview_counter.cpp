@@ -48,35 +48,17 @@ bool TraceOverview::lost_uncounted() const {
   return std::any_of(losses.begin(), losses.end(), [](const LossResult& loss) { return loss.uncounted; });
 }
 
-void OverviewCounter::count(const Event& event, ProcessId process) {
-  const EventClass& event_class = *event.event_class;
+OverviewCounter::CountedClass& OverviewCounter::new_class(const EventClass& event_class) {
   if (event_class.id >= classes_.size()) {
     classes_.resize(event_class.id + 1);
   }
   CountedClass& counted = classes_[event_class.id];
-  if (counted.name.empty()) {
-    counted.name = event_class.name;
-    counted.trace = event_class.trace;
-    counted.of_launcher = event_class.name.starts_with("launch:");
-    counted.of_python = event_class.name == kPythonEvent;
-  }
-  // The launcher is no part of the traced system.
-  if (counted.of_launcher) {
-    ++counted.by_launcher;
-    return;
-  }
-  ++events_;
-  if (!begin_ns_) {
-    begin_ns_ = event.timestamp_ns;
-  }
-  end_ns_ = event.timestamp_ns;
-  if (process >= counted.by_process.size()) {
-    counted.by_process.resize(process + 1);
-  }
-  ++counted.by_process[process];
-  if (counted.of_python) {
-    count_logger(event, process);
-  }
+  counted.is_known = true;
+  counted.name = event_class.name;
+  counted.trace = event_class.trace;
+  counted.of_launcher = event_class.name.starts_with("launch:");
+  counted.of_python = event_class.name == kPythonEvent;
+  return counted;
 }
 
 void OverviewCounter::count_logger(const Event& event, ProcessId process) {

@@ -40,6 +40,7 @@ class OverviewCounter : public TraceSink {
  private:
   struct CountedClass {
     std::string name;
+    bool is_known = false;
     bool of_launcher = false;
     bool of_python = false;
     std::uint64_t by_launcher = 0;
@@ -52,7 +53,29 @@ class OverviewCounter : public TraceSink {
     std::optional<std::int64_t> vpid;
   };
 
-  void count(const Event& event, ProcessId process);
+  void count(const Event& event, ProcessId process) {
+    const std::size_t id = event.event_class->id;
+    CountedClass& counted =
+        id < classes_.size() && classes_[id].is_known ? classes_[id] : new_class(*event.event_class);
+    // The launcher is no part of the traced system.
+    if (counted.of_launcher) {
+      ++counted.by_launcher;
+      return;
+    }
+    ++events_;
+    if (!begin_ns_) {
+      begin_ns_ = event.timestamp_ns;
+    }
+    end_ns_ = event.timestamp_ns;
+    if (process >= counted.by_process.size()) {
+      counted.by_process.resize(process + 1);
+    }
+    ++counted.by_process[process];
+    if (counted.of_python) {
+      count_logger(event, process);
+    }
+  }
+  CountedClass& new_class(const EventClass& event_class);
   void count_logger(const Event& event, ProcessId process);
   // A process of the overview.
   struct Row {

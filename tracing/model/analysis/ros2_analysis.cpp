@@ -8,18 +8,9 @@
 
 namespace tracing {
 
-Ros2Analysis::Ros2Analysis(ExecutionSink* sink, std::vector<ChainDefinition> chains) {
+Ros2Analysis::Ros2Analysis(ExecutionSink* sink, std::vector<ChainDefinition> chains)
+    : sinks_(timing_, hold_ups_, deliveries_, executors_, chains_, allocations_, first_activity_, sink) {
   chains_.define(model_, std::move(chains));
-  sinks_.add(&timing_);
-  sinks_.add(&hold_ups_);
-  sinks_.add(&deliveries_);
-  sinks_.add(&executors_);
-  sinks_.add(&chains_);
-  sinks_.add(&allocations_);
-  sinks_.add(&first_activity_);
-  if (sink != nullptr) {
-    sinks_.add(sink);
-  }
 }
 
 void Ros2Analysis::on_caret_event(const Origin& origin, const ros2::CaretEvent& event) {

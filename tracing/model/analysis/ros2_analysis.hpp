@@ -8,6 +8,7 @@
 // EventJoin says what the events mean. Statistics are sinks of it, and `summary/` makes results of what they hold.
 #pragma once
 
+#include <variant>
 #include <vector>
 
 #include "tracing/decode/reader/ros2_events.hpp"
@@ -37,7 +38,13 @@ class Ros2Analysis {
 
   // Before the events of new processes.
   void learn(const ProcessTable& processes) { model_.learn(processes); }
-  void on_event(const Origin& origin, const ros2::AnyEvent& event) { join_.on_event(origin, event); }
+  void on_event(const Origin& origin, const ros2::AnyEvent& event) {
+    std::visit([&](const auto& known) { on_event(origin, known); }, event);
+  }
+  template <class Event>  // a struct of ros2::AnyEvent
+  void on_event(const Origin& origin, const Event& event) {
+    join_.on_event(origin, event);
+  }
   void on_end(const Origin& origin, const ros2::ObjectEnd& end) { join_.on_end(origin, end); }
   // In a state dump: the state of a lifecycle node that is older than the session.
   void on_lifecycle_state(const Origin& origin, ros2::Handle state_machine, std::string_view state) {
@@ -61,8 +68,9 @@ class Ros2Analysis {
 
   const ObjectModel& model() const { return model_; }
   const CallbackGroups& groups() const { return groups_; }
-  // Before the first event: also keeps what ChainTracker::passages() and hops() give.
+  // Before the first event: also keeps what ChainTracker::take_passages() gives.
   void keep_chain_passages() { chains_.keep_passages(); }
+  ChainTracker::Passages take_chain_passages() { return chains_.take_passages(); }
   const ChainTracker& chains() const { return chains_; }
   const FirstActivity& first_activity() const { return first_activity_; }
   // So far, by ObjectId; maybe shorter than the model's lists. Periods in which the timer of a callback did not call
@@ -80,7 +88,8 @@ class Ros2Analysis {
   ChainTracker chains_;
   AllocationCounter allocations_{model_};
   FirstActivity first_activity_{model_};
-  SinkList sinks_;
+  SinkList<CallbackTiming, HoldUps, DeliveryStatistics, ExecutorLoad, ChainTracker, AllocationCounter, FirstActivity>
+      sinks_;
   EventJoin join_{model_, allocations_, sinks_};
   SchedulerTracker scheduler_{sinks_};
 };

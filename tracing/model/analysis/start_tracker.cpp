@@ -27,13 +27,13 @@ bool is_of_state_dump(const Event& event) {
 
 }  // namespace
 
-StartTracker::Kind StartTracker::kind_of(const Event& event) {
-  const std::size_t id = event.event_class->id;
+StartTracker::Kind StartTracker::find_kind(const EventClass& event_class) {
+  const std::size_t id = event_class.id;
   if (id >= kinds_.size()) {
     kinds_.resize(id + 1);
   }
   if (!kinds_[id]) {
-    const std::string_view name = event.name();
+    const std::string_view name = event_class.name;
     if (name == "launch:exec") {
       kinds_[id] = Kind::kExec;
     } else if (name == "launch:spawn") {
@@ -61,11 +61,7 @@ StartTracker::Kind StartTracker::kind_of(const Event& event) {
   return *kinds_[id];
 }
 
-void StartTracker::on_event(const Event& event, ProcessId id) {
-  const Kind kind = kind_of(event);
-  if (kind == Kind::kOther) {
-    return;
-  }
+void StartTracker::on_event(const Event& event, ProcessId id, Kind kind) {
   if (kind <= Kind::kLaunch) {
     on_launcher_event(event, id, kind);
     return;
@@ -73,8 +69,11 @@ void StartTracker::on_event(const Event& event, ProcessId id) {
   if (!event.vpid) {
     return;
   }
+  processes_.resize(std::max<std::size_t>(processes_.size(), id + 1));
   Process& process = processes_[id];
+  process.is_seen = true;
   if (process.late) {
+    process.is_told = true;
     return;
   }
   if (kind == Kind::kInit) {
@@ -97,6 +96,7 @@ void StartTracker::on_event(const Event& event, ProcessId id) {
     }
   } else if (process.node_ns && !process.executor_ns) {
     process.executor_ns = event.timestamp_ns;
+    process.is_told = true;
   }
 }
 
@@ -184,8 +184,8 @@ StartResult StartTracker::result_of(const Start& start, const ProcessTable& proc
   if (*process < places.size()) {
     result.place = places[*process];
   }
-  const auto found = processes_.find(*process);
-  if (found == processes_.end() || found->second.late) {
+  const Process known = *process < processes_.size() ? processes_[*process] : Process();
+  if (!known.is_seen || known.late) {
     return result;
   }
   const auto after = [&](const std::optional<std::int64_t>& time) -> std::optional<std::int64_t> {
@@ -194,9 +194,9 @@ StartResult StartTracker::result_of(const Start& start, const ProcessTable& proc
     }
     return std::max<std::int64_t>(*time - result.exec_ns, 0);
   };
-  result.init_after_ns = after(found->second.init_ns);
-  result.node_after_ns = after(found->second.node_ns);
-  result.ready_after_ns = after(found->second.executor_ns);
+  result.init_after_ns = after(known.init_ns);
+  result.node_after_ns = after(known.node_ns);
+  result.ready_after_ns = after(known.executor_ns);
   const FirstActivityRecord activity = first.of(*process);
   result.callback_after_ns = after(activity.callback_ns);
   result.publication_after_ns = after(activity.publication_ns);

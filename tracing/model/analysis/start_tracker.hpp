@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -23,7 +22,14 @@ namespace tracing {
 
 class StartTracker {
  public:
-  void on_event(const Event& event, ProcessId process);
+  void on_event(const Event& event, ProcessId process) {
+    const Kind kind = kind_of(*event.event_class);
+    if (kind == Kind::kOther ||
+        (kind == Kind::kExecutor && process < processes_.size() && processes_[process].is_told)) {
+      return;
+    }
+    on_event(event, process, kind);
+  }
   // Fills `starts`, in the order of the launcher's events, and `startup`. `places`: where each process is in the
   // results.
   void finish(const ProcessTable& processes, const std::vector<std::optional<ProcessIndex>>& places,
@@ -50,7 +56,9 @@ class StartTracker {
     std::optional<std::int64_t> init_ns;
     std::optional<std::int64_t> node_ns;
     std::optional<std::int64_t> executor_ns;
-    bool late = false;  // the trace began after the process
+    bool late = false;     // the trace began after the process
+    bool is_seen = false;  // it has had one of these events
+    bool is_told = false;  // no event of an executor tells more
   };
   struct Start {
     StartResult result;
@@ -59,7 +67,12 @@ class StartTracker {
     std::optional<std::int64_t> end_ns;
   };
 
-  Kind kind_of(const Event& event);
+  Kind kind_of(const EventClass& event_class) {
+    const bool is_known = event_class.id < kinds_.size() && kinds_[event_class.id].has_value();
+    return is_known ? *kinds_[event_class.id] : find_kind(event_class);
+  }
+  Kind find_kind(const EventClass& event_class);
+  void on_event(const Event& event, ProcessId process, Kind kind);
   void on_launcher_event(const Event& event, ProcessId launcher, Kind kind);
   void end(ProcessId launcher, const std::string& process, std::int64_t time_ns);
   StartResult result_of(const Start& start, const ProcessTable& processes,
@@ -72,7 +85,7 @@ class StartTracker {
   std::vector<StartCondition> conditions_;
   std::string spawned_;  // the process that the launcher is about to start
   std::optional<std::int64_t> spawn_ns_;
-  std::unordered_map<ProcessId, Process> processes_;
+  std::vector<Process> processes_;  // by ProcessId; may be shorter
   // How far zero of CLOCK_MONOTONIC, the field `time` of the launcher's events, is behind the epoch, at most.
   std::optional<std::int64_t> monotonic_zero_ns_;
 };

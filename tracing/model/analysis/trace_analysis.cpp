@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/model/analysis/trace_analysis.hpp"
 
+#include <string_view>
+
 namespace tracing {
 
 void TraceAnalysis::on_event(const Event& event) {
@@ -11,14 +13,13 @@ void TraceAnalysis::on_event(const Event& event) {
   ros2_.learn(overview_.processes());
   starts_.on_event(event, process);
   const Origin origin{event.timestamp_ns, process, event.vtid.value_or(0)};
-  if (const ros2::AnyEvent* decoded = decoder_.decode(event)) {
-    if (!event.vpid || !event.vtid) {
-      lacks_thread_context_ = true;
-    }
-    if (!inits_.empty()) {
-      inits_.release(process, [&](const InitsInOrder::Kept& kept) { tell(kept.origin, kept.event); });
-    }
-    ros2_.on_event(origin, *decoded);
+  if (decoder_.visit(event, [&](const auto& decoded) {
+        release_inits(process);
+        ros2_.on_event(origin, decoded);
+      })) {
+    lacks_thread_context_ = lacks_thread_context_ || !event.vpid || !event.vtid;
+  } else if (of_kernel_.of(*event.event_class, [&] { return event.name().find(':') == std::string_view::npos; })) {
+    ros2_.on_kernel_event(event, process);
   } else if (const std::optional<ros2::ObjectEnd> end = ends_.decode(event)) {
     ros2_.on_end(origin, *end);
   } else if (const std::optional<ros2::ExecutionEvent> execution = executions_.decode(event)) {
@@ -33,8 +34,6 @@ void TraceAnalysis::on_event(const Event& event) {
     ros2_.on_write(origin, *timestamp);
   } else if (const ros2::CaretDecoder::Decoded* caret = caret_.decode(event)) {
     on_caret_event(origin, *caret);
-  } else {
-    ros2_.on_kernel_event(event, process);
   }
 }
 
@@ -43,7 +42,7 @@ void TraceAnalysis::on_caret_event(const Origin& origin, const ros2::CaretDecode
     inits_.keep(origin, *decoded.init_ns, decoded.event);
     return;
   }
-  inits_.release(origin.process, [&](const InitsInOrder::Kept& kept) { tell(kept.origin, kept.event); });
+  release_inits(origin.process);
   tell(origin, decoded.event);
 }
 

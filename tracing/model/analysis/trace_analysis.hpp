@@ -44,6 +44,7 @@ class TraceAnalysis : public TraceSink {
   // As those of Ros2Analysis.
   void keep_chain_passages() { ros2_.keep_chain_passages(); }
   const ChainTracker& chains() const { return ros2_.chains(); }
+  ChainTracker::Passages take_chain_passages() { return ros2_.take_chain_passages(); }
 
   // What the ids of the sink refer to.
   const ObjectModel& objects() const { return ros2_.model(); }
@@ -54,6 +55,11 @@ class TraceAnalysis : public TraceSink {
   std::vector<std::optional<ProcessIndex>> places() const { return overview_.places(); }
 
  private:
+  void release_inits(ProcessId process) {
+    if (!inits_.empty()) {
+      inits_.release(process, [this](const InitsInOrder::Kept& kept) { tell(kept.origin, kept.event); });
+    }
+  }
   void on_caret_event(const Origin& origin, const ros2::CaretDecoder::Decoded& decoded);
   void tell(const Origin& origin, const ros2::KnownCaretEvent& event);
 
@@ -70,6 +76,7 @@ class TraceAnalysis : public TraceSink {
   ros2::EndpointQosDecoder endpoint_qos_;
   AllocationDecoder allocations_;
   WriteDecoder writes_;
+  ByEventClass<bool> of_kernel_;  // its events have no provider in their names
   bool lacks_thread_context_ = false;
 };
 

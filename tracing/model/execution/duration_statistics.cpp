@@ -2,28 +2,11 @@
 #include "tracing/model/execution/duration_statistics.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace tracing {
 
-namespace {
-
-// Buckets of equal width up to twice this value, then as many buckets for each doubling of the value.
-constexpr unsigned kBits = 8;
-constexpr std::uint64_t kBucketsOfADoubling = std::uint64_t{1} << kBits;
-
-std::size_t bucket_of(std::int64_t duration_ns) {
-  const auto value = static_cast<std::uint64_t>(std::max<std::int64_t>(duration_ns, 0));
-  if (value < kBucketsOfADoubling) {
-    return value;
-  }
-  const unsigned shift = static_cast<unsigned>(std::bit_width(value)) - kBits - 1;
-  return shift * kBucketsOfADoubling + (value >> shift);
-}
-
-// The value in the middle of a bucket.
-std::int64_t middle_of(std::size_t bucket) {
+std::int64_t DurationStatistics::middle_of(std::size_t bucket) {
   if (bucket < 2 * kBucketsOfADoubling) {
     return static_cast<std::int64_t>(bucket);
   }
@@ -32,27 +15,23 @@ std::int64_t middle_of(std::size_t bucket) {
   return static_cast<std::int64_t>(lowest + (std::uint64_t{1} << (shift - 1)));
 }
 
-}  // namespace
-
-void DurationStatistics::add(std::int64_t duration_ns) {
-  ++count_;
-  const double value = static_cast<double>(duration_ns);
-  const double deviation = value - mean_;
-  mean_ += deviation / static_cast<double>(count_);
-  squared_deviations_ += deviation * (value - mean_);
-  min_ = count_ == 1 ? duration_ns : std::min(min_, duration_ns);
-  max_ = count_ == 1 ? duration_ns : std::max(max_, duration_ns);
+void DurationStatistics::keep(std::int64_t duration_ns) {
   if (count_ <= kKept) {
     kept_.push_back(duration_ns);
     return;
   }
-  if (histogram_.empty()) {
-    for (const std::int64_t kept : kept_) {
-      count_in_histogram(kept);
-    }
-    kept_ = {};
-  }
+  make_histogram();
   count_in_histogram(duration_ns);
+}
+
+void DurationStatistics::make_histogram() {
+  if (!histogram_.empty()) {
+    return;
+  }
+  for (const std::int64_t kept : kept_) {
+    count_in_histogram(kept);
+  }
+  kept_ = {};
 }
 
 void DurationStatistics::add(const DurationStatistics& other) {
@@ -62,12 +41,7 @@ void DurationStatistics::add(const DurationStatistics& other) {
     }
     return;
   }
-  if (histogram_.empty()) {
-    for (const std::int64_t kept : kept_) {
-      count_in_histogram(kept);
-    }
-    kept_ = {};
-  }
+  make_histogram();
   if (histogram_.size() < other.histogram_.size()) {
     histogram_.resize(other.histogram_.size());
   }

@@ -2,6 +2,9 @@
 // Count, mean, spread and percentiles of durations, in bounded memory.
 #pragma once
 
+#include <algorithm>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -28,12 +31,42 @@ class DurationStatistics {
  public:
   static constexpr std::size_t kKept = 4'096;
 
-  void add(std::int64_t duration_ns);
+  void add(std::int64_t duration_ns) {
+    ++count_;
+    const double value = static_cast<double>(duration_ns);
+    const double deviation = value - mean_;
+    mean_ += deviation / static_cast<double>(count_);
+    squared_deviations_ += deviation * (value - mean_);
+    min_ = count_ == 1 ? duration_ns : std::min(min_, duration_ns);
+    max_ = count_ == 1 ? duration_ns : std::max(max_, duration_ns);
+    const std::size_t bucket = bucket_of(duration_ns);
+    if (bucket < histogram_.size()) {
+      ++histogram_[bucket];
+    } else {
+      keep(duration_ns);
+    }
+  }
   void add(const DurationStatistics& other);
   DurationSummary summary() const;
   std::uint64_t count() const { return count_; }
 
  private:
+  // Buckets of equal width up to twice this value, then as many buckets for each doubling of the value.
+  static constexpr unsigned kBits = 8;
+  static constexpr std::uint64_t kBucketsOfADoubling = std::uint64_t{1} << kBits;
+  static std::size_t bucket_of(std::int64_t duration_ns) {
+    const auto value = static_cast<std::uint64_t>(std::max<std::int64_t>(duration_ns, 0));
+    if (value < kBucketsOfADoubling) {
+      return value;
+    }
+    const unsigned shift = static_cast<unsigned>(std::bit_width(value)) - kBits - 1;
+    return shift * kBucketsOfADoubling + (value >> shift);
+  }
+  // The value in the middle of a bucket.
+  static std::int64_t middle_of(std::size_t bucket);
+
+  void keep(std::int64_t duration_ns);
+  void make_histogram();
   void count_in_histogram(std::int64_t duration_ns);
   std::int64_t percentile(std::uint64_t per_ten_thousand, const std::vector<std::int64_t>& sorted) const;
 

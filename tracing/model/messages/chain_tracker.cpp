@@ -47,8 +47,8 @@ std::uint32_t ChainTracker::hop_of(std::uint32_t before, const ThreadId& thread,
   if (!keeps_passages_) {
     return ChainHop::kNone;
   }
-  hops_.push_back({before, thread.process, thread.vtid, begin_ns});
-  return static_cast<std::uint32_t>(hops_.size() - 1);
+  kept_.hops.push_back({before, thread.process, thread.vtid, begin_ns});
+  return static_cast<std::uint32_t>(kept_.hops.size() - 1);
 }
 
 void ChainTracker::begin_chain(const ThreadId& thread, Trails& trails, ObjectId callback, std::int64_t begin_ns) {
@@ -206,6 +206,8 @@ void ChainTracker::on_publication(const Publication& publication) {
     sent_.resize(kRemembered);
   }
   sent_[publication.number % kRemembered] = {publication.number, publication.published_ns, trails};
+  // The next one has been in no cache for long.
+  __builtin_prefetch(&sent_[(publication.number + 1) % kRemembered], 1);
 }
 
 void ChainTracker::on_message_link(const MessageLink& link) {
@@ -228,8 +230,9 @@ void ChainTracker::end(const Trail& trail, std::int64_t end_ns) {
   if (chain.last_input_ns != 0 && trail.input_ns < chain.last_input_ns) {
     return;  // overtaken by a newer input
   }
-  if (keeps_passages_ && chain.parent != kNoPath) {
-    passages_.push_back({trail.path, trail.hop, trail.input_ns, end_ns, trail.input_ns != chain.last_input_ns});
+  // Where a chain goes on, no chain of the results ends, unless it has a name.
+  if (keeps_passages_ && chain.parent != kNoPath && (!chain.goes_on || !chain.named.empty())) {
+    kept_.passages.push_back({trail.path, trail.hop, trail.input_ns, end_ns, trail.input_ns != chain.last_input_ns});
   }
   if (trail.input_ns != chain.last_input_ns) {
     const std::int64_t response = end_ns - trail.input_ns;

@@ -11,11 +11,13 @@
 // All times are those of CARET: an input is a begin of the first callback, an output an end of the last one.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "tracing/model/chains/chain_definition.hpp"
@@ -70,7 +72,7 @@ struct ChainRecord {
 // A callback on the way of something through a chain. Ways that begin alike share their hops.
 struct ChainHop {
   static constexpr std::uint32_t kNone = 0xffffffff;
-  std::uint32_t before = kNone;  // index in ChainTracker::hops(); kNone: the chain begins here
+  std::uint32_t before = kNone;  // index in ChainTracker::Passages::hops; kNone: the chain begins here
   ProcessId process = kNoProcess;
   std::int64_t vtid = 0;
   std::int64_t begin_ns = 0;  // of the callback
@@ -98,11 +100,15 @@ class ChainTracker : public ExecutionSink {
     definitions_ = std::move(definitions);
   }
   const std::vector<ChainDefinition>& definitions() const { return definitions_; }
-  // Also keeps each passage, and the hops of all: 32 bytes for each callback and each of its causes. To be called
-  // before anything happens.
+  // Also keeps each passage that may end a chain of the results, and the hops of all: 24 bytes for each callback and
+  // each of its causes. To be called before anything happens.
   void keep_passages() { keeps_passages_ = true; }
-  const std::vector<ChainPassage>& passages() const { return passages_; }  // in the order of their outputs
-  const std::vector<ChainHop>& hops() const { return hops_; }
+  struct Passages {
+    std::vector<ChainPassage> passages;  // in the order of their outputs
+    std::vector<ChainHop> hops;
+  };
+  // To be called once, at the end.
+  Passages take_passages() { return std::move(kept_); }
 
   void on_callback_begin(const CallbackInstance& instance) override;
   void on_callback(const CallbackInstance& instance) override;
@@ -121,16 +127,24 @@ class ChainTracker : public ExecutionSink {
   virtual void on_response(PathId, std::int64_t /*response_ns*/) {}
 
  private:
-  // One cause of something, back to the begin of its chain.
+  // One cause of something, back to the begin of its chain. Its members have no values of their own: lists of them are
+  // made for each callback and message.
   struct Trail {
-    PathId path = kNoPath;
-    std::uint32_t hop = ChainHop::kNone;
-    std::int64_t input_ns = 0;
-    std::int64_t callback_ns = 0;  // begin of the callback at the end of the path
+    PathId path;
+    std::uint32_t hop;
+    std::int64_t input_ns;
+    std::int64_t callback_ns;  // begin of the callback at the end of the path
   };
-  // At most kTrails; more are left out.
+  // At most kTrails; more are left out. Mostly there is one.
   class Trails {
    public:
+    Trails() {}
+    Trails(const Trails& other) { *this = other; }
+    Trails& operator=(const Trails& other) {
+      size_ = other.size_;
+      std::copy(other.begin(), other.end(), trails_.begin());
+      return *this;
+    }
     void push_back(const Trail& trail) {
       if (size_ < kTrails) {
         trails_[size_++] = trail;
@@ -142,8 +156,8 @@ class ChainTracker : public ExecutionSink {
     const Trail* end() const { return trails_.data() + size_; }
 
    private:
-    std::array<Trail, kTrails> trails_;
     std::size_t size_ = 0;
+    std::array<Trail, kTrails> trails_;
   };
   struct Active {
     ObjectId callback = kNoObject;
@@ -174,8 +188,7 @@ class ChainTracker : public ExecutionSink {
   std::map<std::tuple<PathId, ObjectId, ObjectId>, PathId> index_;
   bool is_full_ = false;
   bool keeps_passages_ = false;
-  std::vector<ChainPassage> passages_;
-  std::vector<ChainHop> hops_;
+  Passages kept_;
   ThreadMap<std::vector<Active>> active_;            // innermost last
   std::vector<Sent> sent_;                           // by number, modulo its size
   std::map<ObjectId, std::vector<ObjectId>> links_;  // publisher to subscriptions

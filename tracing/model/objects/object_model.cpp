@@ -44,8 +44,8 @@ void ObjectModel::add_rmw(RmwIndex& index, ProcessId process, ros2::Handle handl
 }
 
 std::optional<ros2::EndpointQos> ObjectModel::qos_of(const RmwIndex& index, const HandleKey& key) {
-  const auto found = index.find(key);
-  return found == index.end() ? std::nullopt : found->second.qos;
+  const RmwEndpoint* const found = index.find(key);
+  return found == nullptr ? std::nullopt : found->qos;
 }
 
 bool ObjectModel::is_endpoint(const Index& index, const std::vector<EndpointObject>& endpoints, ProcessId process,
@@ -258,12 +258,12 @@ void ObjectModel::on(const Origin& origin, const ros2::ObjectEnd& end) {
 void ObjectModel::on(const Origin& origin, const ros2::EndpointQosEvent& event, const ros2::EndpointQos& qos) {
   const bool is_publisher = event.kind == ros2::EndpointQosEvent::Kind::kPublisher;
   RmwIndex& index = is_publisher ? rmw_publisher_index_ : rmw_subscription_index_;
-  const auto found = index.find({origin.process, event.handle});
-  if (found == index.end()) {
+  RmwEndpoint* const found = index.find({origin.process, event.handle});
+  if (found == nullptr) {
     return;
   }
-  found->second.qos = qos;
-  const ObjectId endpoint = found->second.endpoint;
+  found->qos = qos;
+  const ObjectId endpoint = found->endpoint;
   if (endpoint != kNoObject) {
     (is_publisher ? publishers_ : subscriptions_)[endpoint].qos = qos;
   }

@@ -44,20 +44,17 @@ std::uint32_t ProcessTable::space_of(const Recording& recording) {
   return static_cast<std::uint32_t>(spaces_.size() - 1);
 }
 
-const ProcessTable::ClassFacts& ProcessTable::facts_of(const EventClass& event_class) {
+const ProcessTable::ClassFacts& ProcessTable::find_facts(const EventClass& event_class) {
   if (event_class.id >= facts_.size()) {
     facts_.resize(event_class.id + 1);
   }
-  std::optional<ClassFacts>& known = facts_[event_class.id];
-  if (known) {
-    return *known;
-  }
   static const Recording kUnknown;
-  known = ClassFacts{
+  ClassFacts facts{
       .space = space_of(event_class.recording == nullptr ? kUnknown : *event_class.recording),
       .pid_ns = event_class.index_of_context("pid_ns"),
       .context_address = event_class.name == kContextInit ? event_class.index_of("context_handle") : std::nullopt};
-  return *known;
+  facts.is_usual = !facts.pid_ns && !facts.context_address;
+  return facts_[event_class.id].emplace(facts);
 }
 
 ProcessId ProcessTable::add(const Key& key, ProcessId earlier) {
@@ -178,25 +175,22 @@ void ProcessTable::learn_name(ProcessObject& process, const Event& event, bool o
   }
 }
 
-ProcessId ProcessTable::of(const Event& event) {
-  const ClassFacts& facts = facts_of(*event.event_class);
+ProcessId ProcessTable::find(const Event& event, const ClassFacts& facts) {
   is_newly_shared_ = false;
   Key key{.place = facts.space, .vpid = event.vpid};
   if (facts.pid_ns) {
     key.pid_ns = event.context(*facts.pid_ns).integer().value_or(0);
   }
-  if (last_process_ == kNoProcess || last_key_ != key) {
-    last_process_ = find(key);
-    last_key_ = key;
-  }
+  ProcessId process = find(key);
   if (facts.context_address && event.vpid) {
     const std::optional<std::uint64_t> address = event.field(*facts.context_address).unsigned_integer();
     if (address) {
-      last_process_ = of_context(last_process_, key, event, *address);
+      process = of_context(process, key, event, *address);
+      recent_ = {};  // other events may belong to another process from now on
     }
   }
-  learn_name(processes_[last_process_], event, spaces_[facts.space].recording.of_kernel);
-  return last_process_;
+  learn_name(processes_[process], event, spaces_[facts.space].recording.of_kernel);
+  return process;
 }
 
 std::optional<ProcessId> ProcessTable::beside(ProcessId process, std::int64_t vpid) const {

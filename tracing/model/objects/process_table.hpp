@@ -13,6 +13,7 @@
 // another trace of the machine knows.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -43,7 +44,22 @@ struct ProcessObject {
 class ProcessTable {
  public:
   // The process of an event. The events of one reader may come in any order.
-  ProcessId of(const Event& event);
+  ProcessId of(const Event& event) {
+    const ClassFacts& facts = facts_of(*event.event_class);
+    if (!facts.is_usual || !event.vpid) {
+      return find(event, facts);
+    }
+    Recent& recent = recent_[static_cast<std::uint64_t>(*event.vpid) % recent_.size()];
+    if (recent.process != kNoProcess && recent.vpid == *event.vpid && recent.space == facts.space) {
+      is_newly_shared_ = false;
+      return recent.process;
+    }
+    const ProcessId process = find(event, facts);
+    if (processes_[process].named_by_main_thread) {
+      recent = {*event.vpid, facts.space, process};  // there is nothing more to learn of it
+    }
+    return process;
+  }
 
   // The process with an id as another process sees it.
   std::optional<ProcessId> beside(ProcessId process, std::int64_t vpid) const;
@@ -78,12 +94,18 @@ class ProcessTable {
     std::uint32_t space = 0;
     std::optional<std::size_t> pid_ns;           // the place of the context
     std::optional<std::size_t> context_address;  // the place of the field, in ros2:rcl_init
+    bool is_usual = false;                       // there is neither
   };
   struct HashKey {
     std::size_t operator()(const Key& key) const;
   };
 
-  const ClassFacts& facts_of(const EventClass& event_class);
+  const ClassFacts& facts_of(const EventClass& event_class) {
+    const bool is_known = event_class.id < facts_.size() && facts_[event_class.id].has_value();
+    return is_known ? *facts_[event_class.id] : find_facts(event_class);
+  }
+  const ClassFacts& find_facts(const EventClass& event_class);
+  ProcessId find(const Event& event, const ClassFacts& facts);
   std::uint32_t space_of(const Recording& recording);
   ProcessId find(const Key& key);
   ProcessId add(const Key& key, ProcessId earlier);
@@ -115,8 +137,13 @@ class ProcessTable {
   bool is_newly_shared_ = false;  // by the last event
   RepeatedEvents copies_;
 
-  Key last_key_;  // consecutive events often come from one process
-  ProcessId last_process_ = kNoProcess;
+  // Consecutive events often come from a few processes.
+  struct Recent {
+    std::int64_t vpid = 0;
+    std::uint32_t space = 0;
+    ProcessId process = kNoProcess;
+  };
+  std::array<Recent, 64> recent_;
 };
 
 }  // namespace tracing

@@ -107,6 +107,7 @@ struct Message {
   std::int64_t called_ns = 0;     // the call of publish: rclcpp_publish, else rcl_publish, else published_ns
   std::int64_t published_ns = 0;  // rmw_publish, or rclcpp_intra_publish
   std::int64_t taken_ns = 0;      // rmw_take, or the dequeue within the process; 0: nobody in the trace has taken it
+  std::int64_t callback_ns = 0;   // begin of the callback that got it, which the trace may end before; 0: none
   Index topic = kNone;
   Index publisher = kNone;  // index in publishers
   Index publishing_thread = kNone;

@@ -3,97 +3,15 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
-#include "tracing/model/objects/callback_symbol.hpp"
 #include "tracing/model/timeline/instance_index.hpp"
+#include "tracing/model/timeline/nearly_sorted.hpp"
+#include "tracing/model/timeline/timeline_objects.hpp"
 
 namespace tracing::timeline {
 
 namespace {
-
-Callback callback_of(const CallbackObject& object, const ObjectModel& objects) {
-  using From = CallbackObject::Owner;
-  using To = CallbackResult::Owner;
-  Callback callback;
-  callback.process = object.process;
-  callback.address = object.address;
-  callback.symbol = readable_symbol(object.symbol);
-  const ObjectId subscription = objects.subscription_of(object);
-  if (subscription != kNoObject) {
-    callback.owner = To::kSubscription;
-    callback.owner_id = subscription;
-    callback.node = objects.subscriptions()[subscription].node;
-    callback.topic = objects.subscriptions()[subscription].topic;
-  } else if (object.owner == From::kTimer && object.owner_id != kNoObject) {
-    callback.owner = To::kTimer;
-    callback.owner_id = object.owner_id;
-    callback.node = objects.timers()[object.owner_id].node;
-    callback.period_ns = objects.timers()[object.owner_id].period_ns;
-  } else if (object.owner == From::kService && object.owner_id != kNoObject) {
-    callback.owner = To::kService;
-    callback.owner_id = object.owner_id;
-    callback.node = objects.services()[object.owner_id].node;
-    callback.service = objects.services()[object.owner_id].name;
-  } else if (object.owner == From::kClient) {
-    callback.owner = To::kClient;
-    if (object.owner_id != kNoObject) {
-      callback.owner_id = object.owner_id;
-      callback.node = objects.clients()[object.owner_id].node;
-      callback.service = objects.clients()[object.owner_id].name;
-    }
-  }
-  return callback;
-}
-
-// Fills processes, nodes, topics, endpoints and callbacks. Their indices are the ids of the analysis.
-void copy_objects(const TraceAnalysis& analysis, Timeline& timeline) {
-  const ObjectModel& objects = analysis.objects();
-  const std::vector<std::optional<ProcessIndex>> places = analysis.places();
-  for (ProcessId id = 0; id < analysis.processes().size(); ++id) {
-    const ProcessObject& process = analysis.processes()[id];
-    timeline.processes.push_back({process.vpid.value_or(0), process.name, analysis.host_of(id), places[id]});
-  }
-  for (const NodeObject& node : objects.nodes()) {
-    timeline.nodes.push_back({node.process, node.name});
-  }
-  for (const TopicObject& topic : objects.topics()) {
-    timeline.topics.push_back(topic.name);
-  }
-  for (const EndpointObject& end : objects.publishers()) {
-    timeline.publishers.push_back({end.node, end.topic, end.queue_depth, end.qos});
-  }
-  for (const EndpointObject& end : objects.subscriptions()) {
-    timeline.subscriptions.push_back({end.node, end.topic, end.queue_depth, end.qos});
-  }
-  for (const auto& [publisher, subscriptions] : analysis.chains().links()) {
-    for (const ObjectId subscription : subscriptions) {
-      timeline.kept.push_back({publisher, subscription});
-    }
-  }
-  for (const TimerObject& timer : objects.timers()) {
-    timeline.timers.push_back({timer.node, timer.period_ns});
-  }
-  for (const ServiceObject& service : objects.services()) {
-    timeline.services.push_back({service.node, service.name});
-  }
-  for (const ClientObject& client : objects.clients()) {
-    timeline.clients.push_back({client.node, client.name});
-  }
-  const CallbackGroups& groups = analysis.groups();
-  for (const ExecutorObject& executor : groups.executors()) {
-    timeline.executors.push_back({executor.process, executor.address, executor.kind});
-  }
-  for (const GroupObject& group : groups.groups()) {
-    timeline.callback_groups.push_back({group.executor, group.kind});
-  }
-  for (const ::tracing::SimulatedTime& time : groups.simulated_times()) {
-    timeline.simulated_times.push_back({time.time_ns, time.simulated_ns});
-  }
-  for (const CallbackObject& object : objects.callbacks()) {
-    timeline.callbacks.push_back(callback_of(object, objects));
-    timeline.callbacks.back().group = groups.group_of(object);
-  }
-}
 
 MessageDetail detail_of(const Publication& publication) {
   return {.rcl_ns = publication.rcl_ns,
@@ -123,7 +41,20 @@ Index TimelineRecorder::thread_of(const ThreadId& id) {
 
 void TimelineRecorder::record_details(TraceAnalysis& analysis) {
   with_details_ = true;
+  analysis_ = &analysis;
   analysis.keep_chain_passages();
+}
+
+// Each counts as one of the timeline's records at least, so there are enough of them before the last one's time.
+bool TimelineRecorder::is_wanted(std::int64_t time_ns) {
+  if (end_ns_ && time_ns >= *end_ns_) {
+    return false;
+  }
+  last_ns_ = std::max(last_ns_, time_ns);
+  if (++count_ > most_ && most_ > 0 && !end_ns_) {
+    end_ns_ = last_ns_ + 1;
+  }
+  return true;
 }
 
 void TimelineRecorder::on_callback_begin(const CallbackInstance& instance) {
@@ -183,12 +114,15 @@ void TimelineRecorder::on_callback(const CallbackInstance& instance) {
   if (with_details_) {
     end_memory(instance, thread_of(instance.thread));
   }
-  timeline_.instances.push_back({.start_ns = instance.begin_ns,
-                                 .end_ns = instance.end_ns,
-                                 .callback = instance.callback,
-                                 .thread = thread_of(instance.thread),
-                                 .finished = instance.finished,
-                                 .intra_process = instance.intra_process});
+  const Index thread = thread_of(instance.thread);
+  if (is_wanted(instance.begin_ns)) {
+    timeline_.instances.push_back({.start_ns = instance.begin_ns,
+                                   .end_ns = instance.end_ns,
+                                   .callback = instance.callback,
+                                   .thread = thread,
+                                   .finished = instance.finished,
+                                   .intra_process = instance.intra_process});
+  }
 }
 
 Message TimelineRecorder::message_of(const Publication& publication) {
@@ -211,30 +145,64 @@ Message TimelineRecorder::message_of(const Publication& publication) {
   return message;
 }
 
-void TimelineRecorder::on_publication(const Publication& publication) {
-  timeline_.messages.push_back(message_of(publication));
+// Most publications are taken soon, and then their flows have all that is known.
+void TimelineRecorder::forget_taken() {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < sent_.size(); ++i) {
+    if (is_taken(sent_[i])) {
+      continue;
+    }
+    sent_[kept] = sent_[i];
+    if (with_details_) {
+      sent_details_[kept] = sent_details_[i];
+    }
+    ++kept;
+  }
+  sent_.resize(kept);
   if (with_details_) {
-    timeline_.messages.back().publishing_instance = static_cast<Index>(message_details_.size());
-    message_details_.push_back(detail_of(publication));
+    sent_details_.resize(kept);
+  }
+}
+
+void TimelineRecorder::on_publication(const Publication& publication) {
+  const Message message = message_of(publication);
+  if (!is_wanted(message.published_ns)) {
+    return;
+  }
+  if (sent_.size() == sent_.capacity()) {
+    forget_taken();
+  }
+  sent_.push_back({message, publication.number});
+  if (with_details_) {
+    sent_details_.push_back(detail_of(publication));
   }
 }
 
 // Without its publication a message has no place in the timeline.
 void TimelineRecorder::on_message(const MessageFlow& flow) {
+  const std::uint64_t number = flow.publication.number;
   if (flow.publication.publisher == kNoObject) {
     return;
   }
-  Flow told{message_of(flow.publication), flow.callback_begin_ns};
-  told.message.subscription = flow.subscription;
-  told.message.taking_thread = thread_of(flow.taking_thread);
-  told.message.taken_ns = flow.taken_ns;
+  Message message = message_of(flow.publication);
+  message.subscription = flow.subscription;
+  message.taking_thread = thread_of(flow.taking_thread);
+  message.taken_ns = flow.taken_ns;
+  message.callback_ns = flow.callback_begin_ns;
+  if (end_ns_ && message.published_ns >= *end_ns_) {
+    return;
+  }
+  if (number >= taken_.size()) {
+    taken_.resize(number + 1);
+  }
+  taken_[number] = true;
   if (with_details_) {
-    told.message.publishing_instance = static_cast<Index>(message_details_.size());
+    message.publishing_instance = static_cast<Index>(message_details_.size());
     message_details_.push_back(detail_of(flow.publication));
     message_details_.back().waited_ns = flow.executor_waited_ns.value_or(-1);
     message_details_.back().is_by_order = flow.is_by_order;
   }
-  flows_.push_back(told);
+  timeline_.messages.push_back(message);
 }
 
 void TimelineRecorder::on_lifecycle_state(const LifecycleInterval& interval) {
@@ -259,59 +227,70 @@ void TimelineRecorder::on_thread_state(const ThreadInterval& interval) {
     }
     other = known->second;
   }
-  timeline_.states.push_back({interval.begin_ns, interval.end_ns, thread->second, other,
-                              static_cast<std::int32_t>(interval.cpu), interval.state});
+  if (is_wanted(interval.begin_ns)) {
+    timeline_.states.push_back({interval.begin_ns, interval.end_ns, thread->second, other,
+                                static_cast<std::int32_t>(interval.cpu), interval.state});
+  }
 }
 
 // Publications and flows become one list: a flow has its publication in it, so of publications only those are left that
 // nobody took.
 void TimelineRecorder::join_messages() {
+  std::vector<Message>& messages = timeline_.messages;
   const auto key = [](const Message& message) { return std::tie(message.published_ns, message.publisher); };
-  std::stable_sort(flows_.begin(), flows_.end(),
-                   [&](const Flow& left, const Flow& right) { return key(left.message) < key(right.message); });
-  std::stable_sort(timeline_.messages.begin(), timeline_.messages.end(),
-                   [&](const Message& left, const Message& right) { return key(left) < key(right); });
-  std::vector<Flow> joined;
-  joined.reserve(std::max(flows_.size(), timeline_.messages.size()));
-  auto flow = flows_.begin();
-  for (const Message& publication : timeline_.messages) {
-    bool taken = false;
-    while (flow != flows_.end() && key(flow->message) <= key(publication)) {
-      flow->message.repeated = taken;
-      taken = true;
-      joined.push_back(*flow++);
-    }
-    if (!taken) {
-      joined.push_back({publication, 0});
-    }
+  const auto is_earlier = [&](const Message& left, const Message& right) { return key(left) < key(right); };
+  sort_nearly_sorted(messages, is_earlier);
+  for (std::size_t i = 1; i < messages.size(); ++i) {
+    messages[i].repeated = key(messages[i - 1]) == key(messages[i]);
   }
-  flows_ = std::move(joined);
+  forget_taken();
+  const auto taken = static_cast<std::ptrdiff_t>(messages.size());
+  messages.reserve(messages.size() + sent_.size());
+  for (std::size_t i = 0; i < sent_.size(); ++i) {
+    if (with_details_) {
+      sent_[i].message.publishing_instance = static_cast<Index>(message_details_.size());
+      message_details_.push_back(sent_details_[i]);
+    }
+    messages.push_back(sent_[i].message);
+  }
+  sent_ = {};
+  sent_details_ = {};
+  taken_ = {};
+  std::stable_sort(messages.begin() + taken, messages.end(), is_earlier);
+  std::inplace_merge(messages.begin(), messages.begin() + taken, messages.end(), is_earlier);
+}
+
+// Puts the details in the order of the messages, which know where they are. Each cycle of places is gone through once.
+void TimelineRecorder::order_message_details() {
+  std::vector<Message>& messages = timeline_.messages;
+  for (std::size_t first = 0; first < messages.size(); ++first) {
+    std::size_t place = first;
+    while (messages[place].publishing_instance != first) {
+      const std::size_t from = std::exchange(messages[place].publishing_instance, static_cast<Index>(place));
+      std::swap(message_details_[place], message_details_[from]);
+      place = from;
+    }
+    messages[place].publishing_instance = static_cast<Index>(place);
+  }
+  timeline_.details.messages = std::move(message_details_);
 }
 
 // Finds the instances in which messages were published, and those that got them.
 void TimelineRecorder::link_messages(const InstanceIndex& index) {
-  timeline_.messages.clear();
-  timeline_.messages.reserve(flows_.size());
-  for (Flow& flow : flows_) {
-    Message& message = flow.message;
-    if (with_details_) {
-      timeline_.details.messages.push_back(message_details_[message.publishing_instance]);
-    }
+  for (std::size_t i = 0; i < timeline_.messages.size(); ++i) {
+    Message& message = timeline_.messages[i];
     message.publishing_instance = index.running(message.publishing_thread, message.published_ns);
-    if (flow.callback_begin_ns != 0) {
-      message.receiving_instance = index.begun(message.taking_thread, flow.callback_begin_ns);
+    if (message.callback_ns != 0) {
+      message.receiving_instance = index.begun(message.taking_thread, message.callback_ns);
       if (message.receiving_instance != kNone) {
-        timeline_.instances[message.receiving_instance].message = timeline_.messages.size();
+        timeline_.instances[message.receiving_instance].message = static_cast<Index>(i);
       }
     }
-    timeline_.messages.push_back(message);
   }
-  flows_ = {};
-  message_details_ = {};
 }
 
 // Refers to the instances by their places, which are known now.
-void TimelineRecorder::finish_details(const TraceAnalysis& analysis, const InstanceIndex& index) {
+void TimelineRecorder::finish_details(const InstanceIndex& index) {
   Details& details = timeline_.details;
   std::stable_sort(details.calls.begin(), details.calls.end(),
                    [](const Call& left, const Call& right) { return left.begin_ns() < right.begin_ns(); });
@@ -323,13 +302,15 @@ void TimelineRecorder::finish_details(const TraceAnalysis& analysis, const Insta
   memory_ = {};
   std::sort(details.memory.begin(), details.memory.end(),
             [](const InstanceMemory& left, const InstanceMemory& right) { return left.instance < right.instance; });
-  details.hops.reserve(analysis.chains().hops().size());
-  for (const tracing::ChainHop& hop : analysis.chains().hops()) {
+  ChainTracker::Passages told = analysis_->take_chain_passages();
+  details.hops.reserve(told.hops.size());
+  for (const tracing::ChainHop& hop : told.hops) {
     const auto thread = threads_.find({hop.process, hop.vtid});
     details.hops.push_back({hop.before, thread == threads_.end() ? kNone : index.begun(thread->second, hop.begin_ns)});
   }
-  for (const tracing::ChainPassage& passage : analysis.chains().passages()) {
-    const ChainRecord& path = analysis.chains().paths()[passage.path];
+  told.hops = {};
+  for (const tracing::ChainPassage& passage : told.passages) {
+    const ChainRecord& path = analysis_->chains().paths()[passage.path];
     if (path.named.empty() && path.goes_on) {
       continue;  // no chain of the results ends here
     }
@@ -341,16 +322,19 @@ Timeline TimelineRecorder::finish(const TraceAnalysis& analysis, const TraceOver
   timeline_.begin_ns = overview.begin_ns.value_or(0);
   timeline_.end_ns = overview.end_ns.value_or(0);
   // Instances and states are told at their ends.
-  std::stable_sort(timeline_.instances.begin(), timeline_.instances.end(),
-                   [](const Instance& left, const Instance& right) { return left.start_ns < right.start_ns; });
-  std::stable_sort(timeline_.states.begin(), timeline_.states.end(),
-                   [](const ThreadState& left, const ThreadState& right) { return left.begin_ns < right.begin_ns; });
+  sort_nearly_sorted(timeline_.instances,
+                     [](const Instance& left, const Instance& right) { return left.start_ns < right.start_ns; });
+  sort_nearly_sorted(timeline_.states,
+                     [](const ThreadState& left, const ThreadState& right) { return left.begin_ns < right.begin_ns; });
   join_messages();
+  if (with_details_) {
+    order_message_details();
+  }
   {
     const InstanceIndex index(timeline_.instances, timeline_.threads.size());
     link_messages(index);
     if (with_details_) {
-      finish_details(analysis, index);
+      finish_details(index);
     }
   }
   std::stable_sort(timeline_.lifecycle.begin(), timeline_.lifecycle.end(),

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -27,6 +28,8 @@ class TimelineRecorder : public ExecutionSink {
   TimelineRecorder() = default;
   // Also records Timeline::details. To be called before the first event.
   void record_details(TraceAnalysis& analysis);
+  // Leaves out what end_of_first(timeline, records) is before. To be called before the first event.
+  void keep_first(std::size_t records) { most_ = records; }
 
   void on_callback_begin(const CallbackInstance& instance) override;
   void on_callback(const CallbackInstance& instance) override;
@@ -47,10 +50,10 @@ class TimelineRecorder : public ExecutionSink {
   struct HashThreadId {
     std::size_t operator()(const ThreadId& thread) const;
   };
-  // A message on its way, whose callback is known by thread and time until all instances are in order.
-  struct Flow {
+  // A publication that no flow has so far. It may be a message that nobody takes.
+  struct Sent {
     Message message;
-    std::int64_t callback_begin_ns = 0;  // 0: no callback got it
+    std::uint64_t number = 0;  // Publication::number
   };
 
   // What a callback that runs has asked for.
@@ -67,20 +70,33 @@ class TimelineRecorder : public ExecutionSink {
 
   Index thread_of(const ThreadId& id);
   void end_memory(const CallbackInstance& instance, Index thread);
-  void finish_details(const TraceAnalysis& analysis, const InstanceIndex& index);
+  void finish_details(const InstanceIndex& index);
+  void order_message_details();
   Message message_of(const Publication& publication);
+  bool is_taken(const Sent& sent) const { return sent.number < taken_.size() && taken_[sent.number]; }
+  void forget_taken();
+  // Whether something that begins at this time is to be recorded. If so, it counts.
+  bool is_wanted(std::int64_t time_ns);
   void join_messages();
   void link_messages(const InstanceIndex& index);
 
+  // Its messages are flows as they are told until the publications are added that nobody took. Until they are linked,
+  // the publishing instance of a message is the index of its detail.
   Timeline timeline_;
-  // Until messages are linked, the publishing instance of a message is the index of its detail.
-  std::vector<Flow> flows_;  // first as they are told, then as timeline_.messages
+  std::size_t most_ = 0;  // 0: all
+  std::size_t count_ = 0;
+  std::int64_t last_ns_ = 0;            // the latest begin so far
+  std::optional<std::int64_t> end_ns_;  // what begins then or later is left out
+  std::vector<Sent> sent_;
+  std::vector<bool> taken_;                  // by number: a flow has the publication; may be shorter
+  std::vector<MessageDetail> sent_details_;  // as sent_
   std::unordered_map<ThreadId, Index, HashThreadId> threads_;
   std::map<std::pair<std::int64_t, std::string>, Index> other_threads_;
   ThreadId last_thread_id_;
   Index last_thread_ = kNone;
   bool with_details_ = false;
-  std::vector<MessageDetail> message_details_;  // first of all publications and flows, as they were told
+  TraceAnalysis* analysis_ = nullptr;           // that the details come from
+  std::vector<MessageDetail> message_details_;  // of flows, as they were told
   std::vector<std::vector<Memory>> running_;    // by thread, innermost last
   std::vector<FinishedMemory> memory_;
 };

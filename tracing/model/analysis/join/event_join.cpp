@@ -1,32 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/model/analysis/join/event_join.hpp"
 
-#include <algorithm>
-
 namespace tracing {
-
-void EventJoin::on_event(const Origin& origin, const ros2::AnyEvent& event) {
-  last_ns_ = std::max(last_ns_, origin.time_ns);  // initialisations of CARET are told later than they were recorded
-  std::visit([&](const auto& known) { handle(origin, known); }, event);
-}
-
-// An event goes to the functions below or to the first part that has an overload for it. Some events need neither.
-template <class Event>
-void EventJoin::handle(const Origin& origin, const Event& event) {
-  if constexpr (requires { on(origin, event); }) {
-    on(origin, event);
-  } else if constexpr (requires { model_.on(origin, event); }) {
-    model_.on(origin, event);
-  } else if constexpr (requires { messages_.on(origin, thread(origin), event); }) {
-    messages_.on(origin, thread(origin), event);
-  } else if constexpr (requires { messages_.on(origin, event); }) {
-    messages_.on(origin, event);
-  } else if constexpr (requires { calls_.on(origin, event); }) {
-    calls_.on(origin, event);
-  } else if constexpr (requires { lifecycle_.on(origin, event); }) {
-    lifecycle_.on(origin, event);
-  }
-}
 
 void EventJoin::on(const Origin& origin, const ros2::CallbackStart& event) {
   ThreadState& running = thread(origin);

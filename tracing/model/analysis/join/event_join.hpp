@@ -6,6 +6,7 @@
 // begin of a callback, is decided here.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string_view>
 
@@ -34,7 +35,11 @@ class EventJoin {
         executions_(model),
         lifecycle_(model, allocations, sink) {}
 
-  void on_event(const Origin& origin, const ros2::AnyEvent& event);
+  template <class Event>
+  void on_event(const Origin& origin, const Event& event) {
+    last_ns_ = std::max(last_ns_, origin.time_ns);  // initialisations of CARET are told later than they were recorded
+    handle(origin, event);
+  }
   void on_end(const Origin& origin, const ros2::ObjectEnd& end);
   void on_lifecycle_state(const Origin& origin, ros2::Handle state_machine, std::string_view state) {
     lifecycle_.state(origin, state_machine, state);
@@ -56,8 +61,23 @@ class EventJoin {
   const LifecycleTracker& lifecycle() const { return lifecycle_; }
 
  private:
+  // An event goes to the functions below or to the first part that has an overload for it. Some events need neither.
   template <class Event>
-  void handle(const Origin& origin, const Event& event);
+  void handle(const Origin& origin, const Event& event) {
+    if constexpr (requires { on(origin, event); }) {
+      on(origin, event);
+    } else if constexpr (requires { model_.on(origin, event); }) {
+      model_.on(origin, event);
+    } else if constexpr (requires { messages_.on(origin, thread(origin), event); }) {
+      messages_.on(origin, thread(origin), event);
+    } else if constexpr (requires { messages_.on(origin, event); }) {
+      messages_.on(origin, event);
+    } else if constexpr (requires { calls_.on(origin, event); }) {
+      calls_.on(origin, event);
+    } else if constexpr (requires { lifecycle_.on(origin, event); }) {
+      lifecycle_.on(origin, event);
+    }
+  }
   void on(const Origin& origin, const ros2::CallbackStart& event);
   void on(const Origin& origin, const ros2::CallbackEnd& event);
   void on(const Origin& origin, const ros2::RmwSendResponse& event);
