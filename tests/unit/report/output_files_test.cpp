@@ -35,5 +35,27 @@ TEST(OutputFiles, APageThatWouldBeTooLargeHoldsTheBeginOfTheTrace) {
   EXPECT_EQ(std::count(std::istreambuf_iterator<char>(rows), {}, '\n'), 299) << "tables hold everything";
 }
 
+std::string content(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// For a page alone, what comes behind its end is not kept.
+TEST(OutputFiles, APageIsTheSameAloneAndBesideOtherFiles) {
+  const testing::TemporaryDirectory directory;
+  testing::write_example_system(directory.path() / "trace", 100);
+  for (const std::size_t most : {1U, 2U, 50U, 100U, 333U, 497U, 498U, 499U, 10'000U}) {
+    OutputFiles alone;
+    alone.html = directory.path() / "alone.html";
+    const WrittenFiles written = write_files({directory.path() / "trace"}, alone, {}, most);
+    OutputFiles both;
+    both.html = directory.path() / "beside.html";
+    both.dot = directory.path() / "graph.dot";
+    const WrittenFiles beside = write_files({directory.path() / "trace"}, both, {}, most);
+    EXPECT_EQ(written.lines[0].substr(written.lines[0].find(": ")), beside.lines[0].substr(beside.lines[0].find(": ")));
+    EXPECT_TRUE(content(alone.html) == content(both.html)) << most;
+  }
+}
+
 }  // namespace
 }  // namespace tracing

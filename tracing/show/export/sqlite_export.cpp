@@ -36,7 +36,9 @@ class Database {
   // `file` is the name for messages, `path` the one that is opened.
   Database(std::filesystem::path file, const std::filesystem::path& path) : file_(std::move(file)) {
     sqlite3* opened = nullptr;
-    const int result = sqlite3_open(path.c_str(), &opened);
+    // One thread uses it.
+    const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
+    const int result = sqlite3_open_v2(path.c_str(), &opened, flags, nullptr);
     database_.reset(opened);
     check(result);
   }

@@ -6,9 +6,12 @@
 #include <string_view>
 
 #include "tracing/model/timeline/traced_system.hpp"
+#include "tracing/show/page/column_buffer.hpp"
 
 namespace tracing {
 
+// `write` gets the page, part by part.
+void write_html_page(const TracedSystem& system, const WriteText& write);
 std::string html_page(const TracedSystem& system);
 
 // The page without data. A comment /*facts*/ and a comment /*columns*/ stand where they belong, and a comment
@@ -27,6 +30,7 @@ std::string page_facts(const TracedSystem& system);
 
 // Instances, messages and states of threads as columns of numbers, compressed, as text. script/data.js reads them in
 // the same order.
+void write_page_columns(const timeline::Timeline& timeline, const WriteText& write);
 std::string page_columns(const timeline::Timeline& timeline);
 
 }  // namespace tracing

@@ -149,12 +149,12 @@ void add_states(ColumnBuffer& buffer, const Timeline& timeline) {
 
 }  // namespace
 
-std::string page_columns(const Timeline& timeline) {
-  ColumnBuffer buffer;
+void write_page_columns(const Timeline& timeline, const WriteText& write) {
+  ColumnBuffer buffer(write);
   add_instances(buffer, timeline);
   add_messages(buffer, timeline);
   add_states(buffer, timeline);
-  return buffer.compressed_text();
+  buffer.finish();
 }
 
 }  // namespace tracing

@@ -43,12 +43,13 @@ std::unique_ptr<AnalysisModelWriter> model_writer(const OutputFiles& files) {
 }
 
 TracedSystem read(const std::vector<fs::path>& directories, const OutputFiles& files,
-                  const std::vector<ChainDefinition>& chains) {
+                  const std::vector<ChainDefinition>& chains, std::size_t most_in_page) {
   const std::unique_ptr<AnalysisModelWriter> model = model_writer(files);
   TracedSystem system = read_system(directories, {.chains = chains,
                                                   .with_details = !files.csv.empty() || !files.sqlite.empty(),
                                                   .with_analysis = files.needs_timeline(),
                                                   .processes = files.processes,
+                                                  .most_records = files.is_page_alone() ? most_in_page : 0,
                                                   .beside = model.get()});
   if (model) {
     model->finish();
@@ -66,20 +67,25 @@ void choose_window(TracedSystem& system, const OutputFiles& files) {
   timeline::keep_window(timeline, begin_ns, absolute(files.to, first_ns, timeline.end_ns + 1));
 }
 
+void write_page(const TracedSystem& system, OutputFile& file) {
+  write_html_page(system, [&file](std::string_view part) { file.write(part); });
+}
+
 // Returns what is to be told beside the size.
-std::string write_page(const TracedSystem& system, const fs::path& path, std::size_t most) {
+std::string write_page(const TracedSystem& system, const fs::path& path, const PageLimit& limit) {
   OutputFile file(path);
   std::string note;
   const timeline::Timeline& whole = system.timeline;
-  const std::int64_t end_ns = timeline::end_of_first(whole, most);
+  const std::int64_t end_ns = timeline::end_of_first(whole, limit.records);
   if (end_ns < whole.end_ns) {
-    TracedSystem part = system;
-    timeline::keep_window(part.timeline, whole.begin_ns, end_ns);
-    file.write(html_page(part));
     note = fmt::format(", the first {} of {}", format_duration(static_cast<double>(end_ns - whole.begin_ns)),
                        format_duration(static_cast<double>(whole.end_ns - whole.begin_ns)));
+    TracedSystem copy = limit.alone == nullptr ? system : TracedSystem();
+    TracedSystem& part = limit.alone == nullptr ? copy : *limit.alone;
+    timeline::keep_window(part.timeline, whole.begin_ns, end_ns);
+    write_page(part, file);
   } else {
-    file.write(html_page(system));
+    write_page(system, file);
   }
   file.finish();
   return note;
@@ -87,7 +93,7 @@ std::string write_page(const TracedSystem& system, const fs::path& path, std::si
 
 // A form of another tool, which is complete.
 template <void (*kExport)(const TracedSystem&, const fs::path&)>
-std::string write_whole(const TracedSystem& system, const fs::path& file, std::size_t) {
+std::string write_whole(const TracedSystem& system, const fs::path& file, const PageLimit&) {
   kExport(system, file);
   return "";
 }
@@ -115,14 +121,22 @@ bool OutputFiles::needs_timeline() const {
                      [this](const OutputForm& form) { return form.write != nullptr && !(this->*form.file).empty(); });
 }
 
+bool OutputFiles::is_page_alone() const {
+  const auto others = std::count_if(std::begin(kForms), std::end(kForms), [this](const OutputForm& form) {
+    return form.write != nullptr && form.file != &OutputFiles::html && !(this->*form.file).empty();
+  });
+  return !html.empty() && others == 0 && !from && !to;
+}
+
 WrittenFiles write_files(const std::vector<fs::path>& directories, const OutputFiles& files,
                          const std::vector<ChainDefinition>& chains, std::size_t most_in_page) {
-  TracedSystem system = read(directories, files, chains);
+  TracedSystem system = read(directories, files, chains, most_in_page);
   choose_window(system, files);
   WrittenFiles written;
   written.error = system.error;
   written.open = system.open;
   written.incomplete = incomplete_phrase(system.results.overview, system.verdict);
+  const PageLimit limit{most_in_page, files.is_page_alone() ? &system : nullptr};
   const auto add_line = [&written](const fs::path& file, const std::string& note) {
     std::error_code failed;
     const std::uintmax_t size = fs::file_size(file, failed);
@@ -131,7 +145,7 @@ WrittenFiles write_files(const std::vector<fs::path>& directories, const OutputF
   for (const OutputForm& form : kForms) {
     const fs::path& file = files.*form.file;
     if (form.write != nullptr && !file.empty()) {
-      add_line(file, form.write(system, file, most_in_page));
+      add_line(file, form.write(system, file, limit));
     }
   }
   if (!files.analysis_model.empty()) {

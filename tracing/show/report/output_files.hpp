@@ -34,6 +34,15 @@ struct OutputFiles {
   bool any() const { return needs_timeline() || !analysis_model.empty(); }
   // Any but analysis_model.
   bool needs_timeline() const;
+  // The page, as a whole, and no other form that needs a timeline.
+  bool is_page_alone() const;
+};
+
+// How much a page holds.
+struct PageLimit {
+  std::size_t records = 0;  // instances, messages and states of threads
+  // The page is all that is made of the system, so the rest of it may be forgotten, and need not be there.
+  TracedSystem* alone = nullptr;
 };
 
 // A form of output: an option of `launch report`, and the file or directory that it names.
@@ -43,7 +52,7 @@ struct OutputForm {
   const char* help;
   std::filesystem::path OutputFiles::*file;
   // Returns what is to be told beside the size. nullptr: it is written while the trace is read.
-  std::string (*write)(const TracedSystem& system, const std::filesystem::path& file, std::size_t most_in_page);
+  std::string (*write)(const TracedSystem& system, const std::filesystem::path& file, const PageLimit& limit);
 };
 
 // In the order of the help.

@@ -49,6 +49,7 @@ TracedSystem read_system(const std::vector<std::filesystem::path>& directories, 
   if (options.with_details) {
     recorder.record_details(analysis);
   }
+  recorder.keep_first(options.most_records);
   TraceReader reader(directories, TraceReader::Clocks::kOne);
   system.open = reader.open_directories();
   system.verdict = read_verdicts(directories);

@@ -2,6 +2,7 @@
 // Reads traces into what pages, exports and tables are made of.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -20,6 +21,7 @@ struct SystemOptions {
   bool with_details = false;                 // Timeline::details, which the tables need
   bool with_analysis = true;                 // false: only `beside` gets the events
   std::set<std::int64_t> processes = {};     // only userspace events of these; empty: of all
+  std::size_t most_records = 0;              // TimelineRecorder::keep_first(); 0: all
   TraceSink* beside = nullptr;               // also gets the events
   ExecutionSink* also = nullptr;             // is told what the timeline is told
   std::function<void(const TraceAnalysis& analysis, const TraceResults& results)> at_end = {};  // after the analysis
