@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads one generated trace of four million events with babeltrace2, with our reader, with the installed library, with
-// launch-report and with Python, and prints their speeds as ratios to `babeltrace2 -o dummy`, which decodes the same
-// events and throws them away. Python stands beside babeltrace2's own module.
+// launch-trace-read, launch-report and with Python, and prints their speeds as ratios to `babeltrace2 -o dummy`, which
+// decodes the same events and throws them away. Python stands beside babeltrace2's own module.
 //
-// Each reader is a process of its own. Its CPU time counts, so that other work on the machine has little effect. Usage:
+// Each reader is a process of its own. Its CPU time counts, so that other work on the machine has little effect; of
+// programs with several threads the elapsed time is told, too. Usage:
 //   bench_reader [EVENTS]
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
@@ -123,8 +125,13 @@ class DecodingSink : public TraceSink {
   ros2::Decoder decoder_{[](const std::string&) {}};
 };
 
-// CPU seconds of a command; its output is thrown away.
-double cpu_seconds_of(const std::vector<std::string>& command) {
+struct Seconds {
+  double processor = 0;
+  double elapsed = 0;
+};
+
+// Of a command; its output is thrown away.
+Seconds seconds_of(const std::vector<std::string>& command) {
   std::vector<char*> arguments;
   for (const std::string& argument : command) {
     arguments.push_back(const_cast<char*>(argument.c_str()));
@@ -134,6 +141,7 @@ double cpu_seconds_of(const std::vector<std::string>& command) {
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
   pid_t child = 0;
+  const auto begin = std::chrono::steady_clock::now();
   const int error = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (error != 0) {
@@ -147,7 +155,8 @@ double cpu_seconds_of(const std::vector<std::string>& command) {
   const auto seconds = [](const timeval& time) {
     return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) / 1e6;
   };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+  return {seconds(usage.ru_utime) + seconds(usage.ru_stime), elapsed.count()};
 }
 
 void compare(const std::string& self, std::size_t events) {
@@ -158,35 +167,47 @@ void compare(const std::string& self, std::size_t events) {
   struct Reader {
     std::string name;
     std::vector<std::string> command;
-    std::vector<double> seconds = {};  // of each round
-    double best() const { return *std::min_element(seconds.begin(), seconds.end()); }
+    bool has_threads = false;
+    std::vector<double> processor = {};  // seconds of each round
+    std::vector<double> elapsed = {};
   };
   std::vector<Reader> readers{
       {"babeltrace2 -o dummy", {"babeltrace2", "-o", "dummy", trace}},
-      {"reader, all fields at hand", {self, "--count", trace}},
-      {"reader, every field asked for", {self, "--fields", trace}},
+      {"launch trace read --count", {LAUNCH_TRACE_READ, "--count", trace}, true},
+      {"reader, all fields at hand", {self, "--count", trace}, true},
+      {"reader, every field asked for", {self, "--fields", trace}, true},
       {"installed library, the same", {self, "--library", trace}},
-      {"reader, ros2 events as structs", {self, "--structs", trace}},
-      {"launch report", {LAUNCH_REPORT, trace}},
-      {"launch report --summary", {LAUNCH_REPORT, "--summary", trace}},
+      {"reader, ros2 events as structs", {self, "--structs", trace}, true},
+      {"launch report", {LAUNCH_REPORT, trace}, true},
+      {"launch report --summary", {LAUNCH_REPORT, "--summary", trace}, true},
   };
   for (int round = 0; round < kRounds; ++round) {
     for (Reader& reader : readers) {
-      reader.seconds.push_back(cpu_seconds_of(reader.command));
+      const Seconds took = seconds_of(reader.command);
+      reader.processor.push_back(took.processor);
+      reader.elapsed.push_back(took.elapsed);
     }
   }
-  fmt::print("{} events in 2 streams, with vpid, vtid and procname; CPU time, best of {}\n", events, kRounds);
-  for (const Reader& reader : readers) {
-    fmt::print("{:<31} {:6.2f} M events/s   {:5.2f} of babeltrace2's speed\n", reader.name,
-               static_cast<double>(events) / reader.best() / 1e6, readers[0].best() / reader.best());
-    const auto speeds = [&](const Reader& of) {
+  fmt::print("{} events in 2 streams, with vpid, vtid and procname; best of {}\n", events, kRounds);
+  const auto print = [&](const std::string& name, const std::vector<double>& seconds,
+                         const std::vector<double>& floor) {
+    const double best = *std::min_element(seconds.begin(), seconds.end());
+    fmt::print("{:<40} {:6.2f} M events/s   {:5.2f} of babeltrace2's speed\n", name,
+               static_cast<double>(events) / best / 1e6, *std::min_element(floor.begin(), floor.end()) / best);
+    const auto speeds = [&](const std::vector<double>& of) {
       std::vector<double> values;
-      for (const double seconds : of.seconds) {
-        values.push_back(static_cast<double>(events) / seconds / 1e6);
+      for (const double one : of) {
+        values.push_back(static_cast<double>(events) / one / 1e6);
       }
       return values;
     };
-    benchmarks::report({reader.name, "M events/s", speeds(reader), readers[0].name, speeds(readers[0]), true});
+    benchmarks::report({name, "M events/s", speeds(seconds), readers[0].name, speeds(floor), true});
+  };
+  for (const Reader& reader : readers) {
+    print(reader.name, reader.processor, readers[0].processor);
+    if (reader.has_threads) {
+      print(reader.name + ", elapsed", reader.elapsed, readers[0].elapsed);
+    }
   }
   std::fflush(stdout);
 #ifdef PYTHON
