@@ -31,9 +31,8 @@ void CallbackGroups::on(const Origin& origin, const ros2::CaretEvent& event) {
     case Kind::kCollectorGroup: {
       const ObjectId id = group(process, event.second);
       groups_[id].kind = event.text;
-      const auto found = executor_of_collector_.find({process, event.first});
-      if (found != executor_of_collector_.end()) {
-        groups_[id].executor = found->second;
+      if (const ObjectId* const found = executor_of_collector_.find({process, event.first})) {
+        groups_[id].executor = *found;
       } else {
         waiting_groups_[{process, event.first}].push_back(id);
       }
@@ -60,19 +59,23 @@ void CallbackGroups::on(const Origin& origin, const ros2::CaretEvent& event) {
 }
 
 ObjectId CallbackGroups::executor(ProcessId process, ros2::Handle address) {
-  const auto [known, is_new] = executor_index_.try_emplace({process, address}, executors_.size());
-  if (is_new) {
-    executors_.push_back({process, address, {}});
+  if (const ObjectId* const known = executor_index_.find({process, address})) {
+    return *known;
   }
-  return known->second;
+  const auto id = static_cast<ObjectId>(executors_.size());
+  executor_index_[{process, address}] = id;
+  executors_.push_back({process, address, {}});
+  return id;
 }
 
 ObjectId CallbackGroups::group(ProcessId process, ros2::Handle address) {
-  const auto [known, is_new] = group_index_.try_emplace({process, address}, groups_.size());
-  if (is_new) {
-    groups_.push_back({process, address, kNoObject, {}});
+  if (const ObjectId* const known = group_index_.find({process, address})) {
+    return *known;
   }
-  return known->second;
+  const auto id = static_cast<ObjectId>(groups_.size());
+  group_index_[{process, address}] = id;
+  groups_.push_back({process, address, kNoObject, {}});
+  return id;
 }
 
 void CallbackGroups::add_member(const Origin& origin, const ros2::CaretEvent& event, Owner owner, ObjectId id) {
