@@ -66,6 +66,15 @@ class TimeChart(page_case.PageTest):
             self.browser.call('Input.dispatchMouseEvent', type=kind, x=at, y=y, button='left', clickCount=1)
         self.browser.wait_for(f'{self.CHART}.view.begin > {before["begin"]}')
 
+    def test_two_fingers_zoom(self):
+        x, y = self.place_of(150)
+        before = self.view()
+        for kind, apart in (('touchStart', 40), ('touchMove', 80), ('touchMove', 160), ('touchEnd', None)):
+            points = [] if apart is None else [{'x': x - apart, 'y': y, 'id': 0}, {'x': x + apart, 'y': y, 'id': 1}]
+            self.browser.call('Input.dispatchTouchEvent', type=kind, touchPoints=points)
+        self.browser.wait_for(f'{self.CHART}.view.end - {self.CHART}.view.begin < {0.4 * (before["end"] - before["begin"])}')
+        self.assertEqual(self.browser.evaluate('selection.instance'), None, 'nothing is chosen by it')
+
     def test_arrows_appear_when_there_is_room(self):
         self.press(*'++++++++')
         self.browser.wait_for(f'{self.CHART}.arrowsHidden === 0')

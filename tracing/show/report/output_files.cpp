@@ -99,7 +99,8 @@ std::string write_whole(const TracedSystem& system, const fs::path& file, const 
 }
 
 const OutputForm kForms[] = {
-    {"--html", "FILE", "Write a page for a browser: graph, time chart, plots, chains", &OutputFiles::html, write_page},
+    {"--html", "FILE", "Write a page for a browser: graph, time chart, plots, chains; with --diff: both runs",
+     &OutputFiles::html, write_page},
     {"--perfetto", "FILE", "Write what ui.perfetto.dev reads (JSON of Chrome's trace events)", &OutputFiles::perfetto,
      write_whole<export_perfetto>},
     {"--csv", "DIR", "Write tables as CSV files to a directory", &OutputFiles::csv, write_whole<export_csv>},

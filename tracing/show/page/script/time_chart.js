@@ -180,7 +180,7 @@ class TimeChart {
   }
 }
 
-// The wheel scrolls, with Ctrl it zooms; dragging moves; a click chooses.
+// The wheel scrolls, with Ctrl it zooms; dragging moves; two fingers zoom; a click chooses.
 function listenToPointer(chart) {
   const {canvas, tip, data} = chart;
   canvas.addEventListener('wheel', event => {
@@ -192,6 +192,13 @@ function listenToPointer(chart) {
   }, {passive: false});
 
   let drag = null;
+  const fingers = new Map();  // where they are, by the id of the pointer
+  const pinch = event => {
+    const [, other] = [...fingers].find(([key]) => key !== event.pointerId);
+    const distance = x => Math.max(10, Math.abs(x - other));
+    chart.zoom(distance(fingers.get(event.pointerId)) / distance(event.offsetX), chart.timeAt((event.offsetX + other) / 2));
+    fingers.set(event.pointerId, event.offsetX);
+  };
   const moveMap = x => {
     const {begin, end} = chart.limits;
     const middle = begin + (x - labelWidth(chart)) / (chart.width - labelWidth(chart)) * (end - begin);
@@ -199,10 +206,15 @@ function listenToPointer(chart) {
   };
   canvas.addEventListener('pointerdown', event => {
     canvas.setPointerCapture(event.pointerId);
+    fingers.set(event.pointerId, event.offsetX);
     drag = {x: event.offsetX, y: event.offsetY, ...chart.view, moved: false, inMap: event.offsetY < kMapHeight};
     if (drag.inMap) moveMap(event.offsetX);
   });
   canvas.addEventListener('pointermove', event => {
+    if (fingers.size > 1 && fingers.has(event.pointerId)) {
+      if (drag) drag.moved = true;
+      return pinch(event);
+    }
     if (drag?.inMap) return moveMap(event.offsetX);
     if (drag) {
       const [dx, dy] = [event.offsetX - drag.x, event.offsetY - drag.y];
@@ -226,9 +238,13 @@ function listenToPointer(chart) {
       chart.options.choose(instance < 0 ? null : instance);
       chart.redraw();
     }
+    fingers.delete(event.pointerId);
     drag = null;
   });
-  canvas.addEventListener('pointercancel', () => { drag = null; });
+  canvas.addEventListener('pointercancel', () => {
+    fingers.clear();
+    drag = null;
+  });
   canvas.addEventListener('pointerleave', () => { tip.hidden = true; });
   canvas.addEventListener('dblclick', event => chart.zoom(0.25, chart.timeAt(Math.max(event.offsetX, labelWidth(chart)))));
 }
