@@ -102,8 +102,9 @@ TEST(Page, CountsProcessesOfTheKernelAloneByTheirNames) {
 
 TEST(Page, OfTwoRunsHasTheDataOfBothAndTheComparison) {
   const TracedSystem system = testing::traced_example(10);
-  PageRun before{
-      page_facts(system), page_columns(system.timeline), {{"/a, timer 1 s"}, {"/a (timer 1 s)"}, {"</script>"}}};
+  PageRun before{page_facts(system),
+                 page_columns(system.timeline),
+                 {{"/a, timer 1 s"}, {"/a (timer 1 s)"}, {"</script>"}, {"/a (timer 1 s) -> /b (/c)"}}};
   PageRun after{page_facts(testing::traced_example(20)), page_columns(testing::traced_example(20).timeline), {}};
   const std::string page = comparison_page({before, after}, R"json({"version":1,"changes":[]})json");
   EXPECT_EQ(nlohmann::json::parse(content(page, "facts-before"))["instances"], 30);
@@ -114,6 +115,7 @@ TEST(Page, OfTwoRunsHasTheDataOfBothAndTheComparison) {
   EXPECT_EQ(comparison["version"], 1);
   EXPECT_EQ(comparison["names"][0]["callbacks"][0], "/a, timer 1 s");
   EXPECT_EQ(comparison["names"][0]["subscriptions"][0], "</script>");
+  EXPECT_EQ(comparison["names"][0]["chains"][0], "/a (timer 1 s) -> /b (/c)");
   EXPECT_EQ(comparison["names"][1]["steps"].size(), 0u);
 }
 

@@ -10,7 +10,10 @@ namespace tracing {
 namespace {
 
 nlohmann::ordered_json names_json(const PageRun::Names& names) {
-  return {{"callbacks", names.callbacks}, {"steps", names.steps}, {"subscriptions", names.subscriptions}};
+  return {{"callbacks", names.callbacks},
+          {"steps", names.steps},
+          {"subscriptions", names.subscriptions},
+          {"chains", names.chains}};
 }
 
 std::string data_element(const char* type, const char* id, const std::string& text) {

@@ -16,6 +16,7 @@ struct PageRun {
     std::vector<std::string> callbacks;
     std::vector<std::string> steps;  // callbacks as steps of chains
     std::vector<std::string> subscriptions;
+    std::vector<std::string> chains;  // those that the comparison has; it does not know chains that users name
   } names;
 };
 

@@ -78,9 +78,17 @@ PagedRun read_run_for_page(const fs::path& directory, const std::vector<ChainDef
            run.page.names.subscriptions.push_back(names.subscription(id));
          }
        }});
+  for (const compare::Measurement& measurement : run.summary.measurements) {
+    if (measurement.kind == compare::Kind::kChain) {
+      run.page.names.chains.push_back(measurement.subject);
+    }
+  }
   run.summary = complete(std::move(run.summary), directory, system.results.overview, system.verdict, system.error);
   const timeline::Timeline& timeline = system.timeline;
-  timeline::keep_window(system.timeline, timeline.begin_ns, timeline::end_of_first(timeline, kMostInPage / 2));
+  const std::int64_t end_ns = timeline::end_of_first(timeline, kMostInPage / 2);
+  if (end_ns < timeline.end_ns) {
+    timeline::keep_window(system.timeline, timeline.begin_ns, end_ns);
+  }
   run.page.columns = page_columns(system.timeline);
   run.page.facts = page_facts(system);
   return run;

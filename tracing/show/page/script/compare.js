@@ -29,9 +29,13 @@ function comparedSubjects(runs) {
       add('callback', data.names.callbacks[id], durations, {id, sorted: durations.sorted});
     });
     for (const [id, {latency, messages}] of hopStatistics(data)) add('hop', data.names.subscriptions[id], latency, {messages, sorted: latency.sorted});
+    const paths = new Set();
     for (const chain of data.chains) {
-      if (chain.name) continue;  // the same ones are there without a name, unless they are parts of longer ones
-      add('chain', chain.steps.map(step => data.names.steps[step.callback]).join(' -> '), chain.response, {chain});
+      const subject = chain.steps.map(step => data.names.steps[step.callback]).join(' -> ');
+      const path = chain.steps.map(step => step.callback).join();
+      if (paths.has(path)) continue;  // it has several names
+      paths.add(path);
+      add('chain', subject, chain.response, {chain});
     }
     for (const call of data.calls) add('call', `${call.service}, asked by ${call.client}`, call.round_trip);
   });
@@ -67,6 +71,7 @@ function verdictOf(comparison, {kind, subject, sides}) {
   if (likely.length > 0) return {word: `likely ${direction(likely)}`, kind: direction(likely), changes: likely, rank: 1};
   if (!sides[0] || of(comparison.new).length > 0) return {word: 'only after', kind: 'lone', changes: [], rank: 2};
   if (!sides[1] || of(comparison.gone).length > 0) return {word: 'only before', kind: 'lone', changes: [], rank: 2};
+  if (kind === 'chain' && !comparison.names.every(({chains}) => chains.includes(subject))) return {word: 'not compared', kind: 'none', changes: [], rank: 5};
   if (sides.some(side => side.times.count < 16)) return {word: 'too few to tell', kind: 'none', changes: [], rank: 4};
   return {word: 'no change holds', kind: 'none', changes: [], rank: 3};
 }

@@ -110,12 +110,18 @@ function subjectTable(rows, choose) {
   const both = name => ({title: name, value: time(1, name), show: row => `${formatDuration(time(0, name)(row))} → ${formatDuration(time(1, name)(row))}`});
   const of = name => [both(name), difference(name)];
   return dataTable(rows, [
-    {title: 'Subject', value: row => row.subject, show: row => element('div', {}, row.subject, ...reasons(row.verdict).map(text => element('div', {class: 'note'}, text))), wide: true},
+    {title: 'Subject', value: row => row.subject, show: row => element('div', {}, labelOf(row), ...reasons(row.verdict).map(text => element('div', {class: 'note'}, text))), wide: true},
     {title: 'Verdict', value: row => row.verdict.word, show: row => element('b', {class: `verdict ${row.verdict.kind}`}, row.verdict.word),
       order: row => row.verdict.rank - Math.min(0.9, Math.max(0, ...row.verdict.changes.map(change => Math.abs(change.shift_ns))) / 1e12)},
     ...of('p50'), ...of(compareOptions.share),
     {title: 'Count', value: row => row.sides[1]?.times.count ?? 0, show: row => row.sides.map(side => formatCount(side?.times.count ?? 0)).join(' → ')},
   ], {name: 'subject', sort: 1, choose, isActive: row => row.subject === compareOptions.subject});
+}
+
+// A chain with its name, if a user has given it one.
+function labelOf({subject, sides}) {
+  const name = sides.map(side => side?.chain?.name).find(Boolean);
+  return name ? `${name}: ${subject}` : subject;
 }
 
 // What has changed, and why, as far as that is known.
