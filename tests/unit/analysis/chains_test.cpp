@@ -129,6 +129,49 @@ TEST_F(Chains, FollowMessagesThatANodeCaches) {
   EXPECT_EQ(of_timer.response.max_ns, 200);
 }
 
+TEST_F(Chains, FollowEachOfManyCachedMessages) {
+  constexpr ros2::Handle kInputs = 20;
+  std::vector<ros2::Handle> inputs;
+  for (ros2::Handle i = 0; i < kInputs; ++i) {
+    const std::string topic = "/input_" + std::to_string(i);
+    const ros2::Handle at = 0x100 * (i + 1);
+    feed.in(3, 3)(ros2::RmwSubscriptionInit{at, {}})(ros2::RclSubscriptionInit{at + 1, 1, at, topic, 10});
+    feed(ros2::RclcppSubscriptionInit{at + 1, at + 2})(ros2::RclcppSubscriptionCallbackAdded{at + 2, at + 3});
+    inputs.push_back(at + 1);
+    const auto source = static_cast<std::int64_t>(10 + i);
+    feed.in(source, source)(ros2::RclNodeInit{1, 0, "source" + std::to_string(i), "/"})(ros2::RclTimerInit{3, 1'000});
+    feed(ros2::RclcppTimerCallbackAdded{3, 0xe})(ros2::RclcppTimerLinkNode{3, 1});
+    publisher(topic);
+  }
+  feed.in(3, 3)(ros2::RclTimerInit{3, 500})(ros2::RclcppTimerCallbackAdded{3, 0xd})(ros2::RclcppTimerLinkNode{3, 1});
+  publisher("/c");
+  feed(ros2::MessageLinkPeriodicAsync{inputs, {0x11}});
+  feed.in(4, 4)(ros2::RclNodeInit{1, 0, "end", "/"});
+  subscription("/c");
+  for (std::int64_t round = 1; round <= 3; ++round) {
+    for (ros2::Handle i = 0; i < kInputs; ++i) {
+      const std::int64_t time = 10'000 * round + 100 * static_cast<std::int64_t>(i);
+      const auto source = static_cast<std::int64_t>(10 + i);
+      const ros2::Handle at = 0x100 * (i + 1);
+      feed.in(source, source).at(time)(ros2::CallbackStart{0xe, false});
+      feed.at(time + 1)(ros2::RmwPublish{0x10, 9, time}).at(time + 2)(ros2::CallbackEnd{0xe});
+      feed.in(3, 3).at(time + 10)(ros2::RmwTake{at, 9, time, true})(ros2::CallbackStart{at + 3, false});
+      feed.at(time + 20)(ros2::CallbackEnd{at + 3});
+    }
+    const std::int64_t time = 10'000 * round + 5'000;
+    feed.in(3, 3).at(time)(ros2::CallbackStart{0xd, false}).at(time + 10)(ros2::RmwPublish{0x10, 9, time});
+    feed.at(time + 20)(ros2::CallbackEnd{0xd});
+    feed.in(4, 4).at(time + 100)(ros2::RmwTake{0x20, 9, time, true})(ros2::CallbackStart{0xcb, false});
+    feed.at(time + 200)(ros2::CallbackEnd{0xcb});
+  }
+  const Ros2Results results = feed.results();
+  std::size_t from_sources = 0;
+  for (const ChainResult& chain : results.chains) {
+    from_sources += chain.steps.size() == 3 && chain.response.count == 3 ? 1 : 0;
+  }
+  EXPECT_EQ(from_sources, kInputs);
+}
+
 TEST_F(Chains, EndWhereALoopBegins) {
   feed.in(3, 3);
   publisher("/a");

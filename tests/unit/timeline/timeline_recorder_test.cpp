@@ -80,7 +80,7 @@ TEST_F(ExampleTimeline, KnowsWhenAMessageWasWritten) {
   for (const Message& message : timeline.messages) {
     EXPECT_EQ(message.written_after_ns, 3'000u);
   }
-  static_assert(sizeof(Message) == 56, "a trace has millions of them");
+  static_assert(sizeof(Message) == 64, "a trace has millions of them");
 }
 
 TEST_F(ExampleTimeline, KeepsMessagesThatNobodyTook) {

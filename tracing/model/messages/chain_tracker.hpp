@@ -89,9 +89,8 @@ struct ChainPassage {
 
 class ChainTracker : public ExecutionSink {
  public:
-  // At most this many paths, trails of one message, and publications whose trails are remembered.
+  // At most this many paths, and publications whose trails are remembered.
   static constexpr std::size_t kPaths = 1'000;
-  static constexpr std::size_t kTrails = 8;
   static constexpr std::size_t kRemembered = 1 << 16;
 
   // Gives chains names. To be called before anything happens; the model must outlive this object.
@@ -135,29 +134,39 @@ class ChainTracker : public ExecutionSink {
     std::int64_t input_ns;
     std::int64_t callback_ns;  // begin of the callback at the end of the path
   };
-  // At most kTrails; more are left out. Mostly there is one.
+  // Mostly there is one. A message of a node that keeps what it gets has those of all that it has kept.
   class Trails {
    public:
     Trails() {}
     Trails(const Trails& other) { *this = other; }
     Trails& operator=(const Trails& other) {
       size_ = other.size_;
-      std::copy(other.begin(), other.end(), trails_.begin());
+      many_ = other.many_;
+      if (many_.empty()) {
+        std::copy(other.begin(), other.end(), few_.begin());
+      }
       return *this;
     }
     void push_back(const Trail& trail) {
-      if (size_ < kTrails) {
-        trails_[size_++] = trail;
+      if (size_ < few_.size()) {
+        few_[size_++] = trail;
+        return;
       }
+      if (many_.empty()) {
+        many_.assign(few_.begin(), few_.end());
+      }
+      many_.push_back(trail);
+      ++size_;
     }
     bool empty() const { return size_ == 0; }
     std::size_t size() const { return size_; }
-    const Trail* begin() const { return trails_.data(); }
-    const Trail* end() const { return trails_.data() + size_; }
+    const Trail* begin() const { return many_.empty() ? few_.data() : many_.data(); }
+    const Trail* end() const { return begin() + size_; }
 
    private:
     std::size_t size_ = 0;
-    std::array<Trail, kTrails> trails_;
+    std::array<Trail, 4> few_;
+    std::vector<Trail> many_;  // all of them, if they are more
   };
   struct Active {
     ObjectId callback = kNoObject;

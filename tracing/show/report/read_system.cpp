@@ -42,9 +42,7 @@ TracedSystem read_system(const std::vector<std::filesystem::path>& directories, 
   TracedSystem system;
   system.directory = std::filesystem::weakly_canonical(directories.front());
   timeline::TimelineRecorder recorder;
-  SinkList sinks;
-  sinks.add(&recorder);
-  sinks.add(options.also);
+  SinkList<timeline::TimelineRecorder> sinks(recorder, options.also);
   TraceAnalysis analysis(options.also == nullptr ? static_cast<ExecutionSink*>(&recorder) : &sinks, options.chains);
   if (options.with_details) {
     recorder.record_details(analysis);
