@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "tests/unit/twin/small_system.hpp"
 #include "tracing/model/twin/description/output_rules.hpp"
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/model/analysis/trace_analysis.hpp"
 
+#include <optional>
 #include <string_view>
+#include <variant>
 
 namespace tracing {
 

@@ -2,6 +2,7 @@
 #include "tracing/model/twin/overhead.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <vector>
 
