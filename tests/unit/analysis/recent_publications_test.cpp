@@ -36,14 +36,17 @@ TEST(RecentPublications, ReplaceOneOfTheSameTime) {
   EXPECT_EQ(recent.all().size(), 2u);
 }
 
-// Equal to a plain list, with times that come in any order and repeat.
-TEST(RecentPublications, FindWhatIsThere) {
+// Equal to a plain list, with times that come in their order up to a step, and then in any order and repeat.
+class AnyOrder : public ::testing::TestWithParam<std::int64_t> {};
+
+TEST_P(AnyOrder, FindWhatIsThere) {
   constexpr std::size_t kMost = 100;
   RecentPublications recent(kMost);
   std::deque<std::pair<std::int64_t, std::int64_t>> list;  // timestamp, published_ns
   std::mt19937_64 random(1);
   for (std::int64_t step = 0; step < 20'000; ++step) {
-    const auto time = static_cast<std::int64_t>(random() % 300) << (step % 40);
+    const bool in_order = step < GetParam();
+    const auto time = in_order ? step * 7 : static_cast<std::int64_t>(random() % 300) << (step % 40);
     const auto same = std::find_if(list.begin(), list.end(), [&](const auto& one) { return one.first == time; });
     bool forgot = false;
     recent.add({time, {.published_ns = step}, false}, [&](const RecentPublication& oldest) {
@@ -59,11 +62,14 @@ TEST(RecentPublications, FindWhatIsThere) {
       }
       list.emplace_back(time, step);
     }
-    const auto asked = static_cast<std::int64_t>(random() % 300) << (random() % 40);
+    const auto asked = in_order ? time - static_cast<std::int64_t>(random() % 800)
+                                : static_cast<std::int64_t>(random() % 300) << (random() % 40);
     const auto there = std::find_if(list.begin(), list.end(), [&](const auto& one) { return one.first == asked; });
     ASSERT_EQ(published_at(recent.find(asked)), there == list.end() ? -1 : there->second);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(RecentPublications, AnyOrder, ::testing::Values(0, 1, 50, 99, 100, 101, 5'000, 20'000));
 
 }  // namespace
 }  // namespace tracing

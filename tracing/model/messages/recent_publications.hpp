@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The newest publications of a topic, found by their source timestamps. A table of positions in a ring: adding and
-// finding touch few lines of memory, and nothing is allocated once the ring is full.
+// The newest publications of a topic, found by their source timestamps. They are in a ring, mostly in the order of
+// these, and then found by it. From the first one on that is out of order, a table has their positions in the ring.
+// Adding and finding touch few lines of memory, and nothing is allocated once the ring is full.
 #pragma once
 
 #include <cstddef>
@@ -29,6 +30,9 @@ class RecentPublications {
     if (ring_[newest_].source_timestamp == source_timestamp) {
       return &ring_[newest_];
     }
+    if (is_ordered_) {
+      return find_in_order(source_timestamp);
+    }
     const std::uint32_t position = slots_[slot_of(source_timestamp)].position;
     return position == kEmpty ? nullptr : &ring_[position];
   }
@@ -36,14 +40,21 @@ class RecentPublications {
   // Replaces one with the same timestamp. When the ring is full, calls forget(RecentPublication) for the oldest one.
   template <class Forget>
   void add(const RecentPublication& added, Forget forget) {
-    if (RecentPublication* const same = find(added.source_timestamp)) {
-      *same = added;
-      return;
+    const bool is_newest = is_ordered_ && (ring_.empty() || ring_[newest_].source_timestamp < added.source_timestamp);
+    if (!is_newest) {
+      if (RecentPublication* const same = find(added.source_timestamp)) {
+        *same = added;
+        return;
+      }
+      if (is_ordered_) {
+        is_ordered_ = false;
+        make_slots();
+      }
     }
     if (ring_.size() < most_) {
       newest_ = ring_.size();
       ring_.push_back(added);
-      if (2 * ring_.size() > slots_.size()) {
+      if (!is_ordered_ && 2 * ring_.size() > slots_.size()) {
         return make_slots();
       }
     } else {
@@ -51,10 +62,14 @@ class RecentPublications {
       // The next one has been in no cache for long.
       __builtin_prefetch(&ring_[after_in_ring(newest_)], 1);
       forget(ring_[newest_]);
-      empty_slot(slot_of(ring_[newest_].source_timestamp));
+      if (!is_ordered_) {
+        empty_slot(slot_of(ring_[newest_].source_timestamp));
+      }
       ring_[newest_] = added;
     }
-    slots_[slot_of(added.source_timestamp)] = {static_cast<std::uint32_t>(newest_), mixed(added.source_timestamp)};
+    if (!is_ordered_) {
+      slots_[slot_of(added.source_timestamp)] = {static_cast<std::uint32_t>(newest_), mixed(added.source_timestamp)};
+    }
   }
 
   // In no particular order.
@@ -79,12 +94,14 @@ class RecentPublications {
   }
   std::size_t after(std::size_t slot) const { return (slot + 1) & (slots_.size() - 1); }
   std::size_t after_in_ring(std::size_t position) const { return position + 1 == most_ ? 0 : position + 1; }
+  RecentPublication* find_in_order(std::int64_t source_timestamp);
   void empty_slot(std::size_t slot);
   void make_slots();
 
   std::size_t most_;
   std::size_t newest_ = 0;
   std::vector<RecentPublication> ring_;
+  bool is_ordered_ = true;
   struct Slot {
     std::uint32_t position = kEmpty;  // in the ring
     std::uint32_t mixed = 0;          // of its timestamp
