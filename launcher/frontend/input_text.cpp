@@ -40,15 +40,15 @@ std::optional<Diagnostic> find_bad_character(const LocatedText& source) {
     if (i == text.size()) {
       break;
     }
-    if (text[i] >= 0x20 || text[i] == '\n') {  // ASCII: char is signed
+    const auto byte = static_cast<unsigned char>(text[i]);  // char is signed on some processors only
+    if ((byte >= 0x20 && byte < 0x80) || byte == '\n') {
       ++i;
       continue;
     }
     const CodePoint character = decode_utf8(text.substr(i));
     if (!character.valid) {
-      return Diagnostic{Severity::kError,
-                        fmt::format("the byte 0x{:02X} is not UTF-8", static_cast<unsigned char>(text[i])),
-                        source.range(i, 1), "save the file as UTF-8"};
+      return Diagnostic{Severity::kError, fmt::format("the byte 0x{:02X} is not UTF-8", byte), source.range(i, 1),
+                        "save the file as UTF-8"};
     }
     if (character.value < 0x20 && text[i] != '\t' && text[i] != '\n' && text[i] != '\r') {
       return Diagnostic{Severity::kError,
