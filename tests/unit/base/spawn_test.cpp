@@ -11,6 +11,7 @@
 #include <cerrno>
 
 #include "base/files/pipe.hpp"
+#include "tests/support/emulated.hpp"
 
 namespace launch {
 namespace {
@@ -86,6 +87,7 @@ TEST(Spawn, GivesADescriptorAnyNumber) {
 }
 
 TEST(Spawn, ClosesAllOthersOnRequest) {
+  NEEDS_VFORK();
   const UniqueFd inherited(::dup(STDIN_FILENO));  // not close-on-exec
   ChildProgram child = shell("ls /proc/self/fd | wc -l");
   child.descriptors = {{STDIN_FILENO, kDevNull}};
@@ -97,6 +99,7 @@ TEST(Spawn, ClosesAllOthersOnRequest) {
 }
 
 TEST(Spawn, KeepsGivenDescriptorsAmongThoseThatItCloses) {
+  NEEDS_VFORK();
   Pipe extra = make_pipe();
   const UniqueFd far(::fcntl(extra.write.get(), F_DUPFD, 700));  // not close-on-exec
   ChildProgram child = shell("echo seven >&7; echo nine >&9; ls /proc/self/fd | tr '\\n' ' '; echo");
@@ -114,6 +117,7 @@ TEST(Spawn, GivesALimitOfOpenFilesFromTheFirstInstructionOn) {
 }
 
 TEST(Spawn, FailsInTheChildWithoutATrace) {
+  NEEDS_VFORK();
   EXPECT_THROW(spawn({.program = "/bin/true", .argv = {"true"}, .directory = "/nowhere"}), SpawnError);
   EXPECT_THROW(
       spawn({.program = "/bin/true", .argv = {"true"}, .descriptors = {{1, 77777}}, .only_given_descriptors = true}),
@@ -166,6 +170,7 @@ TEST(Spawn, GivesSignalsAsAsked) {
 }
 
 TEST(Spawn, LooksInPathOnlyOnRequest) {
+  NEEDS_VFORK();
   ChildProgram child{.program = "sh", .argv = {"sh", "-c", "echo found"}};
   EXPECT_THROW(run(child), SpawnError);
   child.search_path = true;
@@ -173,6 +178,7 @@ TEST(Spawn, LooksInPathOnlyOnRequest) {
 }
 
 TEST(Spawn, TellsWhyAProgramCannotBeStarted) {
+  NEEDS_VFORK();
   try {
     spawn({.program = "/no/such/program", .argv = {"program"}});
     FAIL() << "it was started";

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// What QEMU lacks when it runs programs for another processor: a child that shares the memory and the descriptors of
+// its parent. Its vfork() copies the memory, so a child can't tell its parent why it did not start a program.
+#pragma once
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace test_support {
+
+inline bool vfork_shares_memory() {
+  static volatile bool written = false;
+  const pid_t pid = ::vfork();
+  if (pid == 0) {
+    written = true;
+    ::_exit(0);
+  }
+  ::waitpid(pid, nullptr, 0);
+  return written;
+}
+
+}  // namespace test_support
+
+#define NEEDS_VFORK()                                                                 \
+  if (!test_support::vfork_shares_memory()) {                                         \
+    GTEST_SKIP() << "skipped, because vfork() copies the memory here, as under QEMU"; \
+  }                                                                                   \
+  static_assert(true)
