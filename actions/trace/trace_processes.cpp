@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "actions/trace/trace_scope.hpp"
-#include "tracing/record/account/event_counters.hpp"
+#include "tracing/record/account/counters/event_counters.hpp"
 #include "tracing/record/lttng/session_daemon.hpp"
 #include "tracing/record/plan/buffer_sizes.hpp"
 #include "tracing/record/plan/load_addresses.hpp"

@@ -16,7 +16,7 @@
 #include "programs/launch/trace/session_text.hpp"
 #include "programs/launch/trace/trace_options.hpp"
 #include "tracing/record/account/cost_measurement.hpp"
-#include "tracing/record/account/counter_directory.hpp"
+#include "tracing/record/account/counters/counter_directory.hpp"
 #include "tracing/record/account/event_cost.hpp"
 #include "tracing/record/account/loss_account.hpp"
 #include "tracing/record/account/loss_text.hpp"

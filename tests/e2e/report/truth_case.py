@@ -18,6 +18,10 @@ from own_launch import launch, started
 from trace_truth import Truth, events_of
 
 # What the tables hold of each event.
+# Callbacks behind lost ends, and events of a process before its rcl_init in a session that began late.
+MOST_HIDDEN = 3
+MOST_EARLY = 10
+
 ROWS = {
     'callback_instances': '''SELECT processes.vpid, callbacks.address, start_ns, duration_ns FROM callback_instances
       JOIN callbacks ON callback = callbacks.id JOIN processes ON process = processes.id WHERE callbacks.kind <> 'client' ''',
@@ -64,8 +68,12 @@ class TruthCase(unittest.TestCase):
                 self.assertEqual(summary[key], percentile(values, part), key)
         self.compared += 1
 
-    def check(self, trace, least, code=0, truth=None, is_whole=True):
-        """At least so many distributions have values. The report ends with this code, and says whether anything is missing."""
+    def check(self, trace, least, code=0, truth=None, is_whole=True, has_early_events=False):
+        """At least so many distributions have values. The report ends with this code, and says whether anything is missing.
+
+        `has_early_events`: a session that began late may have events of a process before its rcl_init. They are not joined
+        with what another session has of it (docs/report.md): objects without names, beside those of the process.
+        """
         rows = self.directory / 'rows.sqlite'
         for words in (('--sql', rows), ('--json',)):
             run = subprocess.run([os.environ['LAUNCH_REPORT'], trace, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
@@ -74,11 +82,13 @@ class TruthCase(unittest.TestCase):
         self.assertEqual(not (report['losses'] or report['overwritten'] or report['error']), is_whole)
         truth = truth or Truth(events_of(trace))
         self.compared = 0
-        self.check_rows(rows, truth)
+        self.check_rows(rows, truth, has_early_events)
         for callback in report['callbacks']:
             key = callback['vpid'], callback['address']
             if callback['owner'] == 'client' or callback['vpid'] not in self.started:
                 continue  # its events are those of ros2_ext
+            if has_early_events and not callback['node'] and not callback['symbol']:
+                continue
             with self.subTest(callback=callback['node'], symbol=callback['symbol']):
                 self.compare(callback['duration'], truth.durations[key])
                 begins = truth.begins[key]
@@ -106,7 +116,10 @@ class TruthCase(unittest.TestCase):
         self.assertEqual(requests, truth.requests)
         self.assertEqual(+responses, +truth.responses)
         threads = collections.Counter(process for process, _ in truth.waited)
-        for executor in report['executors']:
+        executors = sorted(report['executors'], key=lambda executor: executor['callbacks'])
+        if has_early_events:
+            executors = {(executor['vpid'], executor['vtid']): executor for executor in executors}.values()
+        for executor in executors:
             key = executor['vpid'], executor['vtid']
             with self.subTest(executor=key):
                 if executor['waited_ns'] is None:
@@ -116,10 +129,12 @@ class TruthCase(unittest.TestCase):
                 else:
                     # While one thread waits for work, the others wait for that one (docs/report.md, "Executors").
                     self.assertGreaterEqual(executor['waited_ns'], truth.waited[key])
-                self.assertEqual(executor['callbacks'], truth.callbacks_of[key])
+                # The callback behind one whose end is missing counts as a part of it (docs/report.md, "Executors").
+                fewest = truth.callbacks_of[key] - (0 if is_whole else MOST_HIDDEN)
+                self.assertTrue(fewest <= executor['callbacks'] <= truth.callbacks_of[key], executor)
         self.assertGreaterEqual(self.compared, least)
 
-    def check_rows(self, file, truth):
+    def check_rows(self, file, truth, has_early_events=False):
         """Each callback instance, message and wait, not only their numbers and distributions."""
         expected = {'callback_instances': truth.instances, 'messages': truth.ways, 'executor_waits': truth.waits}
         with sqlite3.connect(file) as database:
@@ -128,5 +143,7 @@ class TruthCase(unittest.TestCase):
                                             if table == 'messages' or row[0] in self.started)
                 with self.subTest(table=table):
                     own = collections.Counter(row for row in expected[table] if table == 'messages' or row[0] in self.started)
-                    self.assertEqual((sorted(map(str, own - found)), sorted(map(str, found - own))), ([], []))
+                    early = MOST_EARLY if has_early_events else 0
+                    self.assertEqual(sorted(map(str, own - found)), [])
+                    self.assertLessEqual((found - own).total(), early, sorted(map(str, found - own)))
         database.close()

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The directory of a launch's counters is found by the name of a session, and goes, also after a kill.
-#include "tracing/record/account/counter_directory.hpp"
+#include "tracing/record/account/counters/counter_directory.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "tracing/record/account/event_counters.hpp"
+#include "tracing/record/account/counters/event_counters.hpp"
 #include "tracing/record/account/loss_account.hpp"
 #include "tracing/record/account/loss_attribution.hpp"
 #include "tracing/record/account/loss_text.hpp"

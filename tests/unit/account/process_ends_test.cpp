@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the streams of processes have to end that have buffers of their own.
-#include "tracing/record/account/process_ends.hpp"
+#include "tracing/record/account/counters/process_ends.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What processes fire while a session is paused is not missing.
-#include "tracing/record/account/session_pauses.hpp"
+#include "tracing/record/account/counters/session_pauses.hpp"
 
 #include <gtest/gtest.h>
 

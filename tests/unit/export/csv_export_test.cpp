@@ -48,7 +48,7 @@ TEST(CsvExport, WritesAFileForEachTable) {
             "0,0,0,0,0,1767225600020095000,1767225600020100000,0,1767225600020250000,1,1767225600020300000,0,"
             "1767225600020095000,1767225600020097000,,0,0,,");
   EXPECT_EQ(lines_of(tables / "callbacks.csv")[2],
-            "1,2,1,subscription,0,,,265,Filter::on_scan(sensor_msgs::msg::LaserScan const&),0");
+            "1,2,1,subscription,0,,,265,Filter::on_scan(sensor_msgs::msg::LaserScan const&),0,");
   EXPECT_THAT(
       lines_of(tables / "starts.csv"),
       ::testing::Contains("0,101,sensor-1,/examples/"

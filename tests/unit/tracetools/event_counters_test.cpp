@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The counts of fired events that processes publish, as the launcher reads them.
-#include "tracing/record/account/event_counters.hpp"
+#include "tracing/record/account/counters/event_counters.hpp"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>

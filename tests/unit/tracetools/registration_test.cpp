@@ -11,7 +11,7 @@
 
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
-#include "tracing/record/account/event_counters.hpp"
+#include "tracing/record/account/counters/event_counters.hpp"
 #include "tracing/record/lttng/session_daemon.hpp"
 
 namespace {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "tracing/record/account/event_counters.hpp"
+#include "tracing/record/account/counters/event_counters.hpp"
 #include "tracing/record/account/loss_account.hpp"
 #include "tracing/record/account/recorded_events.hpp"
 #include "tracing/record/account/stream_packets.hpp"

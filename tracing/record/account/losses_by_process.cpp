@@ -10,11 +10,11 @@
 
 #include "base/monotonic_clock.hpp"
 #include "tracing/record/account/absence.hpp"
+#include "tracing/record/account/counters/session_pauses.hpp"
 #include "tracing/record/account/event_cuts.hpp"
 #include "tracing/record/account/loss_account.hpp"
 #include "tracing/record/account/loss_attribution.hpp"
 #include "tracing/record/account/recorded_events.hpp"
-#include "tracing/record/account/session_pauses.hpp"
 #include "tracing/record/account/stream_packets.hpp"
 #include "tracing/record/lttng/installed_program.hpp"
 #include "tracing/record/plan/trace_config.hpp"

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <set>
 
-#include "tracing/record/account/event_counters.hpp"
+#include "tracing/record/account/counters/event_counters.hpp"
 #include "tracing/record/lttng/channels.hpp"
 #include "tracing/record/lttng/lttng_ctl.hpp"
 #include "tracing/record/plan/channel_plan.hpp"

@@ -19,9 +19,9 @@
 #include <thread>
 
 #include "base/processes/process_stat.hpp"
+#include "tracing/record/account/counters/process_ends.hpp"
 #include "tracing/record/account/loss_account.hpp"
 #include "tracing/record/account/packet_losses.hpp"
-#include "tracing/record/account/process_ends.hpp"
 #include "tracing/record/account/stream_packets.hpp"
 
 namespace tracing {

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "tracing/record/account/event_counters.hpp"
+#include "tracing/record/account/counters/event_counters.hpp"
+#include "tracing/record/account/counters/process_ends.hpp"
 #include "tracing/record/account/loss_account.hpp"
-#include "tracing/record/account/process_ends.hpp"
 #include "tracing/record/account/stream_packets.hpp"
 
 namespace tracing {

@@ -10,7 +10,7 @@
 
 #include "base/monotonic_clock.hpp"
 #include "base/processes/process_stat.hpp"
-#include "tracing/record/account/event_counters.hpp"
+#include "tracing/record/account/counters/event_counters.hpp"
 #include "tracing/record/kernel/kernel_recorder.hpp"
 #include "tracing/record/lttng/consumer_priority.hpp"
 #include "tracing/record/lttng/relay_connection.hpp"

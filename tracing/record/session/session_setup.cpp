@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "tracing/record/account/counter_directory.hpp"
+#include "tracing/record/account/counters/counter_directory.hpp"
 #include "tracing/record/checks/context_check.hpp"
 #include "tracing/record/checks/kernel_checks.hpp"
 #include "tracing/record/checks/setup_checks.hpp"

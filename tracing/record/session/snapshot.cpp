@@ -12,7 +12,7 @@
 
 #include "base/monotonic_clock.hpp"
 #include "tracing/record/account/absence.hpp"
-#include "tracing/record/account/event_counters.hpp"
+#include "tracing/record/account/counters/event_counters.hpp"
 #include "tracing/record/account/loss_text.hpp"
 #include "tracing/record/account/readable_traces.hpp"
 #include "tracing/record/account/stream_packets.hpp"

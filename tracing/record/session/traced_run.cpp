@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "base/monotonic_clock.hpp"
+#include "tracing/record/account/counters/process_ends.hpp"
 #include "tracing/record/account/loss_text.hpp"
-#include "tracing/record/account/process_ends.hpp"
 #include "tracing/record/lttng/installed_program.hpp"
 #include "tracing/record/plan/preload.hpp"
 #include "tracing/record/plan/trace_error.hpp"

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "tracing/model/chains/chain_definition.hpp"
-#include "tracing/record/account/counter_directory.hpp"
+#include "tracing/record/account/counters/counter_directory.hpp"
 #include "tracing/record/account/loss_account.hpp"
 #include "tracing/record/account/overhead_guard.hpp"
 #include "tracing/record/plan/trace_config.hpp"

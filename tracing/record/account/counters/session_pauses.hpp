@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tracing/record/account/event_counters.hpp"
+#include "tracing/record/account/counters/event_counters.hpp"
 
 namespace tracing {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/record/account/process_ends.hpp"
+#include "tracing/record/account/counters/process_ends.hpp"
 
 #include <algorithm>
 #include <fstream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/record/account/counter_directory.hpp"
+#include "tracing/record/account/counters/counter_directory.hpp"
 
 #include <fcntl.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/record/account/event_counters.hpp"
+#include "tracing/record/account/counters/event_counters.hpp"
 
 #include <fcntl.h>
 #include <signal.h>

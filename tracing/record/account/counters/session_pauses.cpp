@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/record/account/session_pauses.hpp"
+#include "tracing/record/account/counters/session_pauses.hpp"
 
 #include <algorithm>
 #include <fstream>
