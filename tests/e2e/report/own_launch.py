@@ -32,6 +32,7 @@ def launch_on_hosts(directory, hosts, *words):
     Runs the launch on several hosts at once, which have a network in common and nothing else. `host` is set to the name.
     Processes of two hosts do not have the same id. Needs root.
     """
+    (directory / 'traces').mkdir(exist_ok=True)  # a daemon fails if another one makes the directory at the same time
     host = 'hostname "$0" && ' + OWN_DIRECTORY + 'exec "$@" "host:=$0"'
     script = (f'ip link set lo up; for host in {" ".join(hosts)}; do unshare --uts --mount bash -c \'{host}\' $host "$@" '
               '& children="$children $!"; done; for child in $children; do wait $child || code=$?; done; exit $code')
