@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "tracing/model/twin/description/twin_system.hpp"
@@ -22,7 +23,8 @@ enum class FigureKind {
 struct FigureKey {
   FigureKind kind = FigureKind::kCallback;
   std::string name;  // "/planner, timer 100 ms", "/scan to /planner, subscription /scan"
-  auto operator<=>(const FigureKey&) const = default;
+  bool operator==(const FigureKey&) const = default;
+  bool operator<(const FigureKey& other) const { return std::tie(kind, name) < std::tie(other.kind, other.name); }
 };
 
 using Figures = std::map<FigureKey, std::vector<std::int64_t>>;
