@@ -220,7 +220,7 @@ pybind11::capsule arrow_stream(std::shared_ptr<const TableColumns> table) {
     stream->release(stream.get());
     throw pybind11::error_already_set();
   }
-  stream.release();
+  static_cast<void>(stream.release());  // it belongs to the capsule
   return pybind11::reinterpret_steal<pybind11::capsule>(capsule);
 }
 
