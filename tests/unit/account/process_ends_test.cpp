@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "tests/support/sandbox.hpp"
 #include "tracing/record/account/unwritten_data.hpp"
 
@@ -74,6 +78,16 @@ TEST(ProcessEnds, AFirstPacketMayBeEmptyWithoutAnEnd) {
 TEST(ProcessEnds, AProcessThatLivesEndsItsStreamsWithTheSession) {
   const std::vector<Stream> streams = {stream("0", {packet(kStopped + 1)}), stream("1", {packet(kStopped + 40 * kMs)})};
   EXPECT_EQ(unfinished(streams, {{7, kStopped + 500 * kMs}}), "");
+}
+
+TEST(ProcessEnds, OfAProgramThatExecutesAnotherOneAreNotThoseOfTheOther) {
+  std::vector<Stream> streams = {stream("0", {packet(100 * kMs)}), stream("1", {packet(100 * kMs)}),
+                                 stream("2", {packet(900 * kMs)}), stream("3", {packet(900 * kMs)})};
+  streams[0].folder = streams[1].folder = "pid/bash-7-20261127-100000";
+  streams[2].folder = streams[3].folder = "pid/planner-7-20261127-100001";
+  EXPECT_EQ(unfinished(streams), "");
+  EXPECT_EQ(unfinished(streams, {{7, 899 * kMs}}), "");
+  EXPECT_EQ(unfinished(streams, {{7, 950 * kMs}}), "23");
 }
 
 TEST(ProcessEnds, OfASessionThatWasPausedAreComparedWithOneAnother) {

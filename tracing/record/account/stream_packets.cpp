@@ -195,8 +195,12 @@ std::vector<Stream> read_streams(const fs::path& directory, const std::set<std::
       return std::tie(a.sequence_number, a.begin) < std::tie(b.sequence_number, b.begin);
     });
     const auto& [domain, trace, channel, cpu] = key;
-    streams.push_back(
-        {.domain = domain, .channel = channel, .cpu = cpu, .pid = owner_of(trace), .packets = std::move(packets)});
+    streams.push_back({.domain = domain,
+                       .channel = channel,
+                       .cpu = cpu,
+                       .pid = owner_of(trace),
+                       .folder = trace.string(),
+                       .packets = std::move(packets)});
   }
   std::stable_sort(streams.begin(), streams.end(), [](const Stream& a, const Stream& b) {
     return std::tie(a.domain, a.channel, a.cpu) < std::tie(b.domain, b.channel, b.cpu);

@@ -28,7 +28,9 @@ struct Stream {
   std::string channel;                   // "ros2"
   std::string cpu;                       // "0"
   std::optional<std::int64_t> pid = {};  // of the process that owns the buffers, where each process has its own
-  std::vector<Packet> packets = {};      // in their order
+  // Of its trace, where each process has its own: a process that executes another program has one for each.
+  std::string folder = {};
+  std::vector<Packet> packets = {};  // in their order
 };
 
 // The streams of the recording in `directory`, the path of its session or of a snapshot. A stream is the same through

@@ -17,6 +17,7 @@
 #include <map>
 #include <set>
 #include <thread>
+#include <utility>
 
 #include "base/processes/process_stat.hpp"
 #include "tracing/record/account/counters/process_ends.hpp"
@@ -40,18 +41,29 @@ std::uint64_t end_of(const Stream& stream) {
   return stream.packets.empty() ? 0 : stream.packets.back().end;
 }
 
-std::map<std::int64_t, EndOfProcess> ends_of_processes(const std::vector<Stream>& streams,
-                                                       const ProcessEnds& lived_until) {
-  std::map<std::int64_t, std::vector<const Stream*>> of_processes;
+// A program that a process has executed: the process, and the folder of the trace.
+using Program = std::pair<std::int64_t, std::string>;
+
+Program program_of(const Stream& stream) {
+  return {stream.pid.value_or(0), stream.folder};
+}
+
+// What is known of a process tells of the last program that it has executed.
+std::map<Program, EndOfProcess> ends_of_programs(const std::vector<Stream>& streams, const ProcessEnds& lived_until) {
+  std::map<Program, std::vector<const Stream*>> of_programs;
+  std::map<std::int64_t, std::pair<std::uint64_t, Program>> last_programs;  // by process, with their ends
   for (const Stream& stream : streams) {
     if (stream.pid) {
-      of_processes[*stream.pid].push_back(&stream);
+      of_programs[program_of(stream)].push_back(&stream);
+      auto& last = last_programs[*stream.pid];
+      last = std::max(last, std::pair(end_of(stream), program_of(stream)));
     }
   }
-  std::map<std::int64_t, EndOfProcess> ends;
-  for (const auto& [pid, of_process] : of_processes) {
-    const auto lived = lived_until.find(pid);
-    ends.try_emplace(pid, of_process, lived == lived_until.end() ? 0 : lived->second);
+  std::map<Program, EndOfProcess> ends;
+  for (const auto& [program, of_program] : of_programs) {
+    const auto lived = lived_until.find(program.first);
+    const bool is_last = last_programs[program.first].second == program;
+    ends.try_emplace(program, of_program, is_last && lived != lived_until.end() ? lived->second : 0);
   }
   return ends;
 }
@@ -125,14 +137,13 @@ std::vector<UnwrittenRange> unfinished_streams(const std::vector<Stream>& stream
     return found;
   }
   const std::uint64_t origin = std::min(first_time(streams), latest);  // without a packet no time is known
-  const std::map<std::int64_t, EndOfProcess> ends =
-      ends_of_processes(streams, stopped == 0 ? ProcessEnds() : lived_until);
+  const std::map<Program, EndOfProcess> ends = ends_of_programs(streams, stopped == 0 ? ProcessEnds() : lived_until);
   for (const Stream& stream : streams) {
     if (stream.domain != "ust") {
       continue;
     }
     const std::uint64_t expected =
-        stream.pid ? std::min(latest, ends.at(*stream.pid).expected_end(stream)) : shared_end;
+        stream.pid ? std::min(latest, ends.at(program_of(stream)).expected_end(stream)) : shared_end;
     const std::uint64_t end = stream.packets.empty() ? origin : end_of(stream);
     if (end >= expected && !stream.packets.empty()) {
       continue;
