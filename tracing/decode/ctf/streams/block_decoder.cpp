@@ -36,11 +36,14 @@ BlockDecoder::BlockDecoder(const StreamLayout& layout, std::vector<Packet> packe
   }
 }
 
-bool BlockDecoder::has_room(const EventBlock& block) const {
+bool BlockDecoder::has_room_for_items(const EventBlock& block) {
   constexpr std::size_t kFew = 4;           // more than the losses before a packet, an event and a damage
   constexpr std::size_t kMostOthers = 256;  // each has many fields
-  return block.others.size() < kMostOthers && block.count + kFew < EventBlock::kMostItems &&
-         block.bytes.used() < block_size_;
+  return block.others.size() < kMostOthers && block.count + kFew < EventBlock::kMostItems;
+}
+
+bool BlockDecoder::has_room(const EventBlock& block) const {
+  return has_room_for_items(block) && block.bytes.used() < block_size_;
 }
 
 void BlockDecoder::fill(EventBlock& block) {
@@ -140,7 +143,7 @@ void BlockDecoder::decode_window(EventBlock& block) {
     }
     cycles_ = cycles;
     block.add(item);
-  } while (window_.at < safe_limit && has_room(block));
+  } while (window_.at < safe_limit && has_room_for_items(block));
 }
 
 // Returns the first byte behind them.

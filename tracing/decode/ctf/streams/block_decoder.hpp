@@ -33,7 +33,8 @@ class BlockDecoder {
 
  private:
   bool open_packet(EventBlock& block);
-  bool has_room(const EventBlock& block) const;
+  static bool has_room_for_items(const EventBlock& block);
+  bool has_room(const EventBlock& block) const;  // also for another part of the file
   void decode_packet(EventBlock& block);
   void decode_window(EventBlock& block);
   const std::uint8_t* find_structures(EventBlock& block, EventBlock::Item& item, const std::uint8_t* end) const;
