@@ -96,7 +96,7 @@ void TraceScope::record(const LaunchRecord& record) {
   }
   // Whatever it ended of: at an exit() other threads may be within an event, and a shell tells the death of its child
   // by an exit code.
-  run_.process_ended(record.name, record.pid);
+  run_.process_ended(record.name, record.pid, record.value != 0);
   if (!choices_.snapshot_on_crash || record.value == 0 || record.asked_for) {
     return;
   }

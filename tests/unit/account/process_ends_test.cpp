@@ -60,24 +60,39 @@ TEST(ProcessEnds, AllStreamsAreUnfinishedIfTheProcessLivedLonger) {
   const std::vector<Stream> streams = {stream("0", {packet(100 * kMs), packet(200 * kMs)}),
                                        stream("1", {packet(100 * kMs), packet(200 * kMs)})};
   EXPECT_EQ(unfinished(streams), "");
-  EXPECT_EQ(unfinished(streams, {{7, 199 * kMs}, {8, 300 * kMs}}), "");
-  EXPECT_EQ(unfinished(streams, {{7, 300 * kMs}}), "01");
+  EXPECT_EQ(unfinished(streams, {{7, {199 * kMs}}, {8, {300 * kMs}}}), "");
+  EXPECT_EQ(unfinished(streams, {{7, {300 * kMs}}}), "01");
+}
+
+TEST(ProcessEnds, AProcessThatDiedALittleLaterMayHaveDiedWithinAnEvent) {
+  const std::vector<Stream> streams = {stream("0", {packet(100 * kMs), packet(200 * kMs)}),
+                                       stream("1", {packet(100 * kMs), packet(200 * kMs)})};
+  const ProcessEnds died = {{7, {.lived_until = 160 * kMs, .may_have_lived_to = 208 * kMs}}};
+  const auto found = tracing::unfinished_streams(streams, kStopped, died);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_TRUE(found[0].in_doubt);
+  EXPECT_EQ(
+      tracing::describe_unfinished({found[0]}, {}),
+      "unfinished: process 7 may have died within an event, processor 0, since 0.200 s of 0.208 s (channel ros2)");
+  EXPECT_EQ(unfinished(streams, {{7, {.lived_until = 160 * kMs, .may_have_lived_to = 199 * kMs}}}), "");
+  const std::vector<Stream> with_end = {streams[0], stream("1", {packet(100 * kMs), empty_packet(200 * kMs)})};
+  EXPECT_EQ(unfinished(with_end, died), "");
 }
 
 TEST(ProcessEnds, AnEmptyLastPacketIsTheEndWhateverOthersSay) {
   const Stream idle = stream("1", {packet(100 * kMs), empty_packet(200 * kMs)});
-  EXPECT_EQ(unfinished({stream("0", {packet(100 * kMs), packet(200 * kMs)}), idle}, {{7, 300 * kMs}}), "");
-  EXPECT_EQ(unfinished({stream("0", {packet(100 * kMs), packet(180 * kMs)}), idle}, {{7, 300 * kMs}}), "0");
+  EXPECT_EQ(unfinished({stream("0", {packet(100 * kMs), packet(200 * kMs)}), idle}, {{7, {300 * kMs}}}), "");
+  EXPECT_EQ(unfinished({stream("0", {packet(100 * kMs), packet(180 * kMs)}), idle}, {{7, {300 * kMs}}}), "0");
 }
 
 TEST(ProcessEnds, AFirstPacketMayBeEmptyWithoutAnEnd) {
   const std::vector<Stream> streams = {stream("0", {packet(200 * kMs)}), stream("1", {empty_packet(200 * kMs)})};
-  EXPECT_EQ(unfinished(streams, {{7, 300 * kMs}}), "01");
+  EXPECT_EQ(unfinished(streams, {{7, {300 * kMs}}}), "01");
 }
 
 TEST(ProcessEnds, AProcessThatLivesEndsItsStreamsWithTheSession) {
   const std::vector<Stream> streams = {stream("0", {packet(kStopped + 1)}), stream("1", {packet(kStopped + 40 * kMs)})};
-  EXPECT_EQ(unfinished(streams, {{7, kStopped + 500 * kMs}}), "");
+  EXPECT_EQ(unfinished(streams, {{7, {kStopped + 500 * kMs}}}), "");
 }
 
 TEST(ProcessEnds, OfAProgramThatExecutesAnotherOneAreNotThoseOfTheOther) {
@@ -86,24 +101,25 @@ TEST(ProcessEnds, OfAProgramThatExecutesAnotherOneAreNotThoseOfTheOther) {
   streams[0].folder = streams[1].folder = "pid/bash-7-20261127-100000";
   streams[2].folder = streams[3].folder = "pid/planner-7-20261127-100001";
   EXPECT_EQ(unfinished(streams), "");
-  EXPECT_EQ(unfinished(streams, {{7, 899 * kMs}}), "");
-  EXPECT_EQ(unfinished(streams, {{7, 950 * kMs}}), "23");
+  EXPECT_EQ(unfinished(streams, {{7, {899 * kMs}}}), "");
+  EXPECT_EQ(unfinished(streams, {{7, {950 * kMs}}}), "23");
 }
 
 TEST(ProcessEnds, OfASessionThatWasPausedAreComparedWithOneAnother) {
   const std::vector<Stream> streams = {stream("0", {packet(100 * kMs)}),
                                        stream("1", {packet(100 * kMs), packet(200 * kMs)})};
-  EXPECT_EQ(unfinished(streams, {{7, 300 * kMs}}, 0), "0");
+  EXPECT_EQ(unfinished(streams, {{7, {300 * kMs}}}, 0), "0");
 }
 
 TEST(ProcessEnds, AreNotedByTheLaunchAndTheProcessKnowsBetter) {
   const test_support::Sandbox sandbox;
   const std::string counters = sandbox.directory().string();
-  tracing::note_process_end("", 7, 1);
-  tracing::note_process_end(counters, 7, 1'000 * kMs);
-  tracing::note_process_end(counters, 8, 2'000 * kMs);
+  tracing::note_process_end("", 7, 1, true);
+  tracing::note_process_end(counters, 7, 1'000 * kMs, true);
+  tracing::note_process_end(counters, 8, 2'000 * kMs, false);
+  tracing::note_process_end(counters, 10, 3'000 * kMs, false);
   const ProcessEnds ends = tracing::read_process_ends(counters, {{.pid = 8, .end = 1'999 * kMs}, {.pid = 9}});
-  EXPECT_EQ(ends, (ProcessEnds{{7, 950 * kMs}, {8, 1'999 * kMs}}));
+  EXPECT_EQ(ends, (ProcessEnds{{7, {950 * kMs, 998 * kMs}}, {8, {1'999 * kMs}}, {10, {2'950 * kMs}}}));
   EXPECT_TRUE(tracing::read_process_ends("", {}).empty());
 }
 

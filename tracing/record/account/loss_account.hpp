@@ -51,6 +51,7 @@ struct UnwrittenRange {
   std::string channel = {};
   std::optional<std::int64_t> pid = {};  // of the process that owns the buffers, where each process has its own
   bool after_losses = false;             // events were discarded before
+  bool in_doubt = false;                 // there may have been no events
 };
 
 // What a channel recorded before the first packet that its trace still has.

@@ -63,7 +63,7 @@ std::map<Program, EndOfProcess> ends_of_programs(const std::vector<Stream>& stre
   for (const auto& [program, of_program] : of_programs) {
     const auto lived = lived_until.find(program.first);
     const bool is_last = last_programs[program.first].second == program;
-    ends.try_emplace(program, of_program, is_last && lived != lived_until.end() ? lived->second : 0);
+    ends.try_emplace(program, of_program, is_last && lived != lived_until.end() ? lived->second : ProcessEnd());
   }
   return ends;
 }
@@ -77,11 +77,14 @@ std::string why_unfinished(const UnwrittenRange& range, std::vector<std::string>
   if (range.pid) {
     const std::string pid = fmt::format("[{}]", *range.pid);
     std::erase_if(killed, [&pid](const std::string& process) { return !process.ends_with(pid); });
-    if (killed.empty() && range.after_losses) {
+    if (killed.empty() && range.after_losses && !range.in_doubt) {
       return fmt::format("the buffers of process {} were full to its end", *range.pid);
     }
     if (killed.empty()) {
       killed.push_back(fmt::format("process {}", *range.pid));
+    }
+    if (range.in_doubt) {
+      return fmt::format("{} may have died within an event", killed.front());
     }
   }
   if (killed.size() > kMostUnfinished) {
@@ -145,15 +148,19 @@ std::vector<UnwrittenRange> unfinished_streams(const std::vector<Stream>& stream
     const std::uint64_t expected =
         stream.pid ? std::min(latest, ends.at(program_of(stream)).expected_end(stream)) : shared_end;
     const std::uint64_t end = stream.packets.empty() ? origin : end_of(stream);
-    if (end >= expected && !stream.packets.empty()) {
+    const std::uint64_t doubtful =
+        stream.pid ? std::min(latest, ends.at(program_of(stream)).doubtful_until(stream)) : 0;
+    const bool has_ended = end >= expected && !stream.packets.empty();
+    if (has_ended && end >= doubtful) {
       continue;
     }
     found.push_back({.cpu = stream.cpu,
                      .begin_ns = end - origin,
-                     .end_ns = std::max(end, expected) - origin,
+                     .end_ns = std::max({end, expected, doubtful}) - origin,
                      .channel = stream.channel,
                      .pid = stream.pid,
-                     .after_losses = discarded_in(stream) != 0});
+                     .after_losses = discarded_in(stream) != 0,
+                     .in_doubt = has_ended});
   }
   return found;
 }

@@ -110,6 +110,9 @@ nlohmann::ordered_json channel_as_json(const ChannelLoss& channel) {
     if (range.pid) {
       json["unwritten"].back()["pid"] = *range.pid;
     }
+    if (range.in_doubt) {
+      json["unwritten"].back()["in_doubt"] = true;
+    }
   }
   if (channel.advised_subbuffer_size != 0) {
     json["would_have_held"] = {{"subbuffer_size", channel.advised_subbuffer_size},

@@ -197,9 +197,9 @@ void TracedRun::request_snapshot(const std::string& reason, const std::string& d
   }
 }
 
-void TracedRun::process_ended(const std::string& name, pid_t pid) {
+void TracedRun::process_ended(const std::string& name, pid_t pid, bool died) {
   if (config_.buffers_ust == BufferOwner::kProcess) {
-    note_process_end(config_.event_counters, pid, static_cast<std::uint64_t>(launch::monotonic_time()));
+    note_process_end(config_.event_counters, pid, static_cast<std::uint64_t>(launch::monotonic_time()), died);
   }
   const std::lock_guard lock(watchers_mutex_);
   if (run_watch_) {

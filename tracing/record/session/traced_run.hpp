@@ -82,7 +82,8 @@ class TracedRun {
   // Does nothing if there is no flight recorder at the time. `died`: as of FlightRecorder::request().
   void request_snapshot(const std::string& reason, const std::string& died = "");
   // A process of the run has ended just now: find out whether it has died within an event, at once or at the end.
-  void process_ended(const std::string& name, pid_t pid);
+  // `died`: not with exit code 0.
+  void process_ended(const std::string& name, pid_t pid, bool died);
   // The user is in a hurry: a finish() under way ends at once, with the data that is there.
   void hurry() { hurry_ = true; }
   // Ends the session and tells what it holds and has lost. Throws TraceError when the session can't be reached any

@@ -11,8 +11,9 @@ namespace {
 constexpr std::uint64_t kOneGo = 10'000'000;  // ns
 // Within this time packets were ended by one tick of the switch timer.
 constexpr std::uint64_t kTick = 200'000;  // ns
-// A launch on a busy machine sees the end of a process so late.
+// A launch on a busy machine sees the end of a process so late, and one on an idle machine sooner than that.
 constexpr std::uint64_t kLongestUnseen = 50'000'000;  // ns
+constexpr std::uint64_t kSoon = 2'000'000;            // ns
 
 std::string file_of(const std::string& counters) {
   return counters + "/process-ends";
@@ -29,9 +30,10 @@ bool has_an_empty_end(const Stream& stream) {
 
 }  // namespace
 
-void note_process_end(const std::string& counters, pid_t pid, std::uint64_t time) {
+void note_process_end(const std::string& counters, pid_t pid, std::uint64_t time, bool died) {
   if (!counters.empty()) {
-    std::ofstream(file_of(counters), std::ios::app) << pid << ' ' << before(time, kLongestUnseen) << '\n';
+    std::ofstream(file_of(counters), std::ios::app)
+        << pid << ' ' << before(time, kLongestUnseen) << ' ' << (died ? before(time, kSoon) : 0) << '\n';
   }
 }
 
@@ -40,19 +42,19 @@ ProcessEnds read_process_ends(const std::string& counters, const std::vector<Eve
   if (!counters.empty()) {
     std::ifstream file(file_of(counters));
     std::int64_t pid = 0;
-    for (std::uint64_t time = 0; file >> pid >> time;) {
-      ends[pid] = time;
+    for (ProcessEnd end; file >> pid >> end.lived_until >> end.may_have_lived_to;) {
+      ends[pid] = end;
     }
   }
   for (const EventCounts& process : counts) {
     if (process.end != 0) {
-      ends[process.pid] = process.end;
+      ends[process.pid] = {.lived_until = process.end};
     }
   }
   return ends;
 }
 
-EndOfProcess::EndOfProcess(const std::vector<const Stream*>& streams, std::uint64_t lived_until) {
+EndOfProcess::EndOfProcess(const std::vector<const Stream*>& streams, const ProcessEnd& known) {
   std::uint64_t certain = 0;
   for (const Stream* const stream : streams) {
     if (stream->packets.empty()) {
@@ -65,7 +67,8 @@ EndOfProcess::EndOfProcess(const std::vector<const Stream*>& streams, std::uint6
       earlier_.emplace_back(stream, stream->packets[i].end);
     }
   }
-  least_ = certain != 0 ? before(certain, kOneGo) : std::max(before(end_, kOneGo), lived_until);
+  least_ = certain != 0 ? before(certain, kOneGo) : std::max(before(end_, kOneGo), known.lived_until);
+  doubtful_until_ = certain != 0 ? 0 : known.may_have_lived_to;
 }
 
 std::uint64_t EndOfProcess::expected_end(const Stream& stream) const {
@@ -78,6 +81,12 @@ std::uint64_t EndOfProcess::expected_end(const Stream& stream) const {
         return earlier.first != &stream && earlier.second + kTick >= end && earlier.second <= end + kTick;
       });
   return end < least_ || is_tick ? std::max(least_, end_) : least_;
+}
+
+std::uint64_t EndOfProcess::doubtful_until(const Stream& stream) const {
+  const bool may_lack =
+      !has_an_empty_end(stream) && !stream.packets.empty() && stream.packets.back().end < doubtful_until_;
+  return may_lack ? doubtful_until_ : 0;
 }
 
 }  // namespace tracing

@@ -14,11 +14,17 @@
 
 namespace tracing {
 
-// Until when a process lived at least, by its number: CLOCK_MONOTONIC, ns.
-using ProcessEnds = std::map<std::int64_t, std::uint64_t>;
+// CLOCK_MONOTONIC, ns; 0: not known.
+struct ProcessEnd {
+  std::uint64_t lived_until = 0;        // at least
+  std::uint64_t may_have_lived_to = 0;  // not longer
+  bool operator==(const ProcessEnd&) const = default;
+};
+using ProcessEnds = std::map<std::int64_t, ProcessEnd>;  // by process
 
 // Notes in the directory of the counters that the launch has seen the end of a process at `time`. Does nothing for "".
-void note_process_end(const std::string& counters, pid_t pid, std::uint64_t time);
+// `died`: not with exit code 0.
+void note_process_end(const std::string& counters, pid_t pid, std::uint64_t time, bool died);
 
 // As they were noted, and as the processes of `counts` say themselves.
 ProcessEnds read_process_ends(const std::string& counters, const std::vector<EventCounts>& counts);
@@ -29,15 +35,18 @@ ProcessEnds read_process_ends(const std::string& counters, const std::vector<Eve
 // streams within some microseconds.
 class EndOfProcess {
  public:
-  // `lived_until`: 0 if it is not known.
-  EndOfProcess(const std::vector<const Stream*>& streams, std::uint64_t lived_until);
+  EndOfProcess(const std::vector<const Stream*>& streams, const ProcessEnd& end);
 
   // The time at which the stream has to end, or later.
   std::uint64_t expected_end(const Stream& stream) const;
+  // Until when the stream may lack events although it has ended then: its last packet may be one that the timer ended
+  // just before the process died. 0: it lacks none.
+  std::uint64_t doubtful_until(const Stream& stream) const;
 
  private:
   std::uint64_t end_ = 0;  // of all its streams
   std::uint64_t least_ = 0;
+  std::uint64_t doubtful_until_ = 0;
   std::vector<std::pair<const Stream*, std::uint64_t>> earlier_;  // the ends of packets that others followed
 };
 
