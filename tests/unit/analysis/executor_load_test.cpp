@@ -33,6 +33,29 @@ TEST(ExecutorLoad, IsTheTimeWithoutWaiting) {
   EXPECT_EQ(executor.longest_callback, "/busy, timer 100 ns");
 }
 
+TEST(ExecutorLoad, ACallbackThatSpinsHoldsThoseThatRanWithinIt) {
+  Feed feed;
+  feed.at(1'000)(ros2::RclcppExecutorWaitForWork{-1}).at(1'100)(ros2::RclcppExecutorGetNextReady{});
+  feed.at(1'200)(ros2::CallbackStart{1, false}).at(1'210)(ros2::CallbackStart{2, false});
+  feed.at(1'220)(ros2::CallbackEnd{2}).at(1'230)(ros2::CallbackStart{3, false}).at(1'240)(ros2::CallbackEnd{3});
+  feed.at(1'300)(ros2::CallbackEnd{1}).at(1'400)(ros2::CallbackStart{2, false}).at(1'405)(ros2::CallbackEnd{2});
+  const ExecutorResult executor = feed.results().executors.at(0);
+  EXPECT_EQ(executor.callbacks, 2u);
+  EXPECT_EQ(executor.callback_ns, 100 + 5);
+}
+
+TEST(ExecutorLoad, ACallbackWhoseEndIsLostDoesNotHideThoseThatFollow) {
+  Feed feed;
+  feed.at(1'000)(ros2::RclcppExecutorWaitForWork{-1}).at(1'100)(ros2::RclcppExecutorGetNextReady{});
+  feed.at(1'200)(ros2::CallbackStart{1, false});
+  for (std::int64_t i = 0; i < 3'000; ++i) {
+    feed.at(2'000 + 10 * i)(ros2::CallbackStart{2, false}).at(2'004 + 10 * i)(ros2::CallbackEnd{2});
+  }
+  const ExecutorResult executor = feed.results().executors.at(0);
+  EXPECT_EQ(executor.callbacks, 3'000u);
+  EXPECT_EQ(executor.callback_ns, 12'000);
+}
+
 // One thread waits for work with a lock; the other one waits for the lock.
 TEST(ExecutorLoad, AThreadIsNotBusyWhileAnotherThreadOfTheExecutorWaitsForWork) {
   Feed feed;

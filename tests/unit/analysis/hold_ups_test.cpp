@@ -44,6 +44,24 @@ TEST_F(HoldUpsTest, OfATimerThatWasDue) {
   EXPECT_EQ(timer.held_up_ns, 14'000 - 11'000);
 }
 
+TEST_F(HoldUpsTest, BehindACallbackWhoseEndIsLost) {
+  feed.at(9'000)(ros2::CallbackStart{0xcb, false});
+  run(0xaa, 10'000, 10'100);
+  run(0xbb, 10'200, 14'000);
+  run(0xaa, 14'010, 14'100);
+  EXPECT_EQ(result(0xaa).held_up_by, "/node, timer 10 us");
+}
+
+TEST_F(HoldUpsTest, ByACallbackThatSpunAndRanOthers) {
+  run(0xaa, 10'000, 10'100);
+  feed.at(10'200)(ros2::CallbackStart{0xbb, false});
+  run(0xcb, 10'300, 12'000);
+  feed.at(14'000)(ros2::CallbackEnd{0xbb});
+  run(0xaa, 14'010, 14'100);
+  EXPECT_EQ(result(0xaa).held_up_by, "/node, timer 10 us");
+  EXPECT_EQ(result(0xaa).held_up_ns, 14'000 - 11'000);
+}
+
 TEST_F(HoldUpsTest, OfAMessageThatWasThere) {
   run(0xaa, 10'000, 13'000);
   run(0xbb, 10'100, 12'000, 73);  // of another thread

@@ -7,6 +7,9 @@ namespace tracing {
 
 namespace {
 
+// Of a thread that has lost the end of a callback, all that follow look as if they ran within that one.
+constexpr std::size_t kInner = 1'024;
+
 // The thread looked for work again and again in this time, or another one did so for it.
 void add_wait(ExecutorRecord& record, std::int64_t begin_ns, std::int64_t end_ns) {
   if (record.first_ns == 0) {
@@ -26,6 +29,27 @@ void add_wait(ExecutorRecord& record, std::int64_t begin_ns, std::int64_t end_ns
   record.free_since_ns = 0;
 }
 
+// Callbacks that ran within one that has ended are a part of it. Those within one that never ended are not: its end was
+// lost, or an exception has left it.
+void add_callback(ExecutorRecord& record, const CallbackInstance& instance) {
+  const std::int64_t took = instance.end_ns - instance.begin_ns;
+  ++record.callbacks;
+  record.callback_ns += took;
+  while (!record.inner.empty() && record.inner.back().begin_ns >= instance.begin_ns) {
+    --record.callbacks;
+    record.callback_ns -= record.inner.back().took_ns;
+    record.inner.pop_back();
+  }
+  if (!instance.nested) {
+    record.inner.clear();
+    return;
+  }
+  record.inner.push_back({instance.begin_ns, took});
+  if (record.inner.size() > kInner) {
+    record.inner.pop_front();
+  }
+}
+
 }  // namespace
 
 ExecutorLoad::ProcessWaits& ExecutorLoad::waits_of(ProcessId process) {
@@ -36,17 +60,17 @@ ExecutorLoad::ProcessWaits& ExecutorLoad::waits_of(ProcessId process) {
 }
 
 void ExecutorLoad::on_callback(const CallbackInstance& instance) {
-  if (instance.nested || !instance.finished) {
+  ExecutorRecord& record = records_[instance.thread];
+  if (!instance.finished) {
+    record.inner.clear();
     return;
   }
-  ExecutorRecord& record = records_[instance.thread];
-  if (record.first_ns == 0) {
+  if (record.first_ns == 0 || instance.begin_ns < record.first_ns) {
     record.first_ns = instance.begin_ns;
   }
   record.last_ns = std::max(record.last_ns, instance.end_ns);
   const std::int64_t took = instance.end_ns - instance.begin_ns;
-  ++record.callbacks;
-  record.callback_ns += took;
+  add_callback(record, instance);
   if (record.candidate == kNoObject || took > record.candidate_ns) {
     record.candidate = instance.callback;
     record.candidate_ns = took;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 #include "tracing/model/execution/execution_sink.hpp"
@@ -17,6 +18,11 @@ struct ExecutorRecord {
   std::int64_t waited_ns = 0;
   std::uint64_t callbacks = 0;  // those that ran within another one don't count here
   std::int64_t callback_ns = 0;
+  struct Inner {
+    std::int64_t begin_ns = 0;
+    std::int64_t took_ns = 0;
+  };
+  std::deque<Inner> inner;  // counted, but they may have run within a callback that has not ended yet
   // The longest time without a look for work: no other callback of the thread could begin.
   std::int64_t longest_busy_ns = 0;
   std::int64_t longest_busy_begin_ns = 0;

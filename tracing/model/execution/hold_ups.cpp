@@ -45,10 +45,13 @@ void HoldUps::on_message(const MessageFlow& message) {
 }
 
 void HoldUps::on_callback(const CallbackInstance& instance) {
-  if (instance.nested || !instance.finished) {
+  if (!instance.finished) {
     return;
   }
   std::deque<Run>& runs = runs_[instance.thread];
+  while (!runs.empty() && runs.back().begin_ns >= instance.begin_ns) {
+    runs.pop_back();  // it ran within this one
+  }
   runs.push_back({instance.callback, instance.begin_ns, instance.end_ns});
   if (runs.size() > kRuns) {
     runs.pop_front();
