@@ -5,14 +5,12 @@ import json
 import os
 import subprocess
 import unittest
-from pathlib import Path
 
 from own_launch import IS_ROOT, launch, launch_on_hosts, started
 from stream_files import packet_ends
 from trace_truth import Truth, events_once
-from truth_case import TruthCase
+from truth_case import NAMES, TruthCase
 
-EXAMPLES = Path(os.environ['SOURCE_DIRECTORY']) / 'launch_examples'
 LAUNCH = os.environ['LAUNCH_PROGRAM']
 
 # Nodes that publish and answer one another.
@@ -22,9 +20,29 @@ RUNNING = f'''
   <executable cmd="{os.environ["EXECUTOR_THREADS_WORKER"]}"/>
   <node pkg="demo_nodes" exec="pong"/>
   <node pkg="demo_nodes" exec="ping"><param name="count" value="0"/><param name="period_ms" value="20"/></node>'''
-# The same for a while.
-NODES = f'{RUNNING}<timer period="2.5"><shutdown/></timer>'
-NODES_FOR_LONG = f'{RUNNING}<timer period="6"><shutdown/></timer>'
+ANSWERS = '<on_process_io process="ping" pattern="ping [0-9]*[05]0 answered" once="true">{}</on_process_io>'
+
+
+def in_turn(*steps):
+    """
+    Takes each step when up to fifty more messages have been answered since the one before, however long that takes, and at last
+    ends the system. A step is a tag, or a command, which has ended when the answers are counted.
+    """
+    content = '<shutdown/>'
+    for number, step in reversed(list(enumerate(steps))):
+        content = ANSWERS.format(content)
+        if step and not step.startswith('<'):
+            step = f'<executable name="step_{number}" cmd="{step}"/>'
+            content = f'<on_process_exit process="step_{number}">{content}</on_process_exit>'
+        content = step + content
+    return content
+
+
+NODES = RUNNING + in_turn('', '')
+# The talker's third message has been heard.
+TALKER_AND_LISTENER = '''<node pkg="demo_nodes" exec="talker"/>
+  <node pkg="demo_nodes" exec="listener"/>
+  <on_process_io pattern="I heard.*World: 3"><shutdown/></on_process_io>'''
 # Two nodes that send this many messages, however long it takes.
 MANY_MESSAGES = '''<node pkg="demo_nodes" exec="pong"/>
   <node pkg="demo_nodes" exec="ping" on_exit="shutdown"><param name="count" value="1000"/><param name="period_ms" value="2"/></node>'''
@@ -39,20 +57,25 @@ class Recordings(TruthCase):
         self.check(self.record(file, times=2), 10)
 
     def test_channels(self):
-        self.check(self.record(EXAMPLES / '21_trace_channels.launch.xml'), 1)
+        file = self.directory / 'channels.launch.xml'
+        file.write_text(f'''<launch>
+          <trace session-name="channels" nodes="listener"
+                 events-ust="'ros2:* except ros2:rclcpp_executor_*,ros2:callback_*,ros2:rmw_take' 'ros2:rmw_take if taken == 1'">
+            <channel name="callbacks" events-ust="ros2:callback_*" subbuffer-size="65536" context-fields="vpid vtid"/>
+          </trace>{TALKER_AND_LISTENER}</launch>''')
+        self.check(self.record(file), 1)
 
     def test_small_packets(self):
-        self.check(self.record_text(f'<include file="{EXAMPLES / "02_names.launch.xml"}"/>',
+        self.check(self.record_text(NAMES,
                                     'subbuffer-size-ust="16384" subbuffer-count-ust="64"'), 4)
 
     def test_small_files_of_each_process(self):
-        self.check(self.record_text(f'<include file="{EXAMPLES / "02_names.launch.xml"}"/>',
+        self.check(self.record_text(NAMES,
                                     'buffers-ust="pid" subbuffer-size-ust="65536" subbuffer-count-ust="16"'), 4)
 
     def test_a_rotated_session(self):
-        rotate = '<executable cmd="lttng rotate truth"/>'
-        trace = self.record_text(f'{NODES}<timer period="0.7">{rotate}</timer><timer period="1.6">{rotate}</timer>',
-                                 append_timestamp='false')
+        rotate = 'lttng rotate truth'
+        trace = self.record_text(RUNNING + in_turn('', rotate, rotate), append_timestamp='false')
         self.assertGreaterEqual(len(list((trace / 'truth/archives').iterdir())), 3)
         self.check(trace, 10)
 
@@ -64,28 +87,25 @@ class Recordings(TruthCase):
 
     def test_a_second_session_that_begins_late(self):
         file = self.directory / 'late.launch.xml'
-        file.write_text(f'<launch><trace session-name="one"/>{NODES_FOR_LONG}'
-                        '<timer period="1.2"><trace session-name="two"/></timer></launch>')
+        steps = in_turn('', '<trace session-name="two"/>', '')
+        file.write_text(f'<launch><trace session-name="one"/>{RUNNING}{steps}</launch>')
         traces = self.record(file)
         self.check(traces, 10, truth=Truth(events_once(sorted(traces.iterdir()))), has_early_events=True)
 
     def test_a_session_that_begins_late(self):
         file = self.directory / 'late.launch.xml'
-        file.write_text(f'<launch>{NODES_FOR_LONG}<timer period="1"><trace session-name="late"/></timer></launch>')
+        steps = in_turn('', '<trace session-name="late"/>', '')
+        file.write_text(f'<launch>{RUNNING}{steps}</launch>')
         self.check(self.record(file), 5)
 
     def test_a_paused_session(self):
-        command = f'<executable cmd="{LAUNCH} trace {{}} truth"/>'
-        self.check(self.record_text(f'{NODES}<timer period="0.8">{command.format("pause")}</timer>'
-                                    f'<timer period="1.6">{command.format("resume")}</timer>', append_timestamp='false'), 10)
+        steps = in_turn('', f'{LAUNCH} trace pause truth', f'{LAUNCH} trace resume truth')
+        self.check(self.record_text(RUNNING + steps, append_timestamp='false'), 10)
 
     def test_saved_initialisations(self):
-        command = f'<executable name="{{0}}" cmd="{LAUNCH} trace {{0}} dual -d"/>'
         file = self.directory / 'dual.launch.xml'
         file.write_text(f'''<launch><trace session-name="dual" dual-session="true"/>{RUNNING}
-          <timer period="0.8">{command.format("start")}</timer>
-          <on_process_exit process="start"><timer period="1.5">{command.format("stop")}</timer></on_process_exit>
-          <on_process_exit process="stop"><shutdown/></on_process_exit></launch>''')
+          {in_turn('', f'{LAUNCH} trace start dual -d', '', f'{LAUNCH} trace stop dual -d')}</launch>''')
         self.check(self.record(file), 5)
 
     def test_a_simulated_clock(self):
@@ -115,8 +135,10 @@ class Recordings(TruthCase):
                                     'subbuffer-count-ust="64" init-channel="true"'), 3, is_whole=False)
 
     def test_snapshots(self):
-        traces = self.record(EXAMPLES / '20_flight_recorder.launch.xml')
-        self.check(traces, 1)
+        file = self.directory / 'flight.launch.xml'
+        unlucky = '<executable cmd="kill -SEGV $$" shell="true" allowed-exit-codes="SIGSEGV"/>'
+        file.write_text(f'<launch><trace session-name="flight" snapshot-on-crash="true"/>{RUNNING}{in_turn("", unlucky)}</launch>')
+        self.check(self.record(file), 5)
 
     def test_a_trace_that_was_cut(self):
         trace = self.record_text(MANY_MESSAGES, 'subbuffer-size-ust="16384" subbuffer-count-ust="64"')
