@@ -83,6 +83,8 @@ class ClientBase {
   int64_t send_type_erased_request(const void* request);
 
  private:
+  friend class Executor;
+
   bool wait_for_service_nanoseconds(std::chrono::nanoseconds timeout);
 
   std::shared_ptr<rcl_node_t> node_handle_;
@@ -91,6 +93,7 @@ class ClientBase {
   CallbackGroup::WeakPtr callback_group_;
   detail::OnReadyCallback on_ready_;
   std::atomic_bool in_use_by_wait_set_{false};
+  std::uint64_t passed_over_ = 0;  // of the executor
   const rosidl_service_type_support_t* const introspected_type_;
   std::mutex introspection_mutex_;              // guards the clock
   std::shared_ptr<Clock> introspection_clock_;  // rcl points into it

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <future>
 #include <memory>
@@ -112,15 +113,27 @@ class Executor {
   FutureReturnCode spin_until(const std::function<bool()>& complete, std::chrono::nanoseconds timeout);
   // Forgets what was found ready and is of no group that is served.
   void erase_unserved();
+  // It was ready, but had to leave its turn to another one.
+  void pass_over(detail::ReadyEntity ready);
+  // What was passed over goes first, in the order in which it was passed over.
+  void put_in_order();
+  template <typename EntityT>
+  bool choose_living(const std::shared_ptr<EntityT>& entity, AnyExecutable& any_executable);
+  template <typename EntityT>
+  static std::uint64_t& passed_over(EntityT& entity) {
+    return entity.passed_over_;
+  }
 
   // The entities that the last wait found. The first next_ready_ of them are used up. This costs O(1) per callback for
   // any number of entities, and no allocation once it has grown.
   std::vector<detail::ReadyEntity> ready_;
   size_t next_ready_ = 0;
-  // Waitables that were found ready while their group was busy, or by the former executor of their group. Other
-  // entities will be found ready again.
+  // Waitables that were passed over, or found ready by the former executor of their group. Other entities will be found
+  // ready again, and have the number of their passing over.
   std::vector<detail::ReadyEntity> postponed_;
-  size_t removals_seen_ = 0;  // removals of nodes and groups; later ones make ready_ stale
+  std::uint64_t last_passed_over_ = 0;
+  std::size_t count_passed_over_ = 0;  // and not chosen since
+  size_t removals_seen_ = 0;           // removals of nodes and groups; later ones make ready_ stale
   OnShutdownCallbackHandle shutdown_callback_;
 };
 

@@ -6,6 +6,7 @@
 #include <rcl/service_introspection.h>
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -76,11 +77,14 @@ class ServiceBase {
   void trace_creation(const AnyServiceCallbackBase& callback);
 
  private:
+  friend class Executor;
+
   std::shared_ptr<rcl_node_t> node_handle_;
   std::shared_ptr<rcl_service_t> service_handle_;
   CallbackGroup::WeakPtr callback_group_;
   detail::OnReadyCallback on_ready_;
   std::atomic_bool in_use_by_wait_set_{false};
+  std::uint64_t passed_over_ = 0;  // of the executor
   const rosidl_service_type_support_t* const introspected_type_;
   std::mutex introspection_mutex_;              // guards the clock
   std::shared_ptr<Clock> introspection_clock_;  // rcl points into it

@@ -163,6 +163,8 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
                           const AnySubscriptionCallbackBase& callback);
 
  private:
+  friend class Executor;
+
   void execute_loaned();
   void dispatch(const std::shared_ptr<void>& message, const MessageInfo& message_info);
   void trace_callback(const void* subscription, const AnySubscriptionCallbackBase& callback) const;
@@ -186,6 +188,7 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
   EventHandlers event_handlers_;
   detail::OnReadyCallback on_ready_;
   std::atomic_bool in_use_by_wait_set_{false};
+  std::uint64_t passed_over_ = 0;  // of the executor
   std::shared_ptr<topic_statistics::SubscriptionTopicStatistics> statistics_;
   const void* traced_callback_ = nullptr;  // set by trace_creation()
   // A callback that takes a reference gets its message in this memory, without an allocation. Executors may run such a

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <stdexcept>
@@ -81,6 +82,8 @@ class TimerBase {
   void trace_callback(const void* callback, const detail::CallbackSymbol& symbol);
 
  private:
+  friend class Executor;
+
   void execute(const TimerInfo& info);
 
   Clock::SharedPtr clock_;
@@ -89,6 +92,7 @@ class TimerBase {
   CallbackGroup::WeakPtr callback_group_;
   detail::OnReadyCallback on_ready_;
   std::atomic_bool in_use_by_wait_set_{false};
+  std::uint64_t passed_over_ = 0;  // of the executor
 };
 
 // `FunctorT` can be called with nothing, with a TimerBase &, or with a const TimerInfo &.

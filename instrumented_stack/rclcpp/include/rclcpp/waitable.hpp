@@ -11,6 +11,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -60,7 +61,10 @@ class Waitable {
   bool exchange_in_use_by_wait_set_state(bool in_use_state) { return in_use_by_wait_set_.exchange(in_use_state); }
 
  private:
+  friend class Executor;
+
   std::atomic_bool in_use_by_wait_set_{false};
+  std::uint64_t passed_over_ = 0;  // of the executor
 };
 
 }  // namespace rclcpp

@@ -4,7 +4,7 @@
 #include <tracetools/tracetools.h>
 
 #include <algorithm>
-#include <iterator>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -34,36 +34,30 @@ class Membership {
   const Executor::NodePtr& node_;
 };
 
-// Puts an entity that a wait has found into `any_executable`. False if it has gone, or is no longer ready.
-bool choose(TimerBase::SharedPtr timer, AnyExecutable& any_executable) {
-  if (!timer) {
-    return false;
-  }
+// Puts an entity that a wait has found into `any_executable`. False if it is no longer ready.
+bool choose(const TimerBase::SharedPtr& timer, AnyExecutable& any_executable) {
   any_executable.data = timer->call();
   if (!any_executable.data) {
     return false;
   }
-  any_executable.timer = std::move(timer);
+  any_executable.timer = timer;
   return true;
 }
-bool choose(SubscriptionBase::SharedPtr subscription, AnyExecutable& any_executable) {
-  any_executable.subscription = std::move(subscription);
-  return any_executable.subscription != nullptr;
+bool choose(const SubscriptionBase::SharedPtr& subscription, AnyExecutable& any_executable) {
+  any_executable.subscription = subscription;
+  return true;
 }
-bool choose(ServiceBase::SharedPtr service, AnyExecutable& any_executable) {
-  any_executable.service = std::move(service);
-  return any_executable.service != nullptr;
+bool choose(const ServiceBase::SharedPtr& service, AnyExecutable& any_executable) {
+  any_executable.service = service;
+  return true;
 }
-bool choose(ClientBase::SharedPtr client, AnyExecutable& any_executable) {
-  any_executable.client = std::move(client);
-  return any_executable.client != nullptr;
+bool choose(const ClientBase::SharedPtr& client, AnyExecutable& any_executable) {
+  any_executable.client = client;
+  return true;
 }
-bool choose(Waitable::SharedPtr waitable, AnyExecutable& any_executable) {
-  if (!waitable) {
-    return false;
-  }
+bool choose(const Waitable::SharedPtr& waitable, AnyExecutable& any_executable) {
   any_executable.data = waitable->take_data();
-  any_executable.waitable = std::move(waitable);
+  any_executable.waitable = waitable;
   return true;
 }
 
@@ -268,18 +262,54 @@ void Executor::interrupt() {
       continue;
     }
     if (group->type() == CallbackGroupType::MutuallyExclusive && !group->can_be_taken_from().exchange(false)) {
-      if (is_waitable(ready)) {
-        postponed_.push_back(std::move(ready));
-      }
+      pass_over(std::move(ready));
       continue;
     }
     any_executable.callback_group = std::move(group);
-    if (std::visit([&](const auto& weak) { return choose(weak.lock(), any_executable); }, ready.entity)) {
+    if (std::visit([&](const auto& weak) { return choose_living(weak.lock(), any_executable); }, ready.entity)) {
       return true;
     }
     any_executable.release_group();
   }
   return false;
+}
+
+template <typename EntityT>
+bool Executor::choose_living(const std::shared_ptr<EntityT>& entity, AnyExecutable& any_executable) {
+  if (!entity) {
+    return false;
+  }
+  if (std::exchange(passed_over(*entity), 0) != 0 && count_passed_over_ > 0) {
+    --count_passed_over_;
+  }
+  return choose(entity, any_executable);
+}
+
+void Executor::pass_over(detail::ReadyEntity ready) {
+  std::visit(
+      [this](const auto& weak) {
+        if (const auto entity = weak.lock(); entity && passed_over(*entity) == 0) {
+          passed_over(*entity) = ++last_passed_over_;
+          ++count_passed_over_;
+        }
+      },
+      ready.entity);
+  if (is_waitable(ready)) {
+    postponed_.push_back(std::move(ready));
+  }
+}
+
+void Executor::put_in_order() {
+  for (detail::ReadyEntity& ready : ready_) {
+    const std::uint64_t turn = std::visit(
+        [](const auto& weak) {
+          const auto entity = weak.lock();
+          return entity ? passed_over(*entity) : 0;
+        },
+        ready.entity);
+    ready.turn = turn != 0 ? turn : std::numeric_limits<std::uint64_t>::max();
+  }
+  std::stable_sort(ready_.begin(), ready_.end(), [](const auto& a, const auto& b) { return a.turn < b.turn; });
 }
 
 void Executor::erase_unserved() {
@@ -291,8 +321,9 @@ void Executor::erase_unserved() {
 
 [[gnu::hot]] void Executor::wait_for_work(nanoseconds timeout) {
   TRACETOOLS_TRACEPOINT(rclcpp_executor_wait_for_work, timeout.count());
-  std::copy_if(std::make_move_iterator(ready_.begin() + static_cast<std::ptrdiff_t>(next_ready_)),
-               std::make_move_iterator(ready_.end()), std::back_inserter(postponed_), is_waitable);
+  for (; next_ready_ < ready_.size(); ++next_ready_) {
+    pass_over(std::move(ready_[next_ready_]));
+  }
   ready_.clear();
   next_ready_ = 0;
   entities_->wait(timeout, ready_, postponed_);
@@ -303,6 +334,9 @@ void Executor::erase_unserved() {
     }
   }
   postponed_.clear();
+  if (count_passed_over_ > 0) {
+    put_in_order();
+  }
 }
 
 [[gnu::hot]] void Executor::execute_any_executable(AnyExecutable& any_executable) {

@@ -52,11 +52,20 @@ void TimerQueue::assign(std::vector<Timer> timers) {
 [[gnu::hot]] void TimerQueue::append_due(std::vector<std::size_t>& indices) {
   read_times();
   const auto before = static_cast<std::ptrdiff_t>(indices.size());
+  const auto append = [&](Entry entry, rcl_time_point_value_t now) {
+    if (may_be_taken(entry) && update(entry) && entry.due <= now) {
+      indices.push_back(entry.index);
+    }
+  };
   for (const OfClock& of_clock : clocks_) {
-    if (of_clock.heap.empty()) {
+    if (of_clock.heap.empty() && of_clock.held_back.empty()) {
       continue;
     }
     const rcl_time_point_value_t now = now_of(of_clock.clock);
+    // Their group may have become free during the wait.
+    for (const Entry& entry : of_clock.held_back) {
+      append(entry, now);
+    }
     // What lies below an entry in the heap is not due before it.
     to_visit_.assign(1, 0);
     while (!to_visit_.empty()) {
@@ -65,10 +74,7 @@ void TimerQueue::assign(std::vector<Timer> timers) {
       if (at >= of_clock.heap.size() || of_clock.heap[at].due > now) {
         continue;
       }
-      Entry entry = of_clock.heap[at];
-      if (may_be_taken(entry) && update(entry) && entry.due <= now) {
-        indices.push_back(entry.index);
-      }
+      append(of_clock.heap[at], now);
       to_visit_.push_back(2 * at + 1);
       to_visit_.push_back(2 * at + 2);
     }

@@ -156,4 +156,16 @@ TEST_F(TimerQueueTest, WhatMayNotBeTakenIsNotDueUntilItMay) {
   EXPECT_THAT(call_due(), ElementsAre(1));
 }
 
+TEST_F(TimerQueueTest, IsDueAtTheEndOfAWaitInWhichItBecameFree) {
+  std::atomic_bool other{false};
+  timers_[1].may_be_taken = &other;
+  queue_.assign(timers_);
+  set_time(110);
+  EXPECT_EQ(queue_.time_until_first(), 10);
+  other = true;
+  std::vector<std::size_t> due;
+  queue_.append_due(due);
+  EXPECT_THAT(due, ElementsAre(1));
+}
+
 }  // namespace

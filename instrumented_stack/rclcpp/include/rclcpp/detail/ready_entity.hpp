@@ -2,6 +2,7 @@
 // An entity that an executor's wait can find ready. Held weakly, so that a user's reset() destroys it at once.
 #pragma once
 
+#include <cstdint>
 #include <variant>
 
 #include "rclcpp/callback_group.hpp"
@@ -18,6 +19,7 @@ struct ReadyEntity {
                Waitable::WeakPtr>
       entity;
   CallbackGroup::WeakPtr group;
+  std::uint64_t turn = 0;  // of several, the lowest one goes first
 };
 
 }  // namespace rclcpp::detail
