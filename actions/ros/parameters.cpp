@@ -105,6 +105,9 @@ LocatedText Parameters::performed_file(const std::string& path, Scope& scope) co
                       help_for_missing_file(path), Finding::kMissingParameterFile);
   }
   const auto file = read_source_file(path, file_->where());
+  if (scope.note_performed_file) {
+    scope.note_performed_file(file);
+  }
   const SourceRange whole{file, 0, static_cast<std::uint32_t>(file->text().size())};
   LocatedText performed(parse_template(LocatedText(file->text(), whole)).perform(scope));
   std::vector<Diagnostic> duplicate_keys;  // a node takes the last one

@@ -37,6 +37,8 @@ struct Scope {
   std::shared_ptr<PackageIndex> packages;
   // Tells the user what is suspicious but no error, with its place. May be empty.
   std::function<void(const SourceRange& where, const std::string& text)> warn;
+  // Learns which files besides launch files had their substitutions performed. May be empty.
+  std::function<void(const std::shared_ptr<const SourceFile>&)> note_performed_file;
   // A plan is looking at what waits for an event or a timer: functions of launch files must not be called.
   bool only_planned = false;
   // What is planned is certain to happen: a timer fires. A file that is included then makes its description as always.

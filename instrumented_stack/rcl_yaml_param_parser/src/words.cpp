@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <clocale>
 #include <cstdlib>
 #include <optional>
 #include <string_view>
@@ -38,6 +39,12 @@ std::optional<std::int64_t> as_int(const std::string& text) {
   return value;
 }
 
+// A program may have set a locale that writes decimals with a comma, as user interfaces do.
+double to_double(const char* text, char** end) {
+  static const locale_t kC = newlocale(LC_ALL_MASK, "C", nullptr);
+  return strtod_l(text, end, kC);
+}
+
 std::optional<double> as_double(const std::string& text) {
   // YAML writes `.inf` and `.nan`; strtod expects `inf` and `nan`. Only these ways to write them are numbers.
   constexpr std::array<std::string_view, 12> kSpecial{".nan",  ".NaN",  ".NAN",  ".inf",  ".Inf",  ".INF",
@@ -48,7 +55,7 @@ std::optional<double> as_double(const std::string& text) {
   }
   char* end = nullptr;
   errno = 0;
-  const double value = std::strtod(number.c_str(), &end);
+  const double value = to_double(number.c_str(), &end);
   if (number.empty() || errno != 0 || end != number.c_str() + number.size()) {
     return std::nullopt;
   }

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory>
 #include <set>
 
 #include "base/diagnostics/read_source_file.hpp"
 #include "base/environment/own_prefix.hpp"
 #include "launcher/invocation/argument_check.hpp"
 #include "launcher/invocation/find_launch_file.hpp"
+#include "launcher/language/argument_use.hpp"
 #include "launcher/language/introspection.hpp"
 #include "launcher/substitution/unrun_commands.hpp"
 #include "launcher/visit/launch_plan.hpp"
@@ -31,6 +33,7 @@ class Checker {
       context.scope().warn = [this](const SourceRange& where, const std::string& text) {
         warn(Finding::kRemark, text, where);
       };
+      context.scope().note_performed_file = [this](const auto& file) { performed_files_.push_back(file); };
       for (const auto& [name, value] : options_.arguments) {
         context.scope().configurations.insert_or_assign(name, value);
       }
@@ -153,7 +156,9 @@ class Checker {
     };
     for (const ArgumentInfo& info : list.arguments) {
       const std::string& name = info.declaration->name;
-      if (!any_reads([&](const LaunchDescription& file) { return is_read_in(file, name); })) {
+      if (!any_reads([&](const LaunchDescription& file) { return is_read_in(file, name); }) &&
+          std::none_of(performed_files_.begin(), performed_files_.end(),
+                       [&](const auto& file) { return may_read(*file, name); })) {
         warn(Finding::kUnreadArgument, fmt::format("argument '{}' is never read", name), info.declaration->where);
       }
     }
@@ -163,6 +168,7 @@ class Checker {
   const Environment& environment_;
   const CheckOptions& options_;
   std::vector<Diagnostic> found_;
+  std::vector<std::shared_ptr<const SourceFile>> performed_files_;  // of parameters
   std::set<std::string> told_;
 };
 

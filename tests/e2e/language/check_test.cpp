@@ -148,6 +148,20 @@ TEST_F(WithoutRunning, CheckLeavesOutDisabledFindings) {
             "      = help: see 'launch check --help'\n");
 }
 
+TEST_F(WithoutRunning, CheckFindsAnArgumentThatOnlyAParameterFileReads) {
+  file("p.yaml", "/**: {ros__parameters: {frame: $(var robot)/base}}\n");
+  const auto check = [this](const std::string& attributes) {
+    const std::string path =
+        file("a.launch.xml",
+             "<launch><arg name=\"robot\" default=\"r\"/><arg name=\"on\" default=\"false\"/>"
+             "<node pkg=\"demo_nodes\" exec=\"talker\" if=\"$(var on)\"><param from=\"$(dirname)/p.yaml\" " +
+                 attributes + "/></node></launch>\n");
+    return launch({"check", path}).out;
+  };
+  EXPECT_EQ(check("allow_substs=\"true\""), "1 file: 0 errors, 0 warnings\n");
+  EXPECT_THAT(check(""), testing::HasSubstr("argument 'robot' is never read [LF0501]"));
+}
+
 TEST_F(WithoutRunning, CheckTakesWarningsForErrors) {
   const std::string path = file("a.launch.xml", "<launch><arg name=\"x\" default=\"1\"/></launch>\n");
   EXPECT_EQ(launch({"check", path}).exit_code, 0);

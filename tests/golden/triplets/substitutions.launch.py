@@ -27,4 +27,5 @@ def generate_launch_description():
                FileContent(PathJoinSubstitution([ThisLaunchFileDir(), ['substitutions', '.txt']]))),
         spaced(FindPackagePrefix('demo_nodes'), FindPackageShare('demo_nodes'),
                ExecutableInPackage('talker', 'demo_nodes')),
+        spaced(FindPackageShare('demo_nodes') / 'launch' / ['of_', x], ThisLaunchFileDir() / 'file'),
     ])

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <clocale>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -262,6 +264,28 @@ TEST(ParameterOverrides, OfADirectoryCannotBeRead) {
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(), "parameter file '/' cannot be read: Is a directory");
   }
+}
+
+// As the libraries of user interfaces set it: 1.5 is written 1,5.
+TEST_F(ParameterFile, IsReadTheSameWithALocaleOfDecimalCommas) {
+  const std::string locales = path_ + ".locales";
+  std::filesystem::create_directory(locales);
+  const std::string command = "localedef -i de_DE -f UTF-8 " + locales + "/de_DE.UTF-8 > /dev/null 2>&1";
+  if (std::system(command.c_str()) != 0) {
+    std::filesystem::remove_all(locales);
+    GTEST_SKIP() << "skipped, because this machine has no sources of locales";
+  }
+  setenv("LOCPATH", locales.c_str(), 1);
+  ASSERT_NE(std::setlocale(LC_ALL, "de_DE.UTF-8"), nullptr);
+  std::filesystem::remove_all(locales);
+  EXPECT_EQ(std::strtod("1.5", nullptr), 1.0);
+  write("talker: {ros__parameters: {x: 1.5, y: [0.25, 1.0e-3]}}");
+  ParameterOverrides overrides;
+  overrides.load_file(path_);
+  std::setlocale(LC_ALL, "C");
+  unsetenv("LOCPATH");
+  EXPECT_THAT(overrides.for_node("/talker"),
+              ElementsAre(Pair("x", ParameterValue(1.5)), Pair("y", ParameterValue(std::vector<double>{0.25, 0.001}))));
 }
 
 }  // namespace

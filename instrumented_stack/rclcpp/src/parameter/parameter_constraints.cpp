@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
 
@@ -53,6 +54,17 @@ bool in_range(const rcl_interfaces::msg::FloatingPointRange& range, double value
          nearly_equal(value, range.from_value + range.step * std::round((value - range.from_value) / range.step));
 }
 
+// Whether the value, or each value of the array, complies with the range if there is one.
+template <typename RangesT, typename ValueT, typename ValuesT>
+bool are_in_range(const RangesT& ranges, std::uint8_t type, std::uint8_t single, const ValueT& value,
+                  std::uint8_t array, const ValuesT& values) {
+  if (ranges.empty()) {
+    return true;
+  }
+  const auto complies = [&](const auto& one) { return in_range(ranges.front(), one); };
+  return (type != single || complies(value)) && (type != array || std::all_of(values.begin(), values.end(), complies));
+}
+
 }  // namespace
 
 std::string wrong_type_reason(const std::string& name, ParameterType expected, ParameterType actual) {
@@ -64,11 +76,16 @@ SetParametersResult check_constraints(const ParameterDescriptor& descriptor, con
   if (!descriptor.dynamic_typing && descriptor.type != PARAMETER_NOT_SET && descriptor.type != value.get_type()) {
     return failure(wrong_type_reason(descriptor.name, static_cast<ParameterType>(descriptor.type), value.get_type()));
   }
-  const bool out_of_integer_range = !descriptor.integer_range.empty() && value.get_type() == PARAMETER_INTEGER &&
-                                    !in_range(descriptor.integer_range.front(), value.to_value_msg().integer_value);
+  if (descriptor.integer_range.empty() && descriptor.floating_point_range.empty()) {
+    return success();
+  }
+  const auto message = value.to_value_msg();
+  const bool out_of_integer_range =
+      !are_in_range(descriptor.integer_range, message.type, PARAMETER_INTEGER, message.integer_value,
+                    PARAMETER_INTEGER_ARRAY, message.integer_array_value);
   const bool out_of_floating_point_range =
-      !descriptor.floating_point_range.empty() && value.get_type() == PARAMETER_DOUBLE &&
-      !in_range(descriptor.floating_point_range.front(), value.to_value_msg().double_value);
+      !are_in_range(descriptor.floating_point_range, message.type, PARAMETER_DOUBLE, message.double_value,
+                    PARAMETER_DOUBLE_ARRAY, message.double_array_value);
   if (out_of_integer_range || out_of_floating_point_range) {
     return failure("Parameter {" + descriptor.name + "} doesn't comply with " +
                    (out_of_integer_range ? "integer" : "floating point") + " range.");

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <fstream>
 #include <memory>
+#include <vector>
 
 #include "tests/unit/rclcpp/ros_test.hpp"
 
@@ -116,6 +118,33 @@ TEST_F(NodeParametersTest, SettingKeepsTypeRangeAndReadOnly) {
             "parameter 'fixed' cannot be set because it is read-only");
   EXPECT_EQ(node.get_parameter("even").as_int(), 10);
   EXPECT_THROW(node.declare_parameter("odd", 3, ranged), rclcpp::exceptions::InvalidParameterValueException);
+}
+
+TEST_F(NodeParametersTest, EachValueOfAnArrayKeepsTheRange) {
+  rclcpp::Node node("node");
+  Descriptor integers;
+  integers.integer_range.resize(1);
+  integers.integer_range[0].from_value = 2;
+  integers.integer_range[0].to_value = 10;
+  integers.integer_range[0].step = 2;
+  using Integers = std::vector<int64_t>;
+  EXPECT_THROW(node.declare_parameter("wrong", Integers{2, 3}, integers),
+               rclcpp::exceptions::InvalidParameterValueException);
+  node.declare_parameter("even", Integers{2, 4}, integers);
+  EXPECT_EQ(node.set_parameter(Parameter("even", Integers{2, 12})).reason,
+            "Parameter {even} doesn't comply with integer range.");
+  EXPECT_TRUE(node.set_parameter(Parameter("even", Integers{6, 8})).successful);
+  EXPECT_TRUE(node.set_parameter(Parameter("even", Integers{})).successful);
+
+  Descriptor doubles;
+  doubles.floating_point_range.resize(1);
+  doubles.floating_point_range[0].from_value = -1.0;
+  doubles.floating_point_range[0].to_value = 1.0;
+  using Doubles = std::vector<double>;
+  node.declare_parameter("share", Doubles{0.5}, doubles);
+  EXPECT_EQ(node.set_parameter(Parameter("share", Doubles{0.0, std::nan("")})).reason,
+            "Parameter {share} doesn't comply with floating point range.");
+  EXPECT_TRUE(node.set_parameter(Parameter("share", Doubles{-1.0, 1.0})).successful);
 }
 
 TEST_F(NodeParametersTest, SettingAtomicallyIsAllOrNothing) {

@@ -9,7 +9,7 @@ from launch.substitution import Substitution
 from launch.substitutions._builtin import (
     _AllArguments, _Argument, _Builtin, SubstitutionFailure, TextSubstitution, described, parts_of)
 from launch.substitutions._joined import (
-    LocalSubstitution, PathJoinSubstitution, PathSubstitution, StringJoinSubstitution)
+    ExtendedBySlash, LocalSubstitution, PathJoinSubstitution, PathSubstitution, StringJoinSubstitution)
 
 
 class LaunchConfiguration(_Builtin):
@@ -44,21 +44,21 @@ class ThisLaunchFile(_Builtin):
         self._take()
 
 
-class ThisLaunchFileDir(_Builtin):
+class ThisLaunchFileDir(ExtendedBySlash, _Builtin):
     _call = 'dirname'
 
     def __init__(self):
         self._take()
 
 
-class LaunchLogDir(_Builtin):
+class LaunchLogDir(ExtendedBySlash, _Builtin):
     _call = 'log_dir'
 
     def __init__(self):
         self._take()
 
 
-class FindExecutable(_Builtin):
+class FindExecutable(ExtendedBySlash, _Builtin):
     _call = 'find-exec'
     _described = 'FindExec'
     name = _Argument(0)

@@ -51,6 +51,13 @@ class PathJoinSubstitution(_Joined):
         return PathJoinSubstitution([*self._texts, other])
 
 
+class ExtendedBySlash:
+    """A mixin for substitutions that are one path."""
+
+    def __truediv__(self, other):
+        return PathJoinSubstitution([self, other])
+
+
 class PathSubstitution(PathJoinSubstitution):
     """A path that the operator / extends."""
 

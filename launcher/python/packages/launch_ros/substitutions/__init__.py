@@ -3,9 +3,10 @@
 
 from launch import _names
 from launch.substitutions import _Argument, _Builtin, described
+from launch.substitutions._joined import ExtendedBySlash
 
 
-class _OfPackage(_Builtin):
+class _OfPackage(ExtendedBySlash, _Builtin):
     """A folder of a package."""
 
     package = _Argument(0)
@@ -22,7 +23,7 @@ class _OfPackage(_Builtin):
         return LaunchContext._of_launch()._perform(type(self)(package_name))
 
 
-class ExecutableInPackage(_Builtin):
+class ExecutableInPackage(ExtendedBySlash, _Builtin):
     _call = 'exec-in-pkg'
     executable = _Argument(0)
     package = _Argument(1)
