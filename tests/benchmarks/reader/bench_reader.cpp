@@ -5,7 +5,8 @@
 //
 // Each reader is a process of its own. Its CPU time counts, so that other work on the machine has little effect; of
 // programs with several threads the elapsed time is told, too. Usage:
-//   bench_reader [EVENTS]
+//   bench_reader [EVENTS [PACKET_BYTES]]
+//   bench_reader --write DIRECTORY EVENTS PACKET_BYTES  # writes the trace only, for a profiler
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
@@ -18,6 +19,7 @@
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "launch_trace/reader.hpp"
@@ -35,11 +37,12 @@ namespace {
 using namespace tracing;
 
 constexpr std::size_t kDefaultEvents = 4'000'000;
+constexpr std::size_t kDefaultPacket = 64 << 10;
 constexpr int kRounds = 3;  // the fastest counts
 
 // Ping and pong, again and again: the initialisation once, then the exchange of a message every millisecond.
-std::size_t write_trace(const std::filesystem::path& directory, std::size_t events) {
-  testing::TraceWriter writer(directory);
+std::size_t write_trace(const std::filesystem::path& directory, std::size_t events, std::size_t packet_size) {
+  testing::TraceWriter writer(directory, {.packet_size = packet_size});
   const std::vector<testing::SequenceEvent> sequence = testing::ping_pong_sequence();
   const auto first_of_exchange = std::find_if(sequence.begin(), sequence.end(), [](const auto& entry) {
     return std::holds_alternative<ros2::CallbackStart>(entry.event);
@@ -159,10 +162,10 @@ Seconds seconds_of(const std::vector<std::string>& command) {
   return {seconds(usage.ru_utime) + seconds(usage.ru_stime), elapsed.count()};
 }
 
-void compare(const std::string& self, std::size_t events) {
+void compare(const std::string& self, std::size_t events, std::size_t packet_size) {
   const testing::TemporaryDirectory directory;
   const std::string trace = directory.path() / "trace";
-  events = write_trace(trace, events);
+  events = write_trace(trace, events, packet_size);
 
   struct Reader {
     std::string name;
@@ -188,7 +191,8 @@ void compare(const std::string& self, std::size_t events) {
       reader.elapsed.push_back(took.elapsed);
     }
   }
-  fmt::print("{} events in 2 streams, with vpid, vtid and procname; best of {}\n", events, kRounds);
+  fmt::print("{} events in 2 streams, with vpid, vtid and procname, packets of {} KiB; best of {}\n", events,
+             packet_size >> 10, kRounds);
   const auto print = [&](const std::string& name, const std::vector<double>& seconds,
                          const std::vector<double>& floor) {
     const double best = *std::min_element(seconds.begin(), seconds.end());
@@ -222,7 +226,12 @@ void compare(const std::string& self, std::size_t events) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 3) {  // compare() runs this to measure one way of reading alone
+  if (argc == 5 && argv[1] == std::string_view("--write")) {
+    write_trace(argv[2], std::stoul(argv[3]), std::stoul(argv[4]));
+    return EXIT_SUCCESS;
+  }
+  if (argc == 3 &&
+      std::string_view(argv[1]).starts_with("--")) {  // compare() runs this to measure one way of reading alone
     const std::string way = argv[1];
     if (way == "--structs") {
       DecodingSink sink;
@@ -241,6 +250,6 @@ int main(int argc, char** argv) {
     TraceReader(argv[2]).read(sink);
     return sink.sum > 0 ? EXIT_SUCCESS : EXIT_FAILURE;
   }
-  compare(argv[0], argc == 2 ? std::stoul(argv[1]) : kDefaultEvents);
+  compare(argv[0], argc > 1 ? std::stoul(argv[1]) : kDefaultEvents, argc > 2 ? std::stoul(argv[2]) : kDefaultPacket);
   return EXIT_SUCCESS;
 }

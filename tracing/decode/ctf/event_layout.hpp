@@ -54,12 +54,32 @@ struct EventLayout {
   std::uint32_t payload_offset = 0;
 };
 
+// The usual event, for which two words of its header and a table tell all: its header has the short form and begins at
+// any byte, and all that follows has a size of its own.
+struct UsualHeader {
+  bool is_known = false;  // the stream has such headers
+  std::uint32_t id_shift = 0;
+  std::uint32_t time_byte = 0;  // where the word with the time begins
+  std::uint32_t time_shift = 0;
+  std::uint64_t id_mask = 0;
+  std::uint64_t time_mask = 0;
+};
+struct UsualEvent {
+  const EventLayout* layout = nullptr;  // null: events of this number are not usual
+  std::uint32_t header_bytes = 0;
+  std::uint32_t bytes = 0;  // with the header
+  std::uint32_t context_offset = 0;
+  std::uint32_t payload_offset = 0;
+};
+
 class StreamLayout {
  public:
   // The trace must outlive the layout. Throws UnsupportedTrace.
   StreamLayout(const TraceClass& trace, const StreamDeclaration& stream);
 
   const HeaderLayout& header() const { return header_; }
+  const UsualHeader& usual_header() const { return usual_header_; }
+  const std::vector<UsualEvent>& usual_events() const { return usual_events_; }  // by number
   const Clock& clock() const { return *clock_; }
   const StructureDecoder& event_context() const { return event_context_; }
   // Null when no event has this number.
@@ -72,7 +92,11 @@ class StreamLayout {
   }
 
  private:
+  void find_usual_events();
+
   HeaderLayout header_;
+  UsualHeader usual_header_;
+  std::vector<UsualEvent> usual_events_;
   const Clock* clock_ = nullptr;
   StructureDecoder event_context_;
   std::vector<std::unique_ptr<EventLayout>> dense_;  // by number

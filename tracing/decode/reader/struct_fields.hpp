@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -151,7 +152,12 @@ void read_fields(const Event& event, const std::vector<FieldPlace>& places, Stru
     const FieldPlace& place = *next++;
     if constexpr (is_read_as_number(type)) {
       if (place.access != ctf::NumberAccess::kBits) {
-        const std::uint64_t number = ctf::load_number(event.record->base + place.offset, place.access);
+        std::uint64_t number = 0;
+        if (place.access == ctf::NumberAccess::kUnsigned64) [[likely]] {  // pointers and most numbers
+          std::memcpy(&number, event.record->base + place.offset, sizeof number);
+        } else {
+          number = ctf::load_number(event.record->base + place.offset, place.access);
+        }
         if constexpr (type == FieldType::kBool) {
           member = number != 0;
         } else {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <iterator>
 #include <utility>
 
@@ -13,6 +14,14 @@ namespace tracing::ctf {
 namespace {
 
 using Item = EventBlock::Item;
+
+constexpr std::size_t kFew = 4;  // more than the losses before a packet, an event and a damage
+
+std::uint64_t word_at(const std::uint8_t* bytes) {
+  std::uint64_t word = 0;
+  std::memcpy(&word, bytes, sizeof word);
+  return word;
+}
 
 // A time holds only the lower bits of the clock, which has advanced since the previous event.
 std::uint64_t advanced(std::uint64_t cycles, std::uint64_t value, std::uint32_t bits) {
@@ -37,7 +46,6 @@ BlockDecoder::BlockDecoder(const StreamLayout& layout, std::vector<Packet> packe
 }
 
 bool BlockDecoder::has_room_for_items(const EventBlock& block) {
-  constexpr std::size_t kFew = 4;           // more than the losses before a packet, an event and a damage
   constexpr std::size_t kMostOthers = 256;  // each has many fields
   return block.others.size() < kMostOthers && block.count + kFew < EventBlock::kMostItems;
 }
@@ -111,6 +119,13 @@ void BlockDecoder::decode_window(EventBlock& block) {
   Item item{};
   item.packet = static_cast<std::uint32_t>(next_packet_ - 1);
   do {
+    if (layout_.usual_header().is_known && window_.at % 8 == 0) {
+      const std::uint64_t at = window_.at;
+      decode_usual_events(block);
+      if (window_.at != at && (window_.at >= safe_limit || !has_room_for_items(block))) {
+        return;
+      }
+    }
     const EventHeader header = read_header(layout, begin, window_.at, limit);
     const HeaderLayout::Number time = header.form->time;
     const std::uint64_t cycles = advanced(cycles_, header_number(layout, begin, header.bit, time), time.size);
@@ -144,6 +159,49 @@ void BlockDecoder::decode_window(EventBlock& block) {
     cycles_ = cycles;
     block.add(item);
   } while (window_.at < safe_limit && has_room_for_items(block));
+}
+
+// Those that begin before the safe limit, up to the first one that is not usual.
+void BlockDecoder::decode_usual_events(EventBlock& block) {
+  const UsualHeader header = layout_.usual_header();
+  const UsualEvent* const events = layout_.usual_events().data();
+  const std::size_t count = layout_.usual_events().size();
+  const std::uint8_t* const begin = window_.begin();
+  const std::uint8_t* const end = begin + window_.limit() / 8;
+  const std::uint8_t* const safe_end = begin + window_.safe_limit() / 8;
+  const std::uint8_t* at = begin + window_.at / 8;
+  const auto packet = static_cast<std::uint32_t>(next_packet_ - 1);
+  Item* item = block.items.get() + block.count;
+  const Item* const items_end = block.items.get() + EventBlock::kMostItems - kFew;
+  std::uint64_t cycles = cycles_;
+  while (at < safe_end && item < items_end) {
+    // Behind the window there are eight bytes to read.
+    const std::uint64_t id = (word_at(at) >> header.id_shift) & header.id_mask;
+    if (id >= count) {
+      break;
+    }
+    const UsualEvent& event = events[id];
+    if (event.layout == nullptr || event.bytes > static_cast<std::size_t>(end - at)) {
+      break;
+    }
+    const std::uint64_t time = (word_at(at + header.time_byte) >> header.time_shift) & header.time_mask;
+    const std::uint64_t lower = cycles & header.time_mask;
+    cycles += time - lower + (time < lower ? header.time_mask + 1 : 0);
+    // One member after the other: a copy of a whole item would have to wait for each of them.
+    item->time_ns = nanoseconds(cycles);
+    item->event = event.layout;
+    item->base = at + event.header_bytes;
+    item->event_context = event.context_offset;
+    item->payload = event.payload_offset;
+    item->index = 0;
+    item->packet = packet;
+    item->kind = Item::Kind::kSimple;
+    ++item;
+    at += event.bytes;
+  }
+  block.count = static_cast<std::size_t>(item - block.items.get());
+  window_.at = static_cast<std::uint64_t>(at - begin) * 8;
+  cycles_ = cycles;
 }
 
 // Returns the first byte behind them.

@@ -37,6 +37,7 @@ class BlockDecoder {
   bool has_room(const EventBlock& block) const;  // also for another part of the file
   void decode_packet(EventBlock& block);
   void decode_window(EventBlock& block);
+  void decode_usual_events(EventBlock& block);
   const std::uint8_t* find_structures(EventBlock& block, EventBlock::Item& item, const std::uint8_t* end) const;
   void add_damage(EventBlock& block, const char* what, bool is_undescribed);
   std::int64_t nanoseconds(std::uint64_t cycles) const {

@@ -40,8 +40,8 @@ struct EventBlock {
     std::uint32_t event_context;  // bytes from the base, where the contexts of the stream begin
     std::uint32_t payload;
     std::uint32_t index;  // of a simple event: in `places`; else in the list of its kind
-    std::uint32_t packet : 30;
-    Kind kind : 2;
+    std::uint32_t packet;
+    Kind kind;
   };
   struct Damage {
     std::string what;

@@ -76,6 +76,7 @@ StreamCursor::Item StreamCursor::next_other(const EventBlock::Item& item) {
     throw DamagedPacket(damage.what);
   }
   event_ = item.event;
+  is_fixed_ = false;
   const GeneralEvent& found = block_->others[item.index];
   const StructureDecoder* const decoders[] = {&layout().event_context(), &event_->context, &event_->payload};
   Record* const records[] = {&stream_context_, &event_context_, &payload_};

@@ -70,10 +70,20 @@ class StreamCursor {
     event_ = item.event;
     const StructureDecoder& stream_context = layout().event_context();
     if (event_->fixed_size) [[likely]] {
-      stream_context_ = {&stream_context, item.base, stream_context.fixed_places(), nullptr};
-      event_context_ = {&event_->context, item.base + item.event_context, event_->context.fixed_places(), nullptr};
-      payload_ = {&event_->payload, item.base + item.payload, event_->payload.fixed_places(), nullptr};
+      if (!is_fixed_) {
+        is_fixed_ = true;
+        stream_context_ = {&stream_context, nullptr, stream_context.fixed_places(), nullptr};
+        event_context_ = payload_ = {};
+      }
+      stream_context_.base = item.base;
+      event_context_.decoder = &event_->context;
+      event_context_.base = item.base + item.event_context;
+      event_context_.places = event_->context.fixed_places();
+      payload_.decoder = &event_->payload;
+      payload_.base = item.base + item.payload;
+      payload_.places = event_->payload.fixed_places();
     } else {
+      is_fixed_ = false;
       const StructureDecoder::Place* places = block_->places.data() + item.index;
       set(stream_context_, stream_context, item.base, places);
       set(event_context_, event_->context, item.base + item.event_context, places);
@@ -88,6 +98,7 @@ class StreamCursor {
   // The event that the item is.
   const EventLayout& event() const { return *event_; }
   const Packet& packet() const { return packets()[packet_]; }
+  std::size_t packet_number() const { return packet_; }
   const Record& stream_context() const { return stream_context_; }
   const Record& event_context() const { return event_context_; }
   const Record& payload() const { return payload_; }
@@ -118,6 +129,7 @@ class StreamCursor {
   std::int64_t time_ns_ = 0;
   std::size_t packet_ = 0;
   const EventLayout* event_ = nullptr;
+  bool is_fixed_ = false;  // the last event: what its records have in common with others is there
   Record stream_context_;
   Record event_context_;
   Record payload_;

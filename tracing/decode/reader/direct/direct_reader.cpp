@@ -82,6 +82,7 @@ struct DirectReader::OpenStream {
   }
   TraceItem give();
 
+  static constexpr std::size_t kNoPacket = static_cast<std::size_t>(-1);
   Trace& trace;
   const StreamClass& stream_class;
   Stream description;
@@ -90,7 +91,8 @@ struct DirectReader::OpenStream {
   std::size_t index = 0;  // decides the order of equal times
 
  private:
-  Event event_;  // its records always have the same addresses
+  Event event_;                     // its records always have the same addresses
+  std::size_t packet_ = kNoPacket;  // of the last event
   Loss loss_;
 };
 
@@ -98,7 +100,10 @@ struct DirectReader::OpenStream {
   if (item == ctf::StreamCursor::Item::kEvent) {
     event_.event_class = &trace.event_classes[cursor.event().index];
     event_.timestamp_ns = cursor.time_ns();
-    event_.cpu_id = cursor.packet().cpu_id;
+    if (cursor.packet_number() != packet_) {
+      packet_ = cursor.packet_number();
+      event_.cpu_id = cursor.packet().cpu_id;
+    }
     const ctf::Record& contexts = cursor.stream_context();
     stream_class.read_contexts(contexts, event_);
     event_.record = &cursor.payload();

@@ -20,12 +20,25 @@ namespace tracing {
 class StreamClass {
  public:
   StreamClass(const ctf::TraceClass& trace, const ctf::StreamDeclaration& stream)
-      : layout_(trace, stream), vpid_(context("vpid")), vtid_(context("vtid")), procname_(context("procname")) {}
+      : layout_(trace, stream), vpid_(context("vpid")), vtid_(context("vtid")), procname_(context("procname")) {
+    has_usual_contexts_ = vpid_ && vpid_->offset && vtid_ && vtid_->offset && procname_ && procname_->offset;
+    if (has_usual_contexts_) {
+      usual_ = {*vpid_->offset, *vtid_->offset, *procname_->offset,
+                layout_.event_context().fixed_places()[procname_->index].length};
+    }
+  }
 
   const ctf::StreamLayout& layout() const { return layout_; }
 
   // Leaves members alone whose contexts the stream does not have.
   [[gnu::always_inline]] void read_contexts(const ctf::Record& contexts, Event& event) const {
+    if (has_usual_contexts_ && contexts.base != nullptr) [[likely]] {
+      event.vpid.emplace(number_at(contexts.base + usual_.vpid));
+      event.vtid.emplace(number_at(contexts.base + usual_.vtid));
+      const auto* const name = reinterpret_cast<const char*>(contexts.base + usual_.procname);
+      event.procname.emplace(name, text_length(name, usual_.procname_length));
+      return;
+    }
     if (vpid_) {
       read_number(contexts, *vpid_, event.vpid);
     }
@@ -65,9 +78,12 @@ class StreamClass {
       value = contexts[context.index].integer();
       return;
     }
+    value.emplace(number_at(contexts.base + *context.offset));
+  }
+  [[gnu::always_inline]] static std::int64_t number_at(const std::uint8_t* bytes) {
     std::int32_t number = 0;
-    std::memcpy(&number, contexts.base + *context.offset, sizeof number);
-    value.emplace(number);
+    std::memcpy(&number, bytes, sizeof number);
+    return number;
   }
   [[gnu::always_inline]] static void read_text(const ctf::Record& contexts, const Context& context,
                                                std::optional<std::string_view>& value) {
@@ -100,6 +116,15 @@ class StreamClass {
   std::optional<Context> vpid_;
   std::optional<Context> vtid_;
   std::optional<Context> procname_;
+  // All three are there, at fixed places; bytes from the beginning of the structure.
+  struct UsualContexts {
+    std::uint32_t vpid = 0;
+    std::uint32_t vtid = 0;
+    std::uint32_t procname = 0;
+    std::uint32_t procname_length = 0;
+  };
+  bool has_usual_contexts_ = false;
+  UsualContexts usual_;
 };
 
 }  // namespace tracing
