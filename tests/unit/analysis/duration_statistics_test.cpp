@@ -76,6 +76,18 @@ TEST(DurationStatistics, KnowsRareValuesOfManyOrdersOfMagnitude) {
   EXPECT_EQ(summary.max_ns, 9'000'000'000'000'000'000);
 }
 
+TEST(DurationStatistics, KnowsTheSmallDeviationOfManyLargeValues) {
+  DurationStatistics statistics;
+  constexpr std::int64_t kLarge = 3'600'000'000'000'000;  // a thousand hours
+  for (int i = 0; i < 100'000; ++i) {
+    statistics.add(kLarge + (i % 2 == 0 ? 3 : -4));
+  }
+  const DurationSummary summary = statistics.summary();
+  EXPECT_DOUBLE_EQ(summary.mean_ns, static_cast<double>(kLarge) - 0.5);
+  EXPECT_NEAR(summary.stddev_ns, 3.5, 1e-4);
+  EXPECT_EQ(summary.min_ns, kLarge - 4);
+}
+
 TEST(DurationStatistics, OfTwoSamplesAreThoseOfAllValues) {
   for (const int count : {10, 10'000}) {
     DurationStatistics all;

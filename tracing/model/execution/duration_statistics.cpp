@@ -48,14 +48,10 @@ void DurationStatistics::add(const DurationStatistics& other) {
   for (std::size_t bucket = 0; bucket < other.histogram_.size(); ++bucket) {
     histogram_[bucket] += other.histogram_[bucket];
   }
-  min_ = count_ == 0 ? other.min_ : std::min(min_, other.min_);
-  max_ = count_ == 0 ? other.max_ : std::max(max_, other.max_);
-  // Chan, Golub, LeVeque: mean and squared deviations of two samples together.
-  const auto ours = static_cast<double>(count_);
-  const auto theirs = static_cast<double>(other.count_);
-  const double distance = other.mean_ - mean_;
-  mean_ += distance * theirs / (ours + theirs);
-  squared_deviations_ += other.squared_deviations_ + distance * distance * ours * theirs / (ours + theirs);
+  min_ = std::min(min_, other.min_);
+  max_ = std::max(max_, other.max_);
+  sum_ += other.sum_;
+  squares_ += other.squares_;
   count_ += other.count_;
 }
 
@@ -81,6 +77,22 @@ std::int64_t DurationStatistics::percentile(std::uint64_t per_ten_thousand,
   return std::clamp(middle_of(bucket), min_, max_);
 }
 
+// Of the sample. The squares of the distances from the mean are few against those of the values, so whole numbers do
+// all that can be done with them: they are taken from the mean rounded down, and the rest of it is left for the end.
+double DurationStatistics::deviation() const {
+  if (count_ < 2) {
+    return 0;
+  }
+  const auto count = static_cast<Wide>(count_);
+  const Wide mean = sum_ / count;
+  const Wide rest = sum_ % count;
+  const UnsignedWide squares = squares_ - static_cast<UnsignedWide>(mean) * static_cast<UnsignedWide>(sum_ + rest);
+  const auto of_rest =
+      static_cast<long double>(rest) * static_cast<long double>(rest) / static_cast<long double>(count);
+  const long double squared = (static_cast<long double>(squares) - of_rest) / static_cast<long double>(count - 1);
+  return static_cast<double>(std::sqrt(std::max(squared, 0.0L)));
+}
+
 DurationSummary DurationStatistics::summary() const {
   DurationSummary result;
   if (count_ == 0) {
@@ -89,8 +101,8 @@ DurationSummary DurationStatistics::summary() const {
   std::vector<std::int64_t> sorted = kept_;
   std::sort(sorted.begin(), sorted.end());
   result.count = count_;
-  result.mean_ns = mean_;
-  result.stddev_ns = count_ == 1 ? 0 : std::sqrt(squared_deviations_ / static_cast<double>(count_ - 1));
+  result.mean_ns = static_cast<double>(static_cast<long double>(sum_) / static_cast<long double>(count_));
+  result.stddev_ns = deviation();
   result.min_ns = min_;
   result.max_ns = max_;
   result.p50_ns = percentile(5'000, sorted);

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace tracing {
@@ -33,12 +34,11 @@ class DurationStatistics {
 
   void add(std::int64_t duration_ns) {
     ++count_;
-    const double value = static_cast<double>(duration_ns);
-    const double deviation = value - mean_;
-    mean_ += deviation / static_cast<double>(count_);
-    squared_deviations_ += deviation * (value - mean_);
-    min_ = count_ == 1 ? duration_ns : std::min(min_, duration_ns);
-    max_ = count_ == 1 ? duration_ns : std::max(max_, duration_ns);
+    const auto value = static_cast<Wide>(duration_ns);
+    sum_ += value;
+    squares_ += static_cast<UnsignedWide>(value * value);
+    min_ = std::min(min_, duration_ns);
+    max_ = std::max(max_, duration_ns);
     const std::size_t bucket = bucket_of(duration_ns);
     if (bucket < histogram_.size()) {
       ++histogram_[bucket];
@@ -70,13 +70,18 @@ class DurationStatistics {
   void count_in_histogram(std::int64_t duration_ns);
   std::int64_t percentile(std::uint64_t per_ten_thousand, const std::vector<std::int64_t>& sorted) const;
 
+  double deviation() const;
+
+  // Sums of whole numbers need no division for each duration, and lose nothing.
+  __extension__ using Wide = __int128;
+  __extension__ using UnsignedWide = unsigned __int128;
   std::uint64_t count_ = 0;
-  double mean_ = 0;
-  double squared_deviations_ = 0;  // Welford's running sum
-  std::int64_t min_ = 0;
-  std::int64_t max_ = 0;
-  std::vector<std::int64_t> kept_;        // all durations, as long as there are few
+  std::int64_t min_ = std::numeric_limits<std::int64_t>::max();
+  Wide sum_ = 0;
+  UnsignedWide squares_ = 0;
+  std::int64_t max_ = std::numeric_limits<std::int64_t>::min();
   std::vector<std::uint32_t> histogram_;  // empty as long as there are few; grows to the largest duration
+  std::vector<std::int64_t> kept_;        // all durations, as long as there are few
 };
 
 }  // namespace tracing

@@ -2,6 +2,7 @@
 #include "tracing/model/execution/executor_waits.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace tracing {
 
@@ -15,11 +16,24 @@ std::int64_t overlap_ns(std::int64_t begin_ns, std::int64_t end_ns, std::int64_t
   return std::max<std::int64_t>(std::min(end_ns, other_end_ns) - std::max(begin_ns, other_begin_ns), 0);
 }
 
+// The first one for which `is_after` holds, as it does for all behind it. Usually it is one of the last.
+template <class Interval, class IsAfter>
+auto first_where(const std::deque<Interval>& intervals, const IsAfter& is_after) {
+  constexpr int kLast = 4;
+  auto first = intervals.end();
+  for (int i = 0; i < kLast; ++i) {
+    if (first == intervals.begin() || !is_after(*std::prev(first))) {
+      return first;
+    }
+    --first;
+  }
+  return std::partition_point(intervals.begin(), first, [&](const Interval& one) { return !is_after(one); });
+}
+
 // The first one that ends after the time.
 template <class Interval>
 auto first_after(const std::deque<Interval>& intervals, std::int64_t time_ns) {
-  return std::upper_bound(intervals.begin(), intervals.end(), time_ns,
-                          [](std::int64_t time, const Interval& interval) { return time < interval.end_ns; });
+  return first_where(intervals, [time_ns](const Interval& interval) { return interval.end_ns > time_ns; });
 }
 
 }  // namespace
@@ -30,11 +44,11 @@ std::int64_t ThreadWaits::waited_ns(std::int64_t begin_ns, std::int64_t end_ns) 
     return waited_ns;
   }
   const auto first = first_after(newest, begin_ns);
-  const auto last = std::prev(std::upper_bound(
-      first, newest.end(), end_ns, [](std::int64_t time, const Wait& wait) { return time < wait.begin_ns; }));
-  if (last < first) {
+  const auto behind_last = first_where(newest, [end_ns](const Wait& wait) { return wait.begin_ns > end_ns; });
+  if (behind_last <= first) {
     return waited_ns;
   }
+  const auto last = std::prev(behind_last);
   waited_ns += last->sum_ns - (first->sum_ns - (first->end_ns - first->begin_ns));
   waited_ns -= std::max<std::int64_t>(begin_ns - first->begin_ns, 0);
   waited_ns -= std::max<std::int64_t>(last->end_ns - end_ns, 0);

@@ -20,9 +20,14 @@ bool ChainTracker::is_in_path(PathId path, ObjectId callback) const {
   return false;
 }
 
-PathId ChainTracker::path_of(PathId parent, ObjectId topic, ObjectId callback) {
+PathId ChainTracker::find_path(PathId parent, ObjectId topic, ObjectId callback) {
   const auto [found, is_new] = index_.try_emplace({parent, topic, callback}, kNoPath);
   if (!is_new) {
+    if (parent != kNoPath) {
+      paths_[parent].last_topic = topic;
+      paths_[parent].last_next = callback;
+      paths_[parent].last_path = found->second;
+    }
     return found->second;
   }
   if (paths_.size() >= kPaths) {
@@ -52,7 +57,13 @@ std::uint32_t ChainTracker::hop_of(std::uint32_t before, const ThreadId& thread,
 }
 
 void ChainTracker::begin_chain(const ThreadId& thread, Trails& trails, ObjectId callback, std::int64_t begin_ns) {
-  const PathId path = path_of(kNoPath, kNoObject, callback);
+  if (callback >= first_.size()) {
+    first_.resize(callback + 1, kNoPath);
+  }
+  PathId& path = first_[callback];
+  if (path == kNoPath) {
+    path = find_path(kNoPath, kNoObject, callback);
+  }
   if (path != kNoPath) {
     trails.push_back({path, hop_of(ChainHop::kNone, thread, begin_ns), begin_ns, begin_ns});
   }
@@ -115,7 +126,7 @@ void ChainTracker::compare_with_definitions(PathId path) {
 
 void ChainTracker::on_callback_begin(const CallbackInstance& instance) {
   // As long as no message is known that caused it, the callback begins a chain.
-  active_[instance.thread].push_back({instance.callback, instance.begin_ns, {}});
+  active_[instance.thread].emplace_back(instance.callback, instance.begin_ns);
 }
 
 void ChainTracker::on_message(const MessageFlow& message) {
@@ -170,7 +181,8 @@ void ChainTracker::on_message(const MessageFlow& message) {
 }
 
 void ChainTracker::on_publication(const Publication& publication) {
-  Trails trails;
+  Trails& trails = causes_;
+  trails.clear();
   const auto add = [&](const Trail& trail) {
     if (!paths_[trail.path].is_cut) {
       trails.push_back(trail);
@@ -205,7 +217,10 @@ void ChainTracker::on_publication(const Publication& publication) {
   if (sent_.empty()) {
     sent_.resize(kRemembered);
   }
-  sent_[publication.number % kRemembered] = {publication.number, publication.published_ns, trails};
+  Sent& sent = sent_[publication.number % kRemembered];
+  sent.number = publication.number;
+  sent.published_ns = publication.published_ns;
+  sent.trails = trails;
   // The next one has been in no cache for long.
   __builtin_prefetch(&sent_[(publication.number + 1) % kRemembered], 1);
 }

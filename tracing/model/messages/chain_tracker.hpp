@@ -64,7 +64,11 @@ struct ChainRecord {
 
  private:
   friend class ChainTracker;
-  bool is_compared = false;        // with the definitions
+  bool is_compared = false;  // with the definitions
+  // The path that goes on from here, of those the one that was asked for last.
+  ObjectId last_topic = kNoObject;
+  ObjectId last_next = kNoObject;  // callback
+  PathId last_path = kNoPath;
   std::int64_t last_input_ns = 0;  // of the last output
   std::int64_t last_output_ns = 0;
 };
@@ -141,11 +145,17 @@ class ChainTracker : public ExecutionSink {
     Trails(const Trails& other) { *this = other; }
     Trails& operator=(const Trails& other) {
       size_ = other.size_;
-      many_ = other.many_;
+      if (!many_.empty() || !other.many_.empty()) [[unlikely]] {
+        many_ = other.many_;
+      }
       if (many_.empty()) {
         std::copy(other.begin(), other.end(), few_.begin());
       }
       return *this;
+    }
+    void clear() {
+      size_ = 0;
+      many_.clear();
     }
     void push_back(const Trail& trail) {
       if (size_ < few_.size()) {
@@ -169,8 +179,10 @@ class ChainTracker : public ExecutionSink {
     std::vector<Trail> many_;  // all of them, if they are more
   };
   struct Active {
-    ObjectId callback = kNoObject;
-    std::int64_t begin_ns = 0;
+    // Without it, the memory of the trails would be cleared each time.
+    Active(ObjectId of, std::int64_t since_ns) : callback(of), begin_ns(since_ns) {}
+    ObjectId callback;
+    std::int64_t begin_ns;
     Trails trails;
   };
   struct Sent {
@@ -179,7 +191,16 @@ class ChainTracker : public ExecutionSink {
     Trails trails;
   };
 
-  PathId path_of(PathId parent, ObjectId topic, ObjectId callback);
+  PathId path_of(PathId parent, ObjectId topic, ObjectId callback) {
+    if (parent != kNoPath) {
+      const ChainRecord& before = paths_[parent];
+      if (before.last_path != kNoPath && before.last_topic == topic && before.last_next == callback) [[likely]] {
+        return before.last_path;
+      }
+    }
+    return find_path(parent, topic, callback);
+  }
+  PathId find_path(PathId parent, ObjectId topic, ObjectId callback);
   // The begin of a chain whose cause is not known.
   void begin_chain(const ThreadId& thread, Trails& trails, ObjectId callback, std::int64_t begin_ns);
   std::uint32_t hop_of(std::uint32_t before, const ThreadId& thread, std::int64_t begin_ns);
@@ -193,6 +214,7 @@ class ChainTracker : public ExecutionSink {
   std::vector<ChainDefinition> definitions_;
   enum class Begins : std::uint8_t { kUnknown, kNo, kYes };
   std::vector<Begins> begins_;  // by callback: whether a named chain begins there
+  std::vector<PathId> first_;   // by callback: the path that begins there; may be shorter
   std::vector<ChainRecord> paths_;
   std::map<std::tuple<PathId, ObjectId, ObjectId>, PathId> index_;
   bool is_full_ = false;
@@ -202,6 +224,7 @@ class ChainTracker : public ExecutionSink {
   std::vector<Sent> sent_;                           // by number, modulo its size
   std::map<ObjectId, std::vector<ObjectId>> links_;  // publisher to subscriptions
   std::map<ObjectId, Trails> latest_;                // by subscription of a link
+  Trails causes_;                                    // of a publication, while it is told
 };
 
 }  // namespace tracing

@@ -61,13 +61,17 @@ void DeliveryStatistics::on_publication(const Publication& publication) {
 void DeliveryStatistics::find_gaps(const MessageFlow& message) {
   Publisher& publisher = at(sent_, message.publication.publisher);
   // Usually it is the last one or one of the last.
-  constexpr std::size_t kLast = 8;
+  constexpr int kLast = 8;
+  const std::uint64_t number = message.publication.number;
   const auto& newest = publisher.newest;
-  const auto is_before = [](const Sent& candidate, std::uint64_t number) { return candidate.number < number; };
-  const bool is_late = newest.size() > kLast && (newest.end() - kLast)->number <= message.publication.number;
-  const auto sent = std::lower_bound(is_late ? newest.end() - kLast : newest.begin(), newest.end(),
-                                     message.publication.number, is_before);
-  if (sent == publisher.newest.end() || sent->number != message.publication.number) {
+  auto sent = newest.end();
+  for (int i = 0; i < kLast && sent != newest.begin() && (sent == newest.end() || sent->number > number); ++i) {
+    --sent;
+  }
+  if (sent != newest.end() && sent->number > number) {
+    sent = std::partition_point(newest.begin(), sent, [number](const Sent& one) { return one.number < number; });
+  }
+  if (sent == newest.end() || sent->number != number) {
     return;
   }
   const auto index = static_cast<std::uint64_t>(sent - publisher.newest.begin());

@@ -9,7 +9,7 @@
 
 #include <cstdint>
 #include <deque>
-#include <map>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -84,9 +84,15 @@ class DeliveryStatistics : public ExecutionSink {
   const ObjectModel& model_;
   std::vector<DeliveryRecord> subscriptions_;
   std::vector<PublisherRecord> publishers_;
-  std::vector<Publisher> sent_;                                        // by publisher, through the middleware
-  std::vector<std::uint64_t> topic_counts_;                            // by topic, through the middleware
-  std::map<std::pair<ObjectId, ObjectId>, std::uint64_t> last_place_;  // by subscription and publisher
+  std::vector<Publisher> sent_;              // by publisher, through the middleware
+  std::vector<std::uint64_t> topic_counts_;  // by topic, through the middleware
+  struct HashPair {
+    std::size_t operator()(const std::pair<ObjectId, ObjectId>& pair) const {
+      return (static_cast<std::size_t>(pair.first) << 32 | pair.second) * 0x9e3779b97f4a7c15;
+    }
+  };
+  // By subscription and publisher.
+  std::unordered_map<std::pair<ObjectId, ObjectId>, std::uint64_t, HashPair> last_place_;
 };
 
 }  // namespace tracing

@@ -42,10 +42,10 @@ void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::RmwP
     if (event.message != 0 && thread.rclcpp_message == event.message) {
       publication.rclcpp_ns = thread.rclcpp_ns;
     }
-    messages_.publish(publication, event.timestamp);
     thread.written_topic = publication.topic;
     thread.written_number = publication.number;
     sink_.on_publication(publication);
+    messages_.publish(publication, event.timestamp);
   }
   if (publisher.kind != RmwHandle::kKnown) {
     thread.written_topic = kNoObject;
