@@ -18,9 +18,6 @@ from pathlib import Path
 from own_launch import launch, started
 from trace_truth import Truth, events_of
 
-# Events of a process before its rcl_init in a session that began late.
-MOST_EARLY = 10
-
 EXAMPLES = Path(os.environ['SOURCE_DIRECTORY']) / 'launch_examples'
 # The talker's third message has been heard.
 NAMES = f'''<include file="{EXAMPLES / "02_names.launch.xml"}"><arg name="seconds" value="100"/></include>
@@ -73,12 +70,8 @@ class TruthCase(unittest.TestCase):
                 self.assertEqual(summary[key], percentile(values, part), key)
         self.compared += 1
 
-    def check(self, trace, least, code=0, truth=None, is_whole=True, has_early_events=False):
-        """At least so many distributions have values. The report ends with this code, and says whether anything is missing.
-
-        `has_early_events`: a session that began late may have events of a process before its rcl_init. They are not joined
-        with what another session has of it (docs/report.md): objects without names, beside those of the process.
-        """
+    def check(self, trace, least, code=0, truth=None, is_whole=True):
+        """At least so many distributions have values. The report ends with this code, and says whether anything is missing."""
         rows = self.directory / 'rows.sqlite'
         for words in (('--sql', rows), ('--json',)):
             run = subprocess.run([os.environ['LAUNCH_REPORT'], trace, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
@@ -91,7 +84,7 @@ class TruthCase(unittest.TestCase):
         self.assertEqual(not missing, is_whole)
         truth = truth or Truth(events_of(trace))
         self.compared = 0
-        self.check_rows(rows, truth, has_early_events)
+        self.check_rows(rows, truth)
         at_address = collections.defaultdict(list)  # one may be where another one was that has gone
         for callback in report['callbacks']:
             at_address[callback['vpid'], callback['address']].append(callback)
@@ -99,8 +92,6 @@ class TruthCase(unittest.TestCase):
             key = callback['vpid'], callback['address']
             if callback['owner'] == 'client' or callback['vpid'] not in self.started:
                 continue  # its events are those of ros2_ext
-            if has_early_events and not callback['node'] and not callback['symbol']:
-                continue
             with self.subTest(callback=callback['node'], symbol=callback['symbol']):
                 if len(at_address[key]) > 1:
                     self.assertEqual(sum(one['duration']['count'] for one in at_address[key]), len(truth.durations[key]))
@@ -131,10 +122,7 @@ class TruthCase(unittest.TestCase):
         self.assertEqual(requests, truth.requests)
         self.assertEqual(+responses, +truth.responses)
         threads = collections.Counter(process for process, _ in truth.waited)
-        executors = sorted(report['executors'], key=lambda executor: executor['callbacks'])
-        if has_early_events:
-            executors = {(executor['vpid'], executor['vtid']): executor for executor in executors}.values()
-        for executor in executors:
+        for executor in report['executors']:
             key = executor['vpid'], executor['vtid']
             with self.subTest(executor=key):
                 if executor['waited_ns'] is None:
@@ -147,7 +135,7 @@ class TruthCase(unittest.TestCase):
                 self.assertEqual(executor['callbacks'], truth.callbacks_of[key], executor)
         self.assertGreaterEqual(self.compared, least)
 
-    def check_rows(self, file, truth, has_early_events=False):
+    def check_rows(self, file, truth):
         """Each callback instance, message and wait, not only their numbers and distributions."""
         expected = {'callback_instances': truth.instances, 'messages': truth.ways, 'executor_waits': truth.waits}
         with sqlite3.connect(file) as database:
@@ -156,7 +144,6 @@ class TruthCase(unittest.TestCase):
                                             if table == 'messages' or row[0] in self.started)
                 with self.subTest(table=table):
                     own = collections.Counter(row for row in expected[table] if table == 'messages' or row[0] in self.started)
-                    early = MOST_EARLY if has_early_events else 0
                     self.assertEqual(sorted(map(str, own - found)), [])
-                    self.assertLessEqual((found - own).total(), early, sorted(map(str, found - own)))
+                    self.assertEqual(sorted(map(str, found - own)), [])
         database.close()

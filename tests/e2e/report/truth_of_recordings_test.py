@@ -90,7 +90,7 @@ class Recordings(TruthCase):
         steps = in_turn('', '<trace session-name="two"/>', '')
         file.write_text(f'<launch><trace session-name="one"/>{RUNNING}{steps}</launch>')
         traces = self.record(file)
-        self.check(traces, 10, truth=Truth(events_once(sorted(traces.iterdir()))), has_early_events=True)
+        self.check(traces, 10, truth=Truth(events_once(sorted(traces.iterdir()))))
 
     def test_a_session_that_begins_late(self):
         file = self.directory / 'late.launch.xml'

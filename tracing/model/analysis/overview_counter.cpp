@@ -2,6 +2,7 @@
 #include "tracing/model/analysis/overview_counter.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <string_view>
 #include <tuple>
 
@@ -46,6 +47,30 @@ std::uint64_t TraceOverview::lost_packets() const {
 
 bool TraceOverview::lost_uncounted() const {
   return std::any_of(losses.begin(), losses.end(), [](const LossResult& loss) { return loss.uncounted; });
+}
+
+void OverviewCounter::count_unusual(const Event& event, ProcessId process) {
+  const std::size_t id = event.event_class->id;
+  CountedClass& counted = id < classes_.size() && classes_[id].is_known ? classes_[id] : new_class(*event.event_class);
+  // The launcher is no part of the traced system.
+  if (counted.of_launcher) {
+    ++counted.by_launcher;
+    return;
+  }
+  if (!begin_ns_) {
+    begin_ns_ = event.timestamp_ns;
+  }
+  end_ns_ = event.timestamp_ns;
+  if (process >= counted.by_process.size()) {
+    counted.by_process.resize(process + 1);
+  }
+  ++counted.by_process[process];
+  if (counted.of_python) {
+    count_logger(event, process);
+    return;
+  }
+  usual_.resize(classes_.size());
+  usual_[id] = {counted.by_process.data(), counted.by_process.size()};
 }
 
 OverviewCounter::CountedClass& OverviewCounter::new_class(const EventClass& event_class) {
@@ -178,7 +203,9 @@ std::vector<std::optional<ProcessIndex>> OverviewCounter::places() const {
 
 TraceOverview OverviewCounter::overview() const {
   TraceOverview result;
-  result.events = events_;
+  for (const CountedClass& counted : classes_) {
+    result.events += std::accumulate(counted.by_process.begin(), counted.by_process.end(), std::uint64_t{0});
+  }
   if (begin_ns_) {
     result.begin_ns = begin_ns_;
     result.end_ns = end_ns_;

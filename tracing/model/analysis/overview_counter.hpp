@@ -17,20 +17,32 @@ namespace tracing {
 
 class OverviewCounter : public TraceSink {
  public:
+  OverviewCounter() = default;
+  OverviewCounter(const OverviewCounter&) = delete;  // its parts refer to one another
+  OverviewCounter& operator=(const OverviewCounter&) = delete;
+
   void on_event(const Event& event) override { count(event); }
   void on_loss(const Loss& loss) override;
 
   TraceOverview overview() const;
 
   // For one that also needs the process of each event: counts the event and returns its process. kNoProcess: it is the
-  // copy that another session has recorded.
-  ProcessId count(const Event& event) {
+  // copy that another session has recorded, or its process is in doubt (ProcessTable::is_in_doubt()).
+  [[gnu::always_inline]] ProcessId count(const Event& event) {
+    const ProcessId process = processes_.usual_of(event);
+    if (process == kNoProcess) [[unlikely]] {
+      return count_after_search(event);
+    }
+    count(event, process);
+    return process;
+  }
+  ProcessId count_after_search(const Event& event) {
     const ProcessId process = processes_.of(event);
     if (processes_.is_copy(event, process)) {
       return kNoProcess;
     }
     count(event, process);
-    return process;
+    return processes_.is_in_doubt(process) ? kNoProcess : process;
   }
   const ProcessTable& processes() const { return processes_; }
   // Where each process is in the processes of the overview; nullopt when it is not there. Processes that the kernel's
@@ -55,26 +67,14 @@ class OverviewCounter : public TraceSink {
 
   void count(const Event& event, ProcessId process) {
     const std::size_t id = event.event_class->id;
-    CountedClass& counted =
-        id < classes_.size() && classes_[id].is_known ? classes_[id] : new_class(*event.event_class);
-    // The launcher is no part of the traced system.
-    if (counted.of_launcher) {
-      ++counted.by_launcher;
+    if (id < usual_.size() && process < usual_[id].processes) [[likely]] {
+      end_ns_ = event.timestamp_ns;
+      ++usual_[id].by_process[process];
       return;
     }
-    ++events_;
-    if (!begin_ns_) {
-      begin_ns_ = event.timestamp_ns;
-    }
-    end_ns_ = event.timestamp_ns;
-    if (process >= counted.by_process.size()) {
-      counted.by_process.resize(process + 1);
-    }
-    ++counted.by_process[process];
-    if (counted.of_python) {
-      count_logger(event, process);
-    }
+    count_unusual(event, process);
   }
+  void count_unusual(const Event& event, ProcessId process);
   CountedClass& new_class(const EventClass& event_class);
   void count_logger(const Event& event, ProcessId process);
   // A process of the overview.
@@ -87,7 +87,12 @@ class OverviewCounter : public TraceSink {
   std::vector<Row> rows() const;
   std::vector<ProcessId> processes_that_lost(const CountedLoss& loss) const;
 
-  std::uint64_t events_ = 0;
+  // The counts of a class for processes that had such events before, if there is nothing else to be done.
+  struct UsualClass {
+    std::uint64_t* by_process = nullptr;  // those of the class in classes_
+    std::size_t processes = 0;
+  };
+  std::vector<UsualClass> usual_;  // by EventClass::id; may be shorter
   std::optional<std::int64_t> begin_ns_;
   std::int64_t end_ns_ = 0;
   ProcessTable processes_;

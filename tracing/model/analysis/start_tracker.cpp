@@ -30,9 +30,9 @@ bool is_of_state_dump(const Event& event) {
 StartTracker::Kind StartTracker::find_kind(const EventClass& event_class) {
   const std::size_t id = event_class.id;
   if (id >= kinds_.size()) {
-    kinds_.resize(id + 1);
+    kinds_.resize(id + 1, Kind::kUnknown);
   }
-  if (!kinds_[id]) {
+  if (kinds_[id] == Kind::kUnknown) {
     const std::string_view name = event_class.name;
     if (name == "launch:exec") {
       kinds_[id] = Kind::kExec;
@@ -58,7 +58,7 @@ StartTracker::Kind StartTracker::find_kind(const EventClass& event_class) {
       kinds_[id] = Kind::kOther;
     }
   }
-  return *kinds_[id];
+  return kinds_[id];
 }
 
 void StartTracker::on_event(const Event& event, ProcessId id, Kind kind) {

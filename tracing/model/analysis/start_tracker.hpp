@@ -50,7 +50,8 @@ class StartTracker {
     kInit,
     kNode,
     kExecutor,
-    kOther
+    kOther,
+    kUnknown  // not found out yet
   };
   struct Process {
     std::optional<std::int64_t> init_ns;
@@ -68,8 +69,8 @@ class StartTracker {
   };
 
   Kind kind_of(const EventClass& event_class) {
-    const bool is_known = event_class.id < kinds_.size() && kinds_[event_class.id].has_value();
-    return is_known ? *kinds_[event_class.id] : find_kind(event_class);
+    const Kind kind = event_class.id < kinds_.size() ? kinds_[event_class.id] : Kind::kUnknown;
+    return kind == Kind::kUnknown ? find_kind(event_class) : kind;
   }
   Kind find_kind(const EventClass& event_class);
   void on_event(const Event& event, ProcessId process, Kind kind);
@@ -78,7 +79,7 @@ class StartTracker {
   StartResult result_of(const Start& start, const ProcessTable& processes,
                         const std::vector<std::optional<ProcessIndex>>& places, const FirstActivity& first) const;
 
-  std::vector<std::optional<Kind>> kinds_;  // by EventClass::id, as far as they were needed
+  std::vector<Kind> kinds_;  // by EventClass::id, as far as they were needed
   // Times of the launcher's events are those of CLOCK_MONOTONIC until the end.
   std::vector<Start> starts_;
   std::vector<LauncherStep> steps_;

@@ -12,16 +12,28 @@ void TraceAnalysis::on_event(const Event& event) {
   if (process == kNoProcess) {
     return;
   }
-  ros2_.learn(overview_.processes());
+  if (process >= learned_) {
+    ros2_.learn(overview_.processes());
+    learned_ = overview_.processes().processes().size();
+  }
   starts_.on_event(event, process);
   const Origin origin{event.timestamp_ns, process, event.vtid.value_or(0)};
   if (decoder_.visit(event, [&](const auto& decoded) {
         release_inits(process);
         ros2_.on_event(origin, decoded);
       })) {
-    lacks_thread_context_ = lacks_thread_context_ || !event.vpid || !event.vtid;
-  } else if (of_kernel_.of(*event.event_class, [&] { return event.name().find(':') == std::string_view::npos; })) {
-    ros2_.on_kernel_event(event, process);
+    if (!event.vpid || !event.vtid) [[unlikely]] {
+      lacks_thread_context_ = true;
+    }
+  } else {
+    on_other_event(event, origin);
+  }
+}
+
+// Not one of ros2_tracing.
+void TraceAnalysis::on_other_event(const Event& event, const Origin& origin) {
+  if (of_kernel_.of(*event.event_class, [&] { return event.name().find(':') == std::string_view::npos; })) {
+    ros2_.on_kernel_event(event, origin.process);
   } else if (const std::optional<ros2::ObjectEnd> end = ends_.decode(event)) {
     ros2_.on_end(origin, *end);
   } else if (const std::optional<ros2::ExecutionEvent> execution = executions_.decode(event)) {

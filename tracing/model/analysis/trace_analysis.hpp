@@ -60,6 +60,7 @@ class TraceAnalysis : public TraceSink {
       inits_.release(process, [this](const InitsInOrder::Kept& kept) { tell(kept.origin, kept.event); });
     }
   }
+  void on_other_event(const Event& event, const Origin& origin);
   void on_caret_event(const Origin& origin, const ros2::CaretDecoder::Decoded& decoded);
   void tell(const Origin& origin, const ros2::KnownCaretEvent& event);
 
@@ -77,6 +78,7 @@ class TraceAnalysis : public TraceSink {
   AllocationDecoder allocations_;
   WriteDecoder writes_;
   ByEventClass<bool> of_kernel_;  // its events have no provider in their names
+  std::size_t learned_ = 0;       // processes that the model knows of
   bool lacks_thread_context_ = false;
 };
 

@@ -2,6 +2,7 @@
 #include "tracing/model/objects/process_table.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace tracing {
 namespace {
@@ -52,8 +53,12 @@ const ProcessTable::ClassFacts& ProcessTable::find_facts(const EventClass& event
   ClassFacts facts{
       .space = space_of(event_class.recording == nullptr ? kUnknown : *event_class.recording),
       .pid_ns = event_class.index_of_context("pid_ns"),
-      .context_address = event_class.name == kContextInit ? event_class.index_of("context_handle") : std::nullopt};
-  facts.is_usual = !facts.pid_ns && !facts.context_address;
+      .context_address = event_class.name == kContextInit ? event_class.index_of("context_handle") : std::nullopt,
+      .of_ros2 = event_class.name.starts_with("ros2:")};
+  if (!facts.pid_ns && !facts.context_address) {
+    usual_spaces_.resize(std::max(usual_spaces_.size(), event_class.id + 1), kUnusual);
+    usual_spaces_[event_class.id] = facts.space;
+  }
   return facts_[event_class.id].emplace(facts);
 }
 
@@ -175,13 +180,34 @@ void ProcessTable::learn_name(ProcessObject& process, const Event& event, bool o
   }
 }
 
+ProcessId ProcessTable::search(const Event& event) {
+  const ClassFacts& facts = facts_of(*event.event_class);
+  const ProcessId process = find(event, facts);
+  is_plain_ = is_shared_.empty() && doubts_.empty();
+  const bool is_usual = !facts.pid_ns && !facts.context_address && event.vpid;
+  // There is nothing more to learn of it.
+  if (is_usual && processes_[process].named_by_main_thread && !concerns_a_doubt(process)) {
+    recent_[static_cast<std::uint64_t>(*event.vpid) % recent_.size()] = {*event.vpid, facts.space, process};
+  }
+  return process;
+}
+
 ProcessId ProcessTable::find(const Event& event, const ClassFacts& facts) {
-  is_newly_shared_ = false;
   Key key{.place = facts.space, .vpid = event.vpid};
   if (facts.pid_ns) {
     key.pid_ns = event.context(*facts.pid_ns).integer().value_or(0);
   }
+  const std::size_t known = processes_.size();
   ProcessId process = find(key);
+  if (facts.of_ros2 && process == known && event.vpid) {
+    const Space& space = spaces_[facts.space];
+    const std::int64_t pid_ns = key.pid_ns == kFirstPidNamespace ? 0 : key.pid_ns;
+    const auto other = by_machine_.find({space.machine, key.vpid, pid_ns});
+    if (!space.recording.machine.empty() && other != by_machine_.end() && other->second != process) {
+      doubts_.try_emplace(process, other->second);
+      recent_ = {};  // the events of the other session are wanted, too
+    }
+  }
   if (facts.context_address && event.vpid) {
     const std::optional<std::uint64_t> address = event.field(*facts.context_address).unsigned_integer();
     if (address) {
@@ -189,8 +215,57 @@ ProcessId ProcessTable::find(const Event& event, const ClassFacts& facts) {
       recent_ = {};  // other events may belong to another process from now on
     }
   }
+  if (!doubts_.empty()) {
+    process = decide(process, key, event, facts);
+  }
   learn_name(processes_[process], event, spaces_[facts.space].recording.of_kernel);
   return process;
+}
+
+ProcessId ProcessTable::decide(ProcessId process, const Key& key, const Event& event, const ClassFacts& facts) {
+  if (const auto own = doubts_.find(process); own != doubts_.end()) {
+    const ProcessId other = own->second.other();
+    const bool is_told = facts.context_address.has_value();  // by the address of its context: they are two
+    if (!is_told && own->second.is_copy(event, process)) {
+      doubts_.erase(own);
+      join(process, key, other);
+      is_newly_shared_ = true;
+      return other;
+    }
+    if (is_told || own->second.is_given_up()) {
+      doubts_.erase(own);
+    }
+    return process;
+  }
+  for (auto doubt = doubts_.begin(); doubt != doubts_.end();) {
+    const ProcessId own = doubt->first;
+    if (processes_[own].merged_into != kNoProcess) {
+      doubt = doubts_.erase(doubt);  // its rcl_init has told
+      continue;
+    }
+    if (doubt->second.other() == process && doubt->second.is_copy(event, process)) {
+      const Key own_key = keys_[own];
+      doubt = doubts_.erase(doubt);
+      join(own, own_key, process);
+      continue;
+    }
+    doubt = doubt->second.is_given_up() ? doubts_.erase(doubt) : std::next(doubt);
+  }
+  return process;
+}
+
+bool ProcessTable::concerns_a_doubt(ProcessId process) const {
+  return std::any_of(doubts_.begin(), doubts_.end(), [process](const auto& doubt) {
+    return doubt.first == process || doubt.second.other() == process;
+  });
+}
+
+void ProcessTable::join(ProcessId process, const Key& key, ProcessId with) {
+  is_shared_.resize(std::max<std::size_t>(is_shared_.size(), with + 1));
+  is_shared_[with] = true;
+  by_space_[key] = with;
+  processes_[process].merged_into = with;
+  recent_ = {};
 }
 
 std::optional<ProcessId> ProcessTable::beside(ProcessId process, std::int64_t vpid) const {

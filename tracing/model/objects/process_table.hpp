@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "tracing/decode/reader/event.hpp"
+#include "tracing/model/objects/process_doubt.hpp"
 #include "tracing/model/objects/repeated_events.hpp"
 
 namespace tracing {
@@ -45,21 +46,13 @@ class ProcessTable {
  public:
   // The process of an event. The events of one reader may come in any order.
   ProcessId of(const Event& event) {
-    const ClassFacts& facts = facts_of(*event.event_class);
-    if (!facts.is_usual || !event.vpid) {
-      return find(event, facts);
-    }
-    Recent& recent = recent_[static_cast<std::uint64_t>(*event.vpid) % recent_.size()];
-    if (recent.process != kNoProcess && recent.vpid == *event.vpid && recent.space == facts.space) {
-      is_newly_shared_ = false;
-      return recent.process;
-    }
-    const ProcessId process = find(event, facts);
-    if (processes_[process].named_by_main_thread) {
-      recent = {*event.vpid, facts.space, process};  // there is nothing more to learn of it
-    }
-    return process;
+    is_newly_shared_ = false;
+    const ProcessId remembered = remembered_of(event);
+    return remembered != kNoProcess ? remembered : search(event);
   }
+  // The process of an event about which there is nothing else to be found out: is_copy() and is_in_doubt() are false.
+  // kNoProcess for any other event.
+  ProcessId usual_of(const Event& event) const { return is_plain_ ? remembered_of(event) : kNoProcess; }
 
   // The process with an id as another process sees it.
   std::optional<ProcessId> beside(ProcessId process, std::int64_t vpid) const;
@@ -72,6 +65,10 @@ class ProcessTable {
     return process < is_shared_.size() && is_shared_[process] &&
            copies_.is_copy(event, process, facts_of(*event.event_class).space);
   }
+
+  // Whether the process may be one that another session has recorded, too, and nothing has told yet. The other session
+  // has its events, so they are only counted.
+  bool is_in_doubt(ProcessId process) const { return !doubts_.empty() && doubts_.contains(process); }
 
   const std::vector<ProcessObject>& processes() const { return processes_; }
   // The name of the machine of a process. Where machines of one name differ, each has the beginning of its boot's id.
@@ -94,7 +91,7 @@ class ProcessTable {
     std::uint32_t space = 0;
     std::optional<std::size_t> pid_ns;           // the place of the context
     std::optional<std::size_t> context_address;  // the place of the field, in ros2:rcl_init
-    bool is_usual = false;                       // there is neither
+    bool of_ros2 = false;
   };
   struct HashKey {
     std::size_t operator()(const Key& key) const;
@@ -105,10 +102,23 @@ class ProcessTable {
     return is_known ? *facts_[event_class.id] : find_facts(event_class);
   }
   const ClassFacts& find_facts(const EventClass& event_class);
+  ProcessId remembered_of(const Event& event) const {
+    const std::size_t id = event.event_class->id;
+    if (id >= usual_spaces_.size() || !event.vpid) {
+      return kNoProcess;
+    }
+    const Recent& recent = recent_[static_cast<std::uint64_t>(*event.vpid) % recent_.size()];
+    return recent.vpid == *event.vpid && recent.space == usual_spaces_[id] ? recent.process : kNoProcess;
+  }
+  ProcessId search(const Event& event);
   ProcessId find(const Event& event, const ClassFacts& facts);
   std::uint32_t space_of(const Recording& recording);
   ProcessId find(const Key& key);
   ProcessId add(const Key& key, ProcessId earlier);
+  // The process of an event while there are doubts: another one where the event ends a doubt.
+  ProcessId decide(ProcessId process, const Key& key, const Event& event, const ClassFacts& facts);
+  bool concerns_a_doubt(ProcessId process) const;
+  void join(ProcessId process, const Key& key, ProcessId with);
   // The process of an rcl_init, which may be a new one.
   ProcessId of_context(ProcessId known, const Key& key, const Event& event, std::uint64_t address);
   // The process of another session with the context, if it is certain that it is the same one.
@@ -119,7 +129,10 @@ class ProcessTable {
   std::vector<Key> keys_;  // by process
   std::vector<Space> spaces_;
   std::uint32_t machines_ = 0;
-  std::vector<std::optional<ClassFacts>> facts_;                        // by EventClass::id
+  std::vector<std::optional<ClassFacts>> facts_;  // by EventClass::id
+  static constexpr std::uint32_t kUnusual = 0xffffffff;
+  // By EventClass::id, as far as they are known: the space, if ClassFacts has nothing else; else kUnusual.
+  std::vector<std::uint32_t> usual_spaces_;
   std::unordered_map<ProcessId, std::vector<std::uint64_t>> contexts_;  // their addresses
   std::unordered_map<Key, ProcessId, HashKey> by_space_;
   std::unordered_map<Key, ProcessId, HashKey> by_machine_;  // the first process with the id on a machine
@@ -133,14 +146,17 @@ class ProcessTable {
     }
   };
   std::map<Context, ProcessId> by_context_;
+  // By process, which is one of a session that has nothing but its id in common with a process of another one so far.
+  std::map<ProcessId, ProcessDoubt> doubts_;
   std::vector<bool> is_shared_;   // by process: several sessions have it; may be shorter
   bool is_newly_shared_ = false;  // by the last event
+  bool is_plain_ = true;          // there are neither doubts nor shared processes
   RepeatedEvents copies_;
 
   // Consecutive events often come from a few processes.
   struct Recent {
     std::int64_t vpid = 0;
-    std::uint32_t space = 0;
+    std::uint32_t space = kUnusual;  // nobody is there
     ProcessId process = kNoProcess;
   };
   std::array<Recent, 64> recent_;
