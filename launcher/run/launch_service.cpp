@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <string>
 #include <utility>
 #include <variant>
@@ -225,8 +226,9 @@ void LaunchService::carry_out(Requests requests) {
   rounds_.add(std::move(round));
 }
 
-void LaunchService::start(Round round) {
-  const Duration before = loop_.now();
+void LaunchService::start(Round given) {
+  const auto round = std::make_shared<Round>(std::move(given));
+  const auto goes_on = [this] { return phase_ == Phase::kRunning; };
   recording_.begin();
   const Overloaded carry_out{
       [&](std::vector<ProcessCommand>& commands) {
@@ -254,30 +256,31 @@ void LaunchService::start(Round round) {
       [&](std::vector<TransitionRequest>& transitions) { ros_tasks_.start({}, std::move(transitions)); },
       [&](std::vector<ProcessSpec>& processes) {
         std::for_each(processes.begin(), processes.end(), [&](const ProcessSpec& spec) { crashes_.expect(spec); });
-        processes_.wait(round);
+        processes_.wait(*round);
         observe_output();
-        processes_.start(round);
-        timing_.push_back({fmt::format("start {} processes", processes.size()), loop_.now() - before});
       },
-      [&](std::vector<CoroutineRequest>& coroutines) {
-        for (const CoroutineRequest& coroutine : coroutines) {
-          if (phase_ == Phase::kRunning) {
-            coroutines_.start(coroutine);
-          }
-        }
-      },
-      [&](std::vector<ShutdownRequest>& shutdowns) {
-        if (!shutdowns.empty()) {
-          shutdown(shutdowns.back().reason);
-        }
-      },
-      PassOver<std::vector<RunScopePtr>>(),                               // they have begun (rounds.hpp)
-      PassOver<std::vector<NodeDescription>, std::vector<Dependency>>(),  // with the processes
+      PassOver<std::vector<CoroutineRequest>, std::vector<ShutdownRequest>>(),  // when all have started
+      PassOver<std::vector<RunScopePtr>>(),                                     // they have begun (rounds.hpp)
+      PassOver<std::vector<NodeDescription>, std::vector<Dependency>>(),        // with the processes
   };
-  for_each_kind(round.requests, [&](auto& kind) {
-    if (phase_ == Phase::kRunning) {  // a command, or the end of a process, may have ended the launch
+  for_each_kind(round->requests, [&](auto& kind) {
+    if (goes_on()) {  // a command may have ended the launch
       carry_out(kind);
     }
+  });
+  processes_.start(*round, [this, round, goes_on, before = loop_.now()] {
+    if (goes_on()) {
+      timing_.push_back({fmt::format("start {} processes", round->requests.processes.size()), loop_.now() - before});
+    }
+    for (const CoroutineRequest& coroutine : round->requests.coroutines) {
+      if (goes_on()) {
+        coroutines_.start(coroutine);
+      }
+    }
+    if (goes_on() && !round->requests.shutdowns.empty()) {
+      shutdown(round->requests.shutdowns.back().reason);
+    }
+    rounds_.started();
   });
 }
 

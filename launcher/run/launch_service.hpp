@@ -113,7 +113,7 @@ class LaunchService {
   void visit(const Invocation& invocation);
   void traverse(const SourceRange& where, const std::function<void()>& traversal);
   void carry_out(Requests requests);
-  void start(Round round);
+  void start(Round given);
   void observe_output();
   void prepare(ProcessSpec& spec, ProcessId id);
 

@@ -98,7 +98,7 @@ void FakeEventLoop::advance(Duration duration) {
     now_ = std::max(now_, timers_.begin()->first.first);
     run_until_idle();
   }
-  now_ = end;
+  now_ = std::max(now_, end);
 }
 
 void FakeEventLoop::run() {

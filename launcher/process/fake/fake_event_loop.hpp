@@ -28,6 +28,8 @@ class FakeEventLoop final : public EventLoop {
   void run_until_idle();
   // Lets time pass, from timer to timer, running everything that becomes pending.
   void advance(Duration duration);
+  // Lets time pass within a callback: what becomes due waits for the next turn.
+  void pass(Duration duration) { now_ += duration; }
   // Delivers a signal to its callback in the next turn. Throws std::logic_error when there is no callback for it: a
   // real signal would have ended the process.
   void deliver_signal(int signal, bool by_terminal = false);

@@ -71,6 +71,7 @@ const FakeScript& FakeProcessRunner::next_script(const std::string& name) {
 
 Process FakeProcessRunner::spawn(const ProcessSpec& spec) {
   const FakeScript script = next_script(spec.name);
+  loop_.pass(script.start_takes);
   if (script.spawn_error) {
     spawned_.push_back({spec, -1, loop_.now()});
     throw std::system_error(*script.spawn_error, std::system_category(),

@@ -32,6 +32,7 @@ struct FakeScript {
   std::optional<Duration> descendants_for{};
   // They leave the group so long after the exit, and get no signals from then on.
   std::optional<Duration> descendants_leave_after{};
+  Duration start_takes{0};           // of the launcher
   std::optional<int> spawn_error{};  // errno of a start that fails
   bool refuses_signals = false;      // it belongs to another user
   bool lacks_terminal = false;       // the launcher has none, although the spec asks for it

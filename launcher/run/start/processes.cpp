@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <unordered_map>
 #include <utility>
@@ -31,9 +32,16 @@ void send(const ProcessCommand& command, ProcessId id, ProcessSupervisor& superv
 }  // namespace
 
 Processes::Processes(EventLoop& loop, ProcessSupervisor& supervisor, Callbacks callbacks)
-    : supervisor_(supervisor),
+    : loop_(loop),
+      supervisor_(supervisor),
       callbacks_(std::move(callbacks)),
-      order_(loop, {[this](ProcessSpec spec, TrackedProcess& process) { start(std::move(spec), process); },
+      order_(loop, {[this](ProcessSpec spec, TrackedProcess& process) {
+                      if (starting_) {
+                        starting_->behind.emplace_back(std::move(spec), &process);
+                      } else {
+                        start(std::move(spec), process);
+                      }
+                    },
                     callbacks_.fail, callbacks_.tell, callbacks_.skipped, callbacks_.ready}) {}
 
 Round Processes::enter(Requests requests) {
@@ -56,7 +64,7 @@ void Processes::execute(const ProcessCommand& command) {
   bool carried_out = false;
   for (const TrackedProcess* const process : named) {
     if (process->id == 0) {
-      carried_out |= command.kind == ProcessCommand::Kind::kStop && order_.drop(*process);
+      carried_out |= command.kind == ProcessCommand::Kind::kStop && drop(*process);
     } else if (!process->is_over) {
       carried_out = true;
       send(command, process->id, supervisor_);
@@ -76,7 +84,15 @@ void Processes::execute(const ProcessCommand& command) {
 
 void Processes::for_each(
     const std::function<void(const TrackedProcess& process, const ProcessSpec* waiting)>& tell) const {
-  const std::unordered_map<const TrackedProcess*, const ProcessSpec*> waiting = order_.waiting();
+  std::unordered_map<const TrackedProcess*, const ProcessSpec*> waiting = order_.waiting();
+  if (starting_) {
+    for (std::size_t i = starting_->next; i < starting_->round.processes.size(); ++i) {
+      waiting.emplace(starting_->round.processes[i], &starting_->round.requests.processes[i]);
+    }
+    for (const auto& [spec, process] : starting_->behind) {
+      waiting.emplace(process, &spec);
+    }
+  }
   for (const TrackedProcess& process : table_.all()) {
     const auto found = waiting.find(&process);
     tell(process, found == waiting.end() ? nullptr : found->second);
@@ -96,12 +112,49 @@ void Processes::wait(Round& round) {
   }
 }
 
-void Processes::start(Round& round) {
-  for (std::size_t i = 0; i < round.processes.size(); ++i) {
-    if (round.processes[i] != nullptr && !shut_down_) {
+void Processes::start(Round& round, EventLoop::Callback started) {
+  starting_.emplace(Starting{round, std::move(started)});
+  start_slice();
+}
+
+void Processes::start_slice() {
+  const Duration end = loop_.now() + kSlice;
+  Round& round = starting_->round;
+  while (starting_->next < round.processes.size() && !shut_down_) {
+    if (loop_.now() >= end) {
+      loop_.post([this] { start_slice(); });
+      return;
+    }
+    const std::size_t i = starting_->next++;
+    if (round.processes[i] != nullptr) {
       start(std::move(round.requests.processes[i]), *round.processes[i]);
     }
   }
+  Starting over = *std::exchange(starting_, std::nullopt);
+  for (auto& [spec, process] : over.behind) {
+    if (!shut_down_ && !process->is_over) {
+      start(std::move(spec), *process);
+    }
+  }
+  over.started();
+}
+
+bool Processes::drop(const TrackedProcess& process) {
+  if (starting_) {
+    std::vector<TrackedProcess*>& all = starting_->round.processes;
+    const auto found = std::find(all.begin() + static_cast<std::ptrdiff_t>(starting_->next), all.end(), &process);
+    const auto behind = std::find_if(starting_->behind.begin(), starting_->behind.end(),
+                                     [&](const auto& each) { return each.second == &process && !process.is_over; });
+    TrackedProcess* const dropped =
+        found != all.end() ? std::exchange(*found, nullptr) : behind != starting_->behind.end() ? behind->second : nullptr;
+    if (dropped != nullptr) {
+      dropped->is_over = true;
+      order_.on_process_event(*dropped);
+      callbacks_.skipped(*dropped);
+      return true;
+    }
+  }
+  return order_.drop(process);
 }
 
 void Processes::shutdown() {

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The processes of a launch, by name: each starts when its conditions hold, and gets the commands that name it.
+//
+// A round of many processes starts in slices, so that signals and control are served meanwhile.
 #pragma once
 
+#include <chrono>
+#include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/diagnostics/diagnostic.hpp"
@@ -18,6 +24,9 @@ namespace launch {
 
 class Processes {
  public:
+  // After so much time the start of a round lets the loop do what is due.
+  static constexpr Duration kSlice = std::chrono::milliseconds(10);
+
   struct Callbacks {
     // A process with this number is about to start. Its spec may still be changed.
     std::function<void(ProcessSpec& spec, ProcessId id)> starting;
@@ -46,15 +55,18 @@ class Processes {
   // Carries out a command. Reports a command that no process could get.
   void execute(const ProcessCommand& command);
   // The process must never start. Returns whether it waited.
-  bool drop(const TrackedProcess& process) { return order_.drop(process); }
-  // In the order in which they were asked for. `waiting` is null for a process that does not wait for something.
+  bool drop(const TrackedProcess& process);
+  // In the order in which they were asked for. `waiting` is null for a process that does not wait for something, nor for
+  // its turn.
   void for_each(const std::function<void(const TrackedProcess& process, const ProcessSpec* waiting)>& tell) const;
 
   // The processes of a round that wait for something begin to wait. They watch the others from their start on, so this
   // must be called before start().
   void wait(Round& round);
-  // Starts the other processes, unless a failing start causes the shutdown.
-  void start(Round& round);
+  // Starts the other processes, unless the shutdown comes before, and calls `started` then: before this returns, or in a
+  // later turn of the loop. The round must stay where it is until then. What its processes wait for may happen
+  // meanwhile; those start behind the others.
+  void start(Round& round, EventLoop::Callback started);
   // Processes that still wait never start, and start() does nothing after this.
   void shutdown();
   // For on_shutdown handlers: starts a process that runs once, whatever its spec says.
@@ -68,12 +80,23 @@ class Processes {
   bool waiting() const { return !order_.empty(); }
 
  private:
-  void start(ProcessSpec spec, TrackedProcess& process);
+  // A round whose processes are being started.
+  struct Starting {
+    Round& round;
+    EventLoop::Callback started;
+    std::size_t next = 0;
+    std::vector<std::pair<ProcessSpec, TrackedProcess*>> behind{};
+  };
 
+  void start(ProcessSpec spec, TrackedProcess& process);
+  void start_slice();
+
+  EventLoop& loop_;
   ProcessSupervisor& supervisor_;
   Callbacks callbacks_;
   ProcessTable table_;
   StartOrder order_;
+  std::optional<Starting> starting_;
   bool shut_down_ = false;
 };
 

@@ -22,11 +22,25 @@ void Rounds::next() {
       return;
     }
     next_scope_ = 0;
-    Round round = std::move(rounds_.front());
-    rounds_.pop_front();
-    callbacks_.start(std::move(round));
+    starting_ = giving_ = true;
+    callbacks_.start(std::move(rounds_.front()));
+    giving_ = false;
+    if (starting_) {
+      return;
+    }
   }
   callbacks_.empty();
+}
+
+void Rounds::started() {
+  starting_ = false;
+  rounds_.pop_front();
+  if (closed_) {
+    rounds_.clear();
+  }
+  if (!giving_) {
+    next();
+  }
 }
 
 void Rounds::on_begun(const std::optional<LaunchError>& error) {
@@ -43,7 +57,7 @@ void Rounds::on_begun(const std::optional<LaunchError>& error) {
 
 void Rounds::close() {
   closed_ = true;
-  if (!beginning_) {
+  if (!beginning_ && !starting_) {
     rounds_.clear();
   }
 }

@@ -25,7 +25,7 @@ struct Round {
 class Rounds {
  public:
   struct Callbacks {
-    // All scopes of the round have begun.
+    // All scopes of the round have begun. The next round waits until started() is called, now or later.
     std::function<void(Round round)> start;
     // A scope can't begin: its round and the rounds behind it are dropped.
     std::function<void(const LaunchError&)> fail;
@@ -37,7 +37,10 @@ class Rounds {
   Rounds(ActiveScopes& scopes, Callbacks callbacks) : scopes_(scopes), callbacks_(std::move(callbacks)) {}
 
   void add(Round round);
-  // No round starts any more. A scope that is beginning still begins; only then is this object empty.
+  // The round that was given to `start` last has started.
+  void started();
+  // No round starts any more. A scope that is beginning still begins, and a round that starts has to be started(); only
+  // then is this object empty.
   void close();
   bool empty() const { return rounds_.empty(); }
 
@@ -47,9 +50,11 @@ class Rounds {
 
   ActiveScopes& scopes_;
   Callbacks callbacks_;
-  std::deque<Round> rounds_;    // a scope of the first round may be beginning
+  std::deque<Round> rounds_;    // a scope of the first round may be beginning, or the first round starts
   std::size_t next_scope_ = 0;  // of the first round
   bool beginning_ = false;
+  bool starting_ = false;  // the first round was given away
+  bool giving_ = false;    // this happens now
   bool closed_ = false;
 };
 

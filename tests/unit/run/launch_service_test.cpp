@@ -104,6 +104,19 @@ TEST_F(LaunchServiceTest, ASecondSignalTerminatesAndAThirdKillsAndHurries) {
   EXPECT_LT(loop_.now(), 4s);
 }
 
+TEST_F(LaunchServiceTest, ASignalInTheMiddleOfALargeStartEndsTheStart) {
+  runner_.default_script({.start_takes = 3ms});
+  const auto signal = loop_.after(5ms, [this] { loop_.deliver_signal(SIGINT); });
+  std::string actions = "<shutdown reason='not reached'/>";
+  for (int i = 0; i < 100; ++i) {
+    actions += "<executable cmd='a'/>";
+  }
+  EXPECT_EQ(run(actions), 0);
+  EXPECT_THAT(messages_, ElementsAre("[launch] user interrupted with ctrl-c (SIGINT)"));
+  EXPECT_EQ(runner_.spawned().size(), 4U) << "a slice of 10 ms";
+  EXPECT_EQ(runner_.unreaped(), 0U);
+}
+
 TEST_F(LaunchServiceTest, SignalsWithinASecondAreOne) {
   runner_.default_script({.ignores = {SIGINT, SIGTERM}});
   const auto first = loop_.after(1s, [this] { loop_.deliver_signal(SIGHUP); });

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <signal.h>
 
+#include <optional>
+
 #include "launcher/process/fake/fake_event_loop.hpp"
 #include "launcher/process/fake/fake_process_runner.hpp"
 
@@ -43,7 +45,8 @@ class ProcessesTest : public testing::Test {
   void start(Requests given) {
     Round round = processes_.enter(std::move(given));
     processes_.wait(round);
-    processes_.start(round);
+    round_.emplace(std::move(round));
+    processes_.start(*round_, [this] { started_ = true; });
   }
   std::vector<std::string> spawned() const {
     std::vector<std::string> names;
@@ -53,6 +56,8 @@ class ProcessesTest : public testing::Test {
     return names;
   }
 
+  std::optional<Round> round_;
+  bool started_ = false;
   FakeEventLoop loop_;
   FakeProcessRunner runner_{loop_};
   OutputRouter output_{[] {
@@ -104,7 +109,8 @@ TEST_F(ProcessesTest, AfterTheShutdownOnlyTheLastOnesStart) {
   Round round = processes_.enter(std::move(given));
   processes_.wait(round);
   processes_.shutdown();
-  processes_.start(round);
+  processes_.start(round, [this] { started_ = true; });
+  EXPECT_TRUE(started_);
   EXPECT_FALSE(processes_.waiting());
   ProcessSpec last = spec("last");
   last.respawn.enabled = last.required = true;
@@ -112,6 +118,39 @@ TEST_F(ProcessesTest, AfterTheShutdownOnlyTheLastOnesStart) {
   ASSERT_THAT(spawned(), ElementsAre("last"));
   EXPECT_FALSE(runner_.spawned().front().spec.respawn.enabled);
   EXPECT_FALSE(runner_.spawned().front().spec.required);
+}
+
+TEST_F(ProcessesTest, ALargeRoundStartsInSlices) {
+  runner_.default_script({.start_takes = 3ms});
+  runner_.script("first", {{.exits_after = 1ms, .start_takes = 3ms}});
+  Requests given = requests({"late", "first", "a", "b", "c", "dropped", "d", "e"});
+  given.dependencies.push_back(until_exited(0, "first"));
+  start(std::move(given));
+  EXPECT_THAT(spawned(), ElementsAre("first", "a", "b", "c")) << "after 10 ms it is the turn of others";
+  EXPECT_FALSE(started_);
+  processes_.execute({.kind = ProcessCommand::Kind::kStop, .process = "dropped"});
+  std::vector<std::string> waiting;
+  processes_.for_each([&](const TrackedProcess& process, const ProcessSpec* spec) {
+    if (spec != nullptr) {
+      waiting.push_back(process.names.front());
+    }
+  });
+  EXPECT_THAT(waiting, ElementsAre("late", "d", "e"));
+  loop_.run_until_idle();
+  EXPECT_TRUE(started_);
+  EXPECT_THAT(spawned(), ElementsAre("first", "a", "b", "c", "d", "e", "late"))
+      << "what waits for another one comes behind its round";
+  EXPECT_THAT(journal_, testing::Contains("skipped dropped"));
+}
+
+TEST_F(ProcessesTest, AShutdownEndsTheStartOfALargeRound) {
+  runner_.default_script({.start_takes = 6ms});
+  start(requests({"a", "b", "c", "d"}));
+  EXPECT_THAT(spawned(), ElementsAre("a", "b"));
+  processes_.shutdown();
+  loop_.run_until_idle();
+  EXPECT_TRUE(started_);
+  EXPECT_THAT(spawned(), ElementsAre("a", "b"));
 }
 
 TEST_F(ProcessesTest, ACommandGoesToEveryProcessOfTheName) {

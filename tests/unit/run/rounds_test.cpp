@@ -29,9 +29,15 @@ class RoundsTest : public testing::Test {
   FakeEventLoop loop_;
   Journal journal_;
   std::vector<TimedStep> timing_;
+  bool starts_slowly_ = false;
   ActiveScopes scopes_{loop_, [](bool, const std::string&) {}, timing_};
   Rounds rounds_{scopes_,
-                 {[this](const Round& round) { journal_.push_back("start " + round.requests.logs.front()); },
+                 {[this](const Round& round) {
+                    journal_.push_back("start " + round.requests.logs.front());
+                    if (!starts_slowly_) {
+                      rounds_.started();
+                    }
+                  },
                   [this](const LaunchError& error) { journal_.emplace_back(error.what()); },
                   [this] { journal_.emplace_back("empty"); }}};
 };
@@ -46,6 +52,32 @@ TEST_F(RoundsTest, AllScopesOfARoundBeginOneAfterTheOtherBeforeItStarts) {
   add("b");
   loop_.advance(1s);
   EXPECT_THAT(journal_, ElementsAre("begin x", "begun x", "begin y", "begun y", "start a", "start b", "empty"));
+}
+
+TEST_F(RoundsTest, TheNextRoundWaitsUntilTheOneBeforeHasStarted) {
+  starts_slowly_ = true;
+  add("a");
+  add("b", {"x"});
+  loop_.advance(1s);
+  EXPECT_THAT(journal_, ElementsAre("start a"));
+  EXPECT_FALSE(rounds_.empty());
+  rounds_.started();
+  loop_.advance(1s);
+  EXPECT_THAT(journal_, ElementsAre("start a", "begin x", "begun x", "start b"));
+  rounds_.close();
+  EXPECT_FALSE(rounds_.empty());
+  rounds_.started();
+  EXPECT_TRUE(rounds_.empty());
+  EXPECT_EQ(journal_.back(), "empty");
+}
+
+TEST_F(RoundsTest, AfterCloseTheRoundThatStartsIsTheLast) {
+  starts_slowly_ = true;
+  add("a");
+  add("b");
+  rounds_.close();
+  rounds_.started();
+  EXPECT_THAT(journal_, ElementsAre("start a", "empty"));
 }
 
 TEST_F(RoundsTest, AScopeThatCannotBeginDropsItsRoundAndThoseBehind) {
