@@ -90,6 +90,9 @@ void Supervision::spawn(Supervised& process) {
     }
     return;
   }
+  if (guardian != nullptr) {
+    guardian->note(process.id, process.process.pid, process.label, process.spec);
+  }
   process.state = ProcessState::kRunning;
   process.unreaped = true;
   process.started = loop.now();

@@ -12,6 +12,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <string_view>
 
@@ -22,13 +23,17 @@
 namespace launch {
 namespace {
 
-// A command that hangs must not block the guardian, and everything that waits for it, for ever.
-constexpr std::chrono::seconds kLimit{10};
+// A command that hangs must not block the guardian, and everything that waits for it, for ever. On a machine with much
+// other work it can take its time, as long as it gets on.
+constexpr std::chrono::seconds kLimit{10};  // without progress
+constexpr std::chrono::minutes kLongest{2};
+constexpr std::chrono::seconds kBetweenLooks{1};
 
 std::string read_whole(int file) {
   std::string text;
   std::array<char, 4096> buffer;  // not initialised: it is read into
-  for (ssize_t count = 0; (count = ::pread(file, buffer.data(), buffer.size(), static_cast<off_t>(text.size()))) > 0;) {
+  for (ssize_t count = 0;
+       (count = ::pread(file, buffer.data(), buffer.size(), kGuardianRecords + static_cast<off_t>(text.size()))) > 0;) {
     text.append(buffer.data(), static_cast<std::size_t>(count));
   }
   return text;
@@ -72,18 +77,53 @@ bool is_asked_to_end(int signals) {
   return asked;
 }
 
-// Whether the process ends in time.
-bool ends_in_time(int process, int signals) {
-  const auto end = std::chrono::steady_clock::now() + kLimit;
+// The nanoseconds that the process has run or has waited for a processor, /proc/PID/schedstat.
+std::uint64_t time_of(pid_t pid) {
+  const std::string text = read_proc_file(pid, "schedstat");
+  char* next = nullptr;
+  const std::uint64_t has_run = std::strtoull(text.c_str(), &next, 10);
+  return has_run + std::strtoull(next, nullptr, 10);
+}
+
+// What shows that a command gets on: the time of its processes, and that of the daemons of LTTng, for which the command
+// of a trace waits.
+std::uint64_t work_done(pid_t command) {
+  const std::vector<FoundProcess> all = all_processes();
+  std::uint64_t time = time_of(command);
+  for (const FoundProcess& process : descendants(all, {command})) {
+    time += time_of(process.pid);
+  }
+  for (const FoundProcess& process : all) {
+    if (process.name.compare(0, 6, "lttng-") == 0) {
+      time += time_of(process.pid);
+    }
+  }
+  return time;
+}
+
+// Whether the process ends by itself, as it should.
+bool ends_in_time(pid_t pid, int process, int signals) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::uint64_t kProgress = 1'000'000;  // what a sleeping process does for its timers is less in a second
+  const Clock::time_point begin = Clock::now();
+  Clock::time_point progress = begin;
+  std::uint64_t done = work_done(pid);
   std::array<pollfd, 2> descriptors{{{process, POLLIN, 0}, {signals, POLLIN, 0}}};  // poll(2) skips a negative one
-  while ((descriptors[0].revents & POLLIN) == 0) {
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - std::chrono::steady_clock::now()).count();
-    if (left <= 0 || (descriptors[1].revents != 0 && is_asked_to_end(signals))) {
+  while (true) {
+    ::poll(descriptors.data(), descriptors.size(), static_cast<int>(std::chrono::milliseconds(kBetweenLooks).count()));
+    if ((descriptors[0].revents & POLLIN) != 0) {
+      return true;
+    }
+    const Clock::time_point now = Clock::now();
+    if (const std::uint64_t work = work_done(pid); work >= done + kProgress || work < done) {
+      done = work;
+      progress = now;
+    }
+    if (now - progress >= kLimit || now - begin >= kLongest ||
+        (descriptors[1].revents != 0 && is_asked_to_end(signals))) {
       return false;
     }
-    ::poll(descriptors.data(), descriptors.size(), static_cast<int>(left));
   }
-  return true;
 }
 
 }  // namespace
@@ -115,6 +155,28 @@ LeftWork read_records(int file) {
   return work;
 }
 
+std::map<pid_t, ProcessMark> read_notes(int file) {
+  std::map<pid_t, ProcessMark> notes;
+  std::array<GuardianEntry, 64> entries{};
+  for (off_t begin = 0; begin < kGuardianRecords; begin += static_cast<off_t>(sizeof entries)) {
+    const ssize_t count = ::pread(file, entries.data(), sizeof entries, begin);
+    if (count <= 0) {
+      break;
+    }
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count) / sizeof(GuardianEntry); ++i) {
+      if (const GuardianEntry& entry = entries[i]; entry.pid > 0) {
+        notes[entry.pid] = {.ours = true,
+                            .sigterm_timeout = entry.sigterm_timeout,
+                            .sigkill_timeout = entry.sigkill_timeout,
+                            .out_on_screen = (entry.on_screen & 1) != 0,
+                            .error_on_screen = (entry.on_screen & 2) != 0,
+                            .label = entry.label};
+      }
+    }
+  }
+  return notes;
+}
+
 std::string run_clean_up(const std::vector<std::string>& command, int signals) {
   if (command.empty()) {
     return "";
@@ -125,7 +187,7 @@ std::string run_clean_up(const std::vector<std::string>& command, int signals) {
   }
   const UniqueFd pidfd(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
   std::string failure;
-  if (!ends_in_time(pidfd.get(), signals)) {
+  if (!ends_in_time(pid, pidfd.get(), signals)) {
     failure = "'";
     for (const std::string& word : command) {
       failure += (failure.size() == 1 ? "" : " ") + word;

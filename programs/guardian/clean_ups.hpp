@@ -2,10 +2,14 @@
 // What the launcher has left to be done, read from the records.
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
+
+#include "launcher/process/guardian/process_scan.hpp"
 
 namespace launch {
 
@@ -17,8 +21,12 @@ struct LeftWork {
 // Reads the memory file from its beginning.
 LeftWork read_records(int file);
 
-// Runs a command. Returns what went wrong, or "". A command that takes longer than ten seconds is killed, and so is one
-// that runs when a user asks to end again. `signals` is a signalfd with the signals of users, or -1.
+// The table of the memory file, by process number: what marks would say.
+std::map<pid_t, ProcessMark> read_notes(int file);
+
+// Runs a command. Returns what went wrong, or "". A command that makes no progress for ten seconds, or takes two
+// minutes, is killed, and so is one that runs when a user asks to end again. `signals` is a signalfd with the signals
+// of users, or -1.
 std::string run_clean_up(const std::vector<std::string>& command, int signals);
 
 }  // namespace launch

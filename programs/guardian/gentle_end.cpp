@@ -11,9 +11,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <optional>
 #include <utility>
 
 #include "base/processes/ending_signals.hpp"
+#include "launcher/process/guardian/guardian_protocol.hpp"
+#include "programs/guardian/clean_ups.hpp"
 
 namespace launch {
 namespace {
@@ -24,6 +27,10 @@ using std::chrono::milliseconds;
 constexpr milliseconds kBetweenLooks{50};
 constexpr milliseconds kBetweenLooksAtKilled{5};
 constexpr milliseconds kShortestPause{2};
+// So many looks in a row that find nothing are believed where the kernel can't tell.
+constexpr int kLooksWithoutProof = 5;
+// A spare guardian tells within microseconds that nothing is left. One that does not is no longer waited for.
+constexpr std::chrono::seconds kSparePatience{5};
 // A process that has not ended so long after SIGKILL hangs in the kernel.
 constexpr std::chrono::seconds kHopeless{10};
 // Signals that follow sooner are the same wish.
@@ -70,26 +77,26 @@ std::uint64_t tick_of(std::chrono::steady_clock::time_point time) {
   return static_cast<std::uint64_t>(since_boot * ticks_in_second / std::chrono::seconds(1));
 }
 
-void reap_ended() {
-  while (::waitpid(-1, nullptr, WNOHANG) > 0) {
-  }
-}
-
 }  // namespace
 
 bool GentleEnd::run(const std::string& launcher_ended, int signals) {
-  // A process can slip through one look at /proc when its number is smaller than that of the process that started it.
-  const int looks_without = members_.by_mark ? 2 : 1;
   bool ended = true;
-  for (int looks = 0; looks < looks_without;) {
+  std::optional<Clock::time_point> nothing_since;
+  for (int looks = 0; looks < kLooksWithoutProof;) {
     read_signals(signals);
+    if (is_proven()) {
+      break;
+    }
     const std::vector<FoundProcess> found = find();
     Clock::time_point next = Clock::now();
     if (found.empty()) {
-      ++looks;
+      nothing_since = nothing_since.value_or(next);
+      const bool waits_for_proof = can_be_proven() && next - *nothing_since < kSparePatience;
+      looks = waits_for_proof || has_missed_some() ? 0 : looks + 1;
       next += kBetweenLooksAtKilled;
     } else {
       looks = 0;
+      nothing_since.reset();
       if (first_) {
         tell(launcher_ended, found);
       }
@@ -99,13 +106,47 @@ bool GentleEnd::run(const std::string& launcher_ended, int signals) {
         break;
       }
     }
-    if (looks < looks_without) {
-      wait(next, signals);
-    }
+    wait(next, signals);
   }
   output_.read(true);
   reap_ended();  // what runs next finds no group of theirs any more
   return ended;
+}
+
+bool GentleEnd::is_proven() const {
+  if (members_.by_mark) {
+    return false;
+  }
+  return members_.spare > 0 ? nothing_below_spare_ && children_of(::getpid()) == std::set<pid_t>{members_.spare}
+                            : !has_children();
+}
+
+bool GentleEnd::has_missed_some() {
+  if (members_.by_mark) {
+    return false;
+  }
+  for (const pid_t parent : {::getpid(), members_.spare}) {
+    for (const pid_t pid : parent > 0 ? children_of(parent).value_or(std::set<pid_t>()) : std::set<pid_t>()) {
+      const std::optional<FoundProcess> child =
+          members_.strangers.count(pid) == 0 ? read_process(pid) : std::optional<FoundProcess>();
+      if (child && !child->is_dead() && !ending_of(*child).mark.leave_running) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+void GentleEnd::reap_ended() {
+  int status = 0;
+  for (pid_t pid = 0; (pid = ::waitpid(-1, &status, WNOHANG | WUNTRACED)) > 0;) {
+    if (!WIFSTOPPED(status)) {
+      members_.reaped(pid, status);
+      members_.spare = pid == members_.spare ? -1 : members_.spare;
+    } else if (pid == members_.spare) {
+      ::kill(pid, SIGCONT);
+    }
+  }
 }
 
 std::vector<FoundProcess> GentleEnd::find() {
@@ -113,7 +154,8 @@ std::vector<FoundProcess> GentleEnd::find() {
   all.erase(std::remove_if(all.begin(), all.end(),
                            [this](const FoundProcess& process) { return members_.strangers.count(process.pid) != 0; }),
             all.end());
-  std::vector<FoundProcess> found = members_.by_mark ? marked(all) : descendants(all, {::getpid()});
+  std::vector<FoundProcess> found =
+      members_.by_mark ? marked(all) : descendants(all, {::getpid(), members_.spare > 0 ? members_.spare : ::getpid()});
   const auto stays = [this](const FoundProcess& process) {
     const bool goes_on =
         !process.is_dead() && process.session != members_.session && ending_of(process).mark.leave_running;
@@ -122,7 +164,7 @@ std::vector<FoundProcess> GentleEnd::find() {
   };
   found.erase(std::remove_if(found.begin(), found.end(), stays), found.end());
   for (const FoundProcess& process : found) {
-    output_.follow(process.pid, ending_of(process).mark);
+    output_.follow(process, ending_of(process).mark);
   }
   return found;
 }
@@ -149,9 +191,25 @@ GentleEnd::Ending& GentleEnd::ending_of(const FoundProcess& process) {
     ending = {.started = process.started, .name = process.name};
   }
   if (!ending.mark.ours) {
-    ending.mark = read_mark(process.pid, members_.launch_id);
+    ending.mark = read_mark(process, members_.launch_id);
+    if (!ending.mark.ours) {
+      ending.mark = noted(process);
+    }
   }
   return ending;
+}
+
+// A process leads a group with its own number, in which its descendants are.
+ProcessMark GentleEnd::noted(const FoundProcess& process) {
+  if (!notes_) {
+    notes_ = members_.by_mark ? std::map<pid_t, ProcessMark>() : read_notes(members_.records);
+  }
+  for (const pid_t pid : {process.pid, process.group}) {
+    if (const auto found = notes_->find(pid); found != notes_->end()) {
+      return found->second;
+    }
+  }
+  return {};
 }
 
 void GentleEnd::tell(const std::string& launcher_ended, const std::vector<FoundProcess>& found) {
@@ -234,7 +292,8 @@ bool GentleEnd::hopeless(const std::vector<FoundProcess>& found) {
   bool foreign = false;
   for (const FoundProcess& process : found) {
     const Ending& ending = ending_of(process);
-    if (!ending.refused && (ending.sent != SIGKILL || Clock::now() - ending.sent_at < kHopeless)) {
+    // One of another user has its time as well: it may end by itself.
+    if (ending.sent != SIGKILL || (!ending.refused && Clock::now() - ending.sent_at < kHopeless)) {
       return false;
     }
     foreign = foreign || ending.refused;
@@ -265,6 +324,11 @@ void GentleEnd::read_signals(int signals) {
   signalfd_siginfo info{};
   while (signals >= 0 && ::read(signals, &info, sizeof info) == sizeof info) {
     const int number = static_cast<int>(info.ssi_signo);
+    const bool from_spare = members_.spare > 0 && static_cast<pid_t>(info.ssi_pid) == members_.spare;
+    if (from_spare && (number == SIGRTMIN + kNothingLeft || number == SIGRTMIN + kLauncherLeaves)) {
+      members_.launcher_ended(info.ssi_int);
+      nothing_below_spare_ = nothing_below_spare_ || number == SIGRTMIN + kNothingLeft;
+    }
     if (asks_to_end(number) && Clock::now() - last_step_ >= kSameSignal) {
       last_step_ = Clock::now();
       ++steps_;

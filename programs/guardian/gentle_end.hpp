@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ends what a launcher has left: SIGINT, then SIGTERM and SIGKILL after the timeouts of each process, until none is
 // there.
+//
+// That none is there is no matter of a look at /proc, which can miss a process that starts another one and ends. The
+// kernel tells it: a process that adopts orphans, and has no child, has no descendants. Only where that can't be,
+// because some processes are meant to go on, or because this process has not adopted them, several looks in a row must
+// find nothing.
 #pragma once
 
 #include <sys/types.h>
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -30,6 +37,13 @@ struct LaunchMembers {
   bool by_mark = false;
   int records = -1;
   LaunchCgroup cgroup{};  // further members, where there is one
+  // The spare guardian, a child of this process that adopts orphans before this process does, and tells by a signal
+  // when it has no child any more (guardian_protocol.hpp); -1: none.
+  pid_t spare = -1;
+  // Told of each child that has ended, with its wait status.
+  std::function<void(pid_t pid, int status)> reaped = [](pid_t, int) {};
+  // Told when the spare tells how the launcher has ended.
+  std::function<void(int status)> launcher_ended = [](int) {};
 };
 
 class GentleEnd {
@@ -55,6 +69,15 @@ class GentleEnd {
     Clock::time_point sent_at{};
   };
 
+  // Whether the kernel says that nothing is left.
+  bool is_proven() const;
+  // Whether it will say so.
+  bool can_be_proven() const { return members_.spare > 0 && !leaves_some_; }
+  // A look has found nothing. Whether some child is there that it ought to have found.
+  bool has_missed_some();
+  void reap_ended();
+  // What the launcher has noted about a process whose environment tells nothing.
+  ProcessMark noted(const FoundProcess& process);
   std::vector<FoundProcess> find();
   std::vector<FoundProcess> marked(const std::vector<FoundProcess>& all);
   Ending& ending_of(const FoundProcess& process);
@@ -72,11 +95,13 @@ class GentleEnd {
   GuardianLog& log_;
   LeftOutput output_;
   std::map<pid_t, Ending> endings_;
-  std::set<std::pair<pid_t, int>> asked_groups_;  // and the signals that they got
+  std::optional<std::map<pid_t, ProcessMark>> notes_;  // once they have been read
+  std::set<std::pair<pid_t, int>> asked_groups_;       // and the signals that they got
   Clock::time_point begin_ = Clock::now();
   bool first_ = true;
-  bool leaves_some_ = false;  // that are meant to go on
-  int steps_ = 0;             // 1: SIGTERM now, 2: SIGKILL now
+  bool leaves_some_ = false;          // that are meant to go on
+  bool nothing_below_spare_ = false;  // as it has told
+  int steps_ = 0;                     // 1: SIGTERM now, 2: SIGKILL now
   Clock::time_point last_step_{};
 };
 

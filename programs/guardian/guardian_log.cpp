@@ -94,8 +94,8 @@ bool is_open_for_both(const std::string& process, const std::string& number) {
 
 }  // namespace
 
-void LeftOutput::follow(pid_t pid, const ProcessMark& mark) {
-  const std::string process = "/proc/" + std::to_string(pid);
+void LeftOutput::follow(const FoundProcess& found, const ProcessMark& mark) {
+  const std::string process = proc_directory(found);
   for (const int number : {STDOUT_FILENO, STDERR_FILENO}) {
     const std::string name = std::to_string(number);
     const std::string path = process + "/fd/" + name;

@@ -41,7 +41,7 @@ class LeftOutput {
   explicit LeftOutput(GuardianLog& log) : log_(log) {}
 
   // Follows standard output and error of the process if they are pipes of the launcher and not followed yet.
-  void follow(pid_t pid, const ProcessMark& mark);
+  void follow(const FoundProcess& found, const ProcessMark& mark);
 
   // Adds what poll(2) has to wait for.
   void add_to(std::vector<pollfd>& descriptors) const;

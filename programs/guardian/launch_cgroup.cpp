@@ -112,6 +112,12 @@ LaunchCgroup LaunchCgroup::make(const std::string& launch_id, pid_t launcher) {
   return cgroup;
 }
 
+LaunchCgroup LaunchCgroup::find(const std::string& launch_id) {
+  const std::string own = own_cgroup();
+  LaunchCgroup cgroup(own + "/launch-" + launch_id);
+  return own.empty() || ::access(cgroup.path_.c_str(), F_OK) != 0 ? LaunchCgroup() : cgroup;
+}
+
 std::set<pid_t> LaunchCgroup::members() const {
   std::set<pid_t> found;
   if (exists()) {

@@ -19,6 +19,9 @@ class LaunchCgroup {
   // moves the launcher there. What the launcher starts is there, too. This takes some milliseconds.
   static LaunchCgroup make(const std::string& launch_id, pid_t launcher);
 
+  // The one that make() has made in another process.
+  static LaunchCgroup find(const std::string& launch_id);
+
   bool exists() const { return !path_.empty(); }
 
   // The processes there, also in cgroups that they have made themselves.

@@ -2,11 +2,14 @@
 #include "programs/guardian/unanswered_signals.hpp"
 
 #include <signal.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/processes/ending_signals.hpp"
 #include "launcher/process/guardian/process_scan.hpp"
@@ -20,12 +23,25 @@ const char* value_of(const std::string& status, std::string_view key) {
   return found == std::string::npos ? "" : status.c_str() + found + key.size();
 }
 
-bool has_pending_request(pid_t process) {
-  const std::string status = read_proc_file(process, "status");
+constexpr int kWishes = 3;  // of a user who can't wait
+constexpr std::chrono::seconds kSameWish{1};
+
+bool is_held(const std::string& status) {
   const char state = *value_of(status, "\nState:\t");
-  if (state == 'T' || state == 't') {
+  return state == 'T' || state == 't';
+}
+
+// By a process that does not descend from this one.
+bool is_traced_from_outside(const std::string& status) {
+  const auto tracer = static_cast<pid_t>(std::strtol(value_of(status, "\nTracerPid:\t"), nullptr, 10));
+  if (tracer == 0) {
     return false;
   }
+  const std::vector<FoundProcess> below = descendants(all_processes(), {::getpid()});
+  return std::none_of(below.begin(), below.end(), [tracer](const auto& process) { return process.pid == tracer; });
+}
+
+bool has_pending_request(const std::string& status) {
   std::uint64_t requests = 0;
   for (const int signal : kEndingSignals) {
     requests |= std::uint64_t{1} << (signal - 1);
@@ -38,15 +54,37 @@ bool has_pending_request(pid_t process) {
 }  // namespace
 
 bool UnansweredSignals::over() {
-  if (!has_pending_request(launcher_)) {
+  const std::string status = read_proc_file(launcher_, "status");
+  if (!has_pending_request(status)) {
     pending_since_.reset();
+    wishes_ = 0;
     return false;
   }
   const Clock::time_point now = Clock::now();
   if (!pending_since_) {
     pending_since_ = now;
   }
-  return now - *pending_since_ >= kPatience;
+  held_ = is_held(status);
+  if (held_ && wishes_ >= kWishes) {
+    return true;
+  }
+  return now - *pending_since_ >= kPatience && !(held_ && is_traced_from_outside(status));
+}
+
+void UnansweredSignals::count() {
+  const Clock::time_point now = Clock::now();
+  if (!counted_ || now - *counted_ >= kSameWish) {
+    counted_ = now;
+    ++wishes_;
+  }
+}
+
+std::string UnansweredSignals::reason() const {
+  if (held_) {
+    return "the launcher does not answer, because another process has stopped it";
+  }
+  return "the launcher has not answered a signal for " + std::to_string(kPatience.count()) +
+         " s, so something in it is blocked";
 }
 
 }  // namespace launch

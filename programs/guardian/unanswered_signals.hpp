@@ -7,11 +7,13 @@
 
 #include <chrono>
 #include <optional>
+#include <string>
 
 namespace launch {
 
 // The launcher blocks these signals and reads them in its loop. A signal that stays pending has not been read. A
-// launcher that is stopped, by Ctrl-Z or a debugger, is not blamed.
+// launcher that is stopped is continued before it is asked to end, so one that stays stopped is blamed, too. One that a
+// debugger from outside of the launch holds is not, until the user has asked three times.
 class UnansweredSignals {
  public:
   using Clock = std::chrono::steady_clock;
@@ -22,12 +24,19 @@ class UnansweredSignals {
   // True when a signal has been pending for kPatience. Looks into /proc, so call it after a signal has come and when
   // next_look() has passed.
   bool over();
+  // A user has asked once more. What comes within a second is the same wish.
+  void count();
+  // "the launcher has not answered a signal for 10 s, so something in it is blocked"
+  std::string reason() const;
   // How long to wait before the next look, as poll(2) wants it: milliseconds, or -1 when nothing is pending.
   int next_look() const { return pending_since_ ? 500 : -1; }
 
  private:
   pid_t launcher_;
   std::optional<Clock::time_point> pending_since_;
+  std::optional<Clock::time_point> counted_;
+  int wishes_ = 0;
+  bool held_ = false;  // stopped or traced
 };
 
 }  // namespace launch

@@ -3,10 +3,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/random.h>
+#include <sys/signalfd.h>
+#include <sys/syscall.h>
 #include <sys/uio.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -63,16 +66,63 @@ std::string earlier_children() {
   return all;
 }
 
-[[noreturn]] void become(const std::string& program, const std::vector<std::string>& words, pid_t launcher) {
+// The launcher has lost a guardian. As long as the other one lives, it is the parent.
+volatile sig_atomic_t guardian_of_launcher = -1;
+void on_lost_guardian(int) {
+  if (::getppid() != guardian_of_launcher) {
+    ::kill(::getpid(), SIGTERM);
+  }
+}
+
+[[noreturn]] void refuse(const char* call, const char* since) {
+  const int error = errno;
+  throw std::system_error(error, std::system_category(),
+                          fmt::format("the system call {} does not work here, and no launch can run without it (Linux "
+                                      "has it since {}; a seccomp profile may forbid it)",
+                                      call, since));
+}
+
+// The calls without which a launch could not wait for its processes, or its guardian for signals. Returns a descriptor
+// of this process.
+UniqueFd check_system_calls() {
+  UniqueFd process(static_cast<int>(::syscall(SYS_pidfd_open, ::getpid(), 0)));
+  if (!process) {
+    refuse("pidfd_open", "5.3");
+  }
+  siginfo_t info{};
+  if (::syscall(SYS_waitid, P_PIDFD, process.get(), &info, WEXITED | WNOHANG, nullptr) != 0 && errno != ECHILD) {
+    refuse("waitid with P_PIDFD", "5.4");
+  }
+  if (::syscall(SYS_pidfd_send_signal, process.get(), 0, nullptr, 0) != 0) {
+    refuse("pidfd_send_signal", "5.1");
+  }
+  sigset_t none;
+  sigemptyset(&none);
+  if (const UniqueFd signals(::signalfd(-1, &none, SFD_CLOEXEC)); !signals) {
+    refuse("signalfd4", "2.6.27");
+  }
+  return process;
+}
+
+// Returns when the program can't be started.
+void become(const std::string& program, const std::vector<std::string>& words, const std::vector<int>& held) {
+  for (const int descriptor : held) {
+    ::fcntl(descriptor, F_SETFD, 0);
+  }
   std::vector<char*> argv;
   for (const std::string& word : words) {
     argv.push_back(const_cast<char*>(word.c_str()));  // exec does not write, C has no way to say so
   }
   argv.push_back(nullptr);
   ::execv(program.c_str(), argv.data());
+}
+
+[[noreturn]] void fail_to_become(const std::string& program, pid_t spare, pid_t launcher) {
   const int error = errno;
+  ::kill(spare, SIGKILL);
   ::kill(launcher, SIGKILL);
-  ::waitpid(launcher, nullptr, 0);
+  ::waitpid(spare, nullptr, 0);
+  ::waitpid(launcher, nullptr, 0);  // it has been adopted
   fmt::print(stderr, "launch: error: cannot start '{}': {}\n", program, std::strerror(error));
   std::fflush(stderr);
   ::_exit(EXIT_FAILURE);
@@ -94,13 +144,15 @@ std::int64_t milliseconds(Duration duration) {
 
 Guardian Guardian::put_above(const std::vector<std::string>& command_line, const std::string& program,
                              const std::vector<int>& held) {
+  UniqueFd process = check_system_calls();
   const UniqueFd file(::memfd_create("launch-guardian", MFD_CLOEXEC));
   // The number of a standard descriptor is free when that descriptor was closed.
   UniqueFd records(file ? ::fcntl(file.get(), F_DUPFD_CLOEXEC, STDERR_FILENO + 1) : -1);
-  if (!records) {
+  if (!records || ::lseek(records.get(), kGuardianRecords, SEEK_SET) != kGuardianRecords) {
     throw_error("cannot create a memory file for launch-guardian");
   }
   Pipe ready = make_pipe();
+  Pipe born = make_pipe();
   const std::string id = random_id();
   // An ignored SIGCHLD would let the kernel reap children, and nobody would know how they ended.
   ::signal(SIGCHLD, SIG_DFL);
@@ -113,32 +165,64 @@ Guardian Guardian::put_above(const std::vector<std::string>& command_line, const
   sigset_t before;
   sigfillset(&all);
   ::sigprocmask(SIG_BLOCK, &all, &before);
+  std::vector<int> inherited = held;
+  inherited.insert(inherited.end(), {records.get(), ready.write.get()});
+  const auto words_of = [&](pid_t launcher, pid_t other, const char* role) {
+    return std::vector<std::string>{"launch-guardian",
+                                    id,
+                                    std::to_string(launcher),
+                                    std::to_string(other),
+                                    std::to_string(records.get()),
+                                    std::to_string(ready.write.get()),
+                                    children,
+                                    role};
+  };
   const pid_t guardian = ::getpid();
-  const pid_t launcher = ::fork();
-  if (launcher < 0) {
+  const pid_t spare = ::fork();
+  if (spare < 0) {
+    const int error = errno;
+    ::sigprocmask(SIG_SETMASK, &before, nullptr);
+    errno = error;
     throw_error("cannot start a process");
   }
-  if (launcher > 0) {
-    std::vector<std::string> words{"launch-guardian",
-                                   id,
-                                   std::to_string(launcher),
-                                   std::to_string(records.get()),
-                                   std::to_string(ready.write.get()),
-                                   children,
-                                   "--"};
-    words.insert(words.end(), command_line.begin(), command_line.end());
-    ::fcntl(records.get(), F_SETFD, 0);
-    ::fcntl(ready.write.get(), F_SETFD, 0);
-    for (const int descriptor : held) {
-      ::fcntl(descriptor, F_SETFD, 0);
+  if (spare > 0) {
+    born.write.reset();
+    pid_t launcher = -1;
+    if (::read(born.read.get(), &launcher, sizeof launcher) != sizeof launcher) {
+      ::waitpid(spare, nullptr, 0);
+      ::sigprocmask(SIG_SETMASK, &before, nullptr);
+      errno = EAGAIN;
+      throw_error("cannot start a process");
     }
-    become(program, words, launcher);
+    std::vector<std::string> words = words_of(launcher, spare, "--");
+    words.insert(words.end(), command_line.begin(), command_line.end());
+    become(program, words, inherited);
+    fail_to_become(program, spare, launcher);
   }
-  if (::prctl(PR_SET_PDEATHSIG, SIGTERM) != 0 || ::getppid() != guardian) {
+  if (::prctl(PR_SET_CHILD_SUBREAPER, 1) != 0) {
+    ::_exit(EXIT_FAILURE);
+  }
+  const pid_t parent = ::getpid();
+  const pid_t launcher = ::fork();
+  if (launcher < 0) {
+    ::_exit(EXIT_FAILURE);
+  }
+  if (launcher > 0) {
+    static_cast<void>(!::write(born.write.get(), &launcher, sizeof launcher));
+    become(program, words_of(launcher, guardian, "--between"), inherited);
+    ::_exit(EXIT_FAILURE);  // the guardian says what is wrong with the program
+  }
+  guardian_of_launcher = guardian;
+  struct sigaction action {};
+  action.sa_handler = on_lost_guardian;
+  action.sa_flags = SA_RESTART;
+  ::sigaction(SIGURG, &action, nullptr);
+  sigdelset(&before, SIGURG);
+  if (::prctl(PR_SET_PDEATHSIG, SIGURG) != 0 || ::getppid() != parent) {
     ::_exit(EXIT_FAILURE);
   }
   ::sigprocmask(SIG_SETMASK, &before, nullptr);
-  return {std::move(records), std::move(ready.read), id, guardian, program, ::getpid()};
+  return {std::move(records), std::move(ready.read), std::move(process), id, guardian, program, ::getpid()};
 }
 
 Guardian::~Guardian() {
@@ -148,7 +232,7 @@ Guardian::~Guardian() {
   ::unsetenv(kMarkVariable);  // or else it would take itself for a process of the launch
   try {
     spawn({.program = program_,
-           .argv = {"launch-guardian", id_, std::to_string(launcher_), std::to_string(records_.get()), "-1", "",
+           .argv = {"launch-guardian", id_, std::to_string(launcher_), "-1", std::to_string(records_.get()), "-1", "",
                     "--after"},
            .descriptors = {{records_.get(), records_.get()}},
            .only_given_descriptors = true,
@@ -180,7 +264,22 @@ void Guardian::wait_until_ready() {
 }
 
 bool Guardian::is_alive() const {
-  return ::getppid() == pid_;
+  pollfd ended{process_.get(), POLLIN, 0};
+  return ::poll(&ended, 1, 0) == 0;
+}
+
+void Guardian::note(std::size_t number, pid_t pid, const std::string& label, const ProcessSpec& spec) {
+  if (number == 0 || number > kGuardianEntries) {
+    return;
+  }
+  GuardianEntry entry{};
+  entry.pid = pid;
+  entry.on_screen = static_cast<char>((spec.output.out.screen ? 1 : 0) + (spec.output.err.screen ? 2 : 0));
+  label.copy(entry.label, sizeof entry.label - 1);
+  entry.sigterm_timeout = milliseconds(spec.sigterm_timeout);
+  entry.sigkill_timeout = milliseconds(spec.sigkill_timeout);
+  // Without the note, the process is found all the same.
+  static_cast<void>(!::pwrite(records_.get(), &entry, sizeof entry, static_cast<off_t>((number - 1) * sizeof entry)));
 }
 
 std::string Guardian::mark(const std::string& label, const ProcessSpec& spec) const {

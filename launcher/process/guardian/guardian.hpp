@@ -4,6 +4,7 @@
 
 #include <sys/types.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -13,16 +14,18 @@
 
 namespace launch {
 
-// The process above the launcher, launch-guardian. Every process that the launcher starts descends from it, and it
-// adopts each process whose parent dies (PR_SET_CHILD_SUBREAPER). It passes signals to the launcher, and ends as the
-// launcher ends. When the launcher has gone, the guardian ends what is left: SIGINT, then SIGTERM and SIGKILL after the
-// timeouts of each process. Then the clean-up commands run.
+// The processes above the launcher: launch-guardian, and below it a spare of it. Every process that the launcher starts
+// descends from both, and the lowest of the two that lives adopts each process whose parent dies
+// (PR_SET_CHILD_SUBREAPER). The guardian passes signals to the launcher, and ends as the launcher ends. When the
+// launcher has gone, the guardian ends what is left: SIGINT, then SIGTERM and SIGKILL after the timeouts of each
+// process. Then the clean-up commands run. The spare does all that when the guardian has been killed.
 class Guardian {
  public:
-  // Splits this process in two: the calling process becomes the guardian, and this function returns in a new process,
-  // which goes on as the launcher. Must be called while there is one thread. When the guardian is killed, the launcher
-  // gets SIGTERM. `command_line` is what ps(1) shows. The guardian keeps the descriptors `held` open until the end of
-  // the launch. Throws std::system_error; a missing program ends the process with exit code 1 and a message.
+  // Splits this process: the calling process becomes the guardian, a new one its spare, and this function returns in a
+  // third one, which goes on as the launcher. Must be called while there is one thread. When the guardian is killed,
+  // the launcher gets SIGTERM; SIGURG is used for that. `command_line` is what ps(1) shows. The guardians keep the
+  // descriptors `held` open until the end of the launch. Throws std::system_error, also when the kernel lacks a system
+  // call; a missing program ends the process with exit code 1 and a message.
   static Guardian put_above(const std::vector<std::string>& command_line,
                             const std::string& program = default_program(), const std::vector<int>& held = {});
   // If guardian and spare have been killed, starts another spare, which ends what this process leaves.
@@ -43,12 +46,14 @@ class Guardian {
   // The environment variable that tells the guardian and its spare about a process: "LAUNCH_PROCESS=…".
   std::string mark(const std::string& label, const ProcessSpec& spec) const;
 
+  // Notes the process with this number, from 1 on: for a process that does not let its environment be read.
+  void note(std::size_t number, pid_t pid, const std::string& label, const ProcessSpec& spec);
+
   // The guardian writes there when the launcher has gone.
   void set_log(const std::string& path);
 
   // Adds a command, with the path of its program, that runs when the launcher has gone and the processes have ended.
-  // The number that it returns takes the command back. Commands run in the opposite order, each for ten seconds at
-  // most.
+  // The number that it returns takes the command back. Commands run in the opposite order, each as long as it gets on.
   std::int32_t add_clean_up(const std::vector<std::string>& command);
   void remove_clean_up(std::int32_t number);
 
@@ -59,9 +64,11 @@ class Guardian {
   static std::string default_program();
 
  private:
-  Guardian(UniqueFd records, UniqueFd ready, std::string id, pid_t pid, std::string program, pid_t launcher)
+  Guardian(UniqueFd records, UniqueFd ready, UniqueFd process, std::string id, pid_t pid, std::string program,
+           pid_t launcher)
       : records_(std::move(records)),
         ready_(std::move(ready)),
+        process_(std::move(process)),
         id_(std::move(id)),
         pid_(pid),
         program_(std::move(program)),
@@ -70,7 +77,8 @@ class Guardian {
   bool has_spare() const;
 
   UniqueFd records_;
-  UniqueFd ready_;  // a pipe that is closed when the guardian and its spare are there
+  UniqueFd ready_;    // a pipe that is closed when the guardian and its spare are there
+  UniqueFd process_;  // the guardian's pidfd
   std::string id_;
   pid_t pid_ = -1;
   std::string program_;

@@ -4,22 +4,39 @@
 //
 // - The environment of each process holds its mark (process_mark.hpp). A process has it before its first instruction,
 //   and its descendants inherit it.
-// - A memory file holds the clean-up commands and the path of launch.log.
+// - A memory file holds a table of the processes, for those whose environment can't be read, and behind it the clean-up
+//   commands and the path of launch.log.
 //
-//   launch-guardian ID LAUNCHER RECORDS READY CHILDREN -- WORD…
+//   launch-guardian ID LAUNCHER OTHER RECORDS READY CHILDREN -- WORD…
 //
-// ID is the number of the launch, LAUNCHER the process number of the launcher, RECORDS the descriptor of the memory
-// file, READY that of a pipe that is closed when the spare guardian is out of reach of signals to the process group,
-// CHILDREN the process numbers of children that the program had before, with commas. WORD… is the command line of
-// the launcher, for a reader of ps(1). A launcher that ends after guardian and spare were killed starts a spare again:
-// "--after" stands in the place of "--" then, and READY is -1.
+// ID is the number of the launch, LAUNCHER the process number of the launcher, OTHER that of the spare guardian, which
+// is the child of the guardian and the parent of the launcher. RECORDS is the descriptor of the memory file, READY that
+// of a pipe that is closed when both are ready, CHILDREN the process numbers of children that the program had before,
+// with commas. WORD… is the command line of the launcher, for a reader of ps(1).
+//
+// "--between" stands in the place of "--" for the spare guardian, and OTHER is the guardian. A launcher that ends after
+// both were killed starts a spare again: it has "--after", and OTHER and READY are -1.
 #pragma once
 
+#include <sys/types.h>
+
+#include <cstddef>
 #include <cstdint>
 
 namespace launch {
 
-// The memory file is a series of records. The last one may be incomplete.
+// A line of the table, at the number of the process in the launch. All zero: there is none.
+struct GuardianEntry {
+  std::int32_t pid;
+  char on_screen;                // 1: standard output, 2: standard error
+  char label[43];                // ends with zero, cut if need be
+  std::int64_t sigterm_timeout;  // milliseconds
+  std::int64_t sigkill_timeout;
+};
+constexpr std::size_t kGuardianEntries = 16384;  // further processes are not in the table
+constexpr off_t kGuardianRecords = kGuardianEntries * sizeof(GuardianEntry);
+
+// The rest of the memory file is a series of records. The last one may be incomplete.
 struct GuardianRecord {
   enum class Kind : std::int32_t {
     kAddCleanUp = 1,     // the words of a command follow, each with a zero byte at its end
@@ -31,5 +48,11 @@ struct GuardianRecord {
   std::int32_t id;     // of a clean-up command
   std::uint32_t size;  // bytes that follow
 };
+
+// The spare guardian tells the guardian so much about the launcher, by a signal with a value. The numbers count from
+// SIGRTMIN.
+constexpr int kLauncherStopped = 3;  // by Ctrl-Z: the guardian stops, too
+constexpr int kLauncherLeaves = 4;   // the launcher has ended with this wait status, and something is left
+constexpr int kNothingLeft = 5;      // the launcher has ended with this wait status, and nothing is left any more
 
 }  // namespace launch

@@ -4,6 +4,7 @@
 #include <dirent.h>
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -51,7 +52,8 @@ void read_mark_value(std::string_view value, const std::string& launch_id, Proce
 
 // From /proc/PID/stat, proc(5): "pid (name) state ppid pgrp session tty tpgid flags … starttime …".
 std::optional<FoundProcess> read_process(pid_t pid) {
-  constexpr int kFieldOfStart = 19;  // counted from the state, which is 0
+  constexpr int kFieldOfThreads = 17;  // counted from the state, which is 0
+  constexpr int kFieldOfStart = 19;
   const std::string text = read_proc_file(pid, "stat");
   const std::size_t open = text.find('(');
   const std::size_t close = text.rfind(')');
@@ -73,13 +75,33 @@ std::optional<FoundProcess> read_process(pid_t pid) {
       process.session = static_cast<pid_t>(value);
     } else if (field == 6) {
       process.dying = (value & kExiting) != 0;
+    } else if (field == kFieldOfThreads) {
+      process.threads = static_cast<long>(value);
     } else if (field == kFieldOfStart) {
       process.started = value;
     }
     next = std::strchr(next, ' ');
     next = next == nullptr ? nullptr : next + 1;
   }
+  process.dying = process.dying && process.threads <= 1;  // the flag is that of the main thread
   return process;
+}
+
+std::string proc_directory(const FoundProcess& process) {
+  const std::string path = "/proc/" + std::to_string(process.pid);
+  if (process.state != 'Z' || process.threads <= 1) {
+    return path;
+  }
+  std::string living;
+  if (DIR* const directory = ::opendir((path + "/task").c_str())) {
+    while (const dirent* const entry = ::readdir(directory)) {
+      if (const int thread = std::atoi(entry->d_name); thread > 0 && thread != process.pid) {
+        living = path + "/task/" + entry->d_name;
+      }
+    }
+    ::closedir(directory);
+  }
+  return living.empty() ? path : living;
 }
 
 std::string read_proc_file(pid_t pid, const char* name) {
@@ -119,9 +141,15 @@ std::vector<FoundProcess> all_processes() {
   return all;
 }
 
-std::optional<std::set<pid_t>> own_children() {
-  const std::string text = read_proc_file(::getpid(), ("task/" + std::to_string(::getpid()) + "/children").c_str());
-  if (text.empty()) {
+bool has_children() {
+  siginfo_t info{};
+  return ::waitid(P_ALL, 0, &info, WEXITED | WNOHANG | WNOWAIT) == 0 || errno != ECHILD;
+}
+
+std::optional<std::set<pid_t>> children_of(pid_t pid) {
+  const std::string path = "/proc/" + std::to_string(pid) + "/task/" + std::to_string(pid) + "/children";
+  const std::string text = read_whole_file(path);
+  if (text.empty() && ::access(path.c_str(), R_OK) != 0) {
     return std::nullopt;
   }
   std::set<pid_t> children;
@@ -149,9 +177,9 @@ std::vector<FoundProcess> descendants(const std::vector<FoundProcess>& all, cons
   return found;
 }
 
-ProcessMark read_mark(pid_t pid, const std::string& launch_id) {
+ProcessMark read_mark(const FoundProcess& process, const std::string& launch_id) {
   ProcessMark mark;
-  const std::string environment = read_proc_file(pid, "environ");
+  const std::string environment = read_whole_file(proc_directory(process) + "/environ");
   const std::string mark_name = std::string(kMarkVariable) + "=";
   const std::string leave_name = std::string(kLeaveRunningVariable) + "=";
   for (std::string_view rest = environment; !rest.empty();) {

@@ -29,11 +29,14 @@ struct FoundProcess {
   pid_t group = 0;
   pid_t session = 0;
   std::uint64_t started = 0;  // with the process number it names a process for good
-  char state = '?';
-  bool dying = false;  // has been killed, or is about to end
+  char state = '?';           // of the main thread
+  long threads = 1;           // that have not ended; the main one counts in any case
+  bool dying = false;         // has been killed, or is about to end
   std::string name;
 
-  bool is_dead() const { return state == 'Z' || state == 'X'; }
+  // A process whose main thread has ended runs on as long as another thread does.
+  bool is_dead() const { return (state == 'Z' || state == 'X') && threads <= 1; }
+  bool is_stopped() const { return state == 'T' || state == 't'; }  // or traced
 };
 
 // The bytes of a file whose size the kernel does not tell; empty when there is none.
@@ -46,15 +49,22 @@ std::optional<FoundProcess> read_process(pid_t pid);
 // All processes that this user can see, in the order of their numbers.
 std::vector<FoundProcess> all_processes();
 
-// The children of this process; nullopt when the kernel does not tell. Much quicker than a look at all processes.
-std::optional<std::set<pid_t>> own_children();
+// The children of a process with one thread; nullopt when the kernel does not tell. Much quicker than a look at all
+// processes.
+std::optional<std::set<pid_t>> children_of(pid_t pid);
+// Whether this process has a child, alive or not reaped. It adopts orphans, so without one nothing descends from it:
+// the kernel knows, where a look into /proc could miss a process that has just started another one and ended.
+bool has_children();
+
+// Where /proc shows what belongs to the whole process. Below PID it is empty when the main thread has ended.
+std::string proc_directory(const FoundProcess& process);
 
 // The processes that descend from one of `roots`, without the roots.
 std::vector<FoundProcess> descendants(const std::vector<FoundProcess>& all, const std::set<pid_t>& roots);
 
-// Reads the environment of the process. A process of another user, and one that has overwritten its environment, has
-// the mark of no launch.
-ProcessMark read_mark(pid_t pid, const std::string& launch_id);
+// Reads the environment of the process. A process of another user, one that must not be looked into
+// (PR_SET_DUMPABLE), and one that has overwritten its environment, have the mark of no launch.
+ProcessMark read_mark(const FoundProcess& process, const std::string& launch_id);
 
 // Whether SIGKILL has been sent to the process, which has not died yet.
 bool is_being_killed(pid_t pid);

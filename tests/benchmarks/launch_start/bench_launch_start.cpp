@@ -89,12 +89,14 @@ double mebibytes_of(pid_t pid, const std::string& line_name) {
   return 0;
 }
 
-// The started process is the guardian, and the launcher its first child.
+// The started process is the guardian, the spare guardian its first child, and the launcher the first child of that.
 pid_t launcher_below(pid_t guardian) {
-  std::ifstream children(fmt::format("/proc/{0}/task/{0}/children", guardian));
-  pid_t launcher = guardian;
-  children >> launcher;
-  return launcher;
+  pid_t process = guardian;
+  for (int level = 0; level < 2; ++level) {
+    std::ifstream children(fmt::format("/proc/{0}/task/{0}/children", process));
+    children >> process;
+  }
+  return process;
 }
 
 using Values = std::vector<double>;

@@ -36,13 +36,18 @@ int rounds() {
   return given == nullptr ? 17 : std::atoi(given);
 }
 
-// The launcher is the child of the guardian that was there first.
-pid_t launcher_below(pid_t guardian) {
-  const std::string number = std::to_string(guardian);
+pid_t first_child(pid_t parent) {
+  const std::string number = std::to_string(parent);
   std::ifstream children("/proc/" + number + "/task/" + number + "/children");
-  pid_t launcher = -1;
-  children >> launcher;
-  return launcher;
+  pid_t child = -1;
+  children >> child;
+  return child;
+}
+
+// The spare guardian is the child of the guardian, which the user has started, and the launcher is the child of the
+// spare.
+pid_t launcher_below(pid_t guardian) {
+  return first_child(first_child(guardian));
 }
 
 // Busy: a sleep would be as long as the timer of the machine wants it.

@@ -192,6 +192,19 @@ TEST_F(Supervision, AMissingNodeStartsNothing) {
   EXPECT_THAT(result.out, Not(HasSubstr("started")));
 }
 
+TEST_F(Supervision, CtrlCInTheMiddleOfALargeStartStartsNoMore) {
+  std::string actions;
+  for (int i = 0; i < 1000; ++i) {
+    actions += "<executable name=\"sleeper\" cmd=\"sleep 1000\"/>\n";
+  }
+  RunningCommand run({.argv = {LAUNCH_PROGRAM, write(actions)}});
+  ASSERT_TRUE(run.wait_for_output("[sleeper-20]: process started")) << run.err();
+  run.send_signal(SIGINT);
+  const CommandResult result = run.wait();
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, Not(HasSubstr("[sleeper-1000]: process started")));
+}
+
 TEST_F(Supervision, SigtermToTheLauncherEndsItsProcesses) {
   const std::string file =
       write(R"xml(<executable name="waiter" shell="true" output="screen" cmd="echo ready; exec cat"/>)xml");

@@ -70,13 +70,18 @@ TEST_F(OnATerminal, AQuickLaunchHasNoStatusLine) {
   EXPECT_THAT(terminal.everything(), Not(HasSubstr("\033")));
 }
 
-// A launcher is the child of its guardian, which the user has started.
-pid_t launcher_below(pid_t guardian) {
-  const std::string number = std::to_string(guardian);
+pid_t first_child(pid_t parent) {
+  const std::string number = std::to_string(parent);
   std::ifstream children("/proc/" + number + "/task/" + number + "/children");
-  pid_t launcher = -1;
-  children >> launcher;
-  return launcher;
+  pid_t child = -1;
+  children >> child;
+  return child;
+}
+
+// The spare guardian is the child of the guardian, which the user has started, and the launcher is the child of the
+// spare.
+pid_t launcher_below(pid_t guardian) {
+  return first_child(first_child(guardian));
 }
 
 TEST_F(OnATerminal, TheStatusLineOfAKilledLauncherIsErased) {

@@ -67,6 +67,7 @@ int main(int argc, char** argv) {
     spec.argv = {"/bin/sh", "-c", script};
     spec.mark = guardian.mark(fmt::format("shell-{}", processes.size() + 1), spec);
     processes.push_back(runner->spawn(spec));
+    guardian.note(processes.size(), processes.back().pid, fmt::format("shell-{}", processes.size()), spec);
     for (char byte = 0; byte != '\n';) {
       static_cast<void>(!::read(processes.back().out.get(), &byte, 1));
     }

@@ -106,9 +106,16 @@ class GuardianTest : public testing::Test {
     }
     EXPECT_EQ(errno, ECHILD);
   }
+  static std::vector<pid_t> children(pid_t parent) {
+    std::ifstream file(fmt::format("/proc/{0}/task/{0}/children", parent));
+    std::vector<pid_t> all;
+    for (pid_t child; file >> child;) {
+      all.push_back(child);
+    }
+    return all;
+  }
   pid_t child_of_guardian(const std::string& name) const {
-    std::ifstream children(fmt::format("/proc/{0}/task/{0}/children", guardian));
-    for (pid_t child; children >> child;) {
+    for (const pid_t child : children(guardian)) {
       if (name_of_process(child) == name) {
         return child;
       }

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "programs/guardian/spare_process.hpp"
+
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/signalfd.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <optional>
+#include <utility>
+
+#include "launcher/process/guardian/guardian_protocol.hpp"
+#include "programs/guardian/launch_cgroup.hpp"
+#include "programs/guardian/unanswered_signals.hpp"
+
+namespace launch {
+namespace {
+
+// Nothing tells that somebody has stopped the guardian, which has the process number that the user knows.
+constexpr int kBetweenLooksAtGuardian = 1000;  // milliseconds
+
+// The spare between stays in the session of the launch: a process that is stopped when its parent dies would get SIGHUP
+// from the kernel if its new parent were in another one. And a spare that is stopped itself is continued by the kernel
+// when the guardian and the launcher die.
+void leave_group() {
+  ::setpgid(0, 0);
+  ::prctl(PR_SET_NAME, "guardian-spare");
+}
+
+void leave_session() {
+  ::setsid();
+  ::prctl(PR_SET_NAME, "guardian-spare");
+}
+
+bool is_stopped(pid_t pid) {
+  const std::optional<FoundProcess> process = read_process(pid);
+  return process && process->state == 'T';
+}
+
+class SpareBetween {
+ public:
+  explicit SpareBetween(GuardedLaunch launch) : launch_(std::move(launch)) {}
+
+  [[noreturn]] void run(UniqueFd ready);
+
+ private:
+  void reap();
+  void tell_guardian(int what, int value) const;
+  void continue_guardian() const;
+  void on_lost_guardian();
+
+  GuardedLaunch launch_;
+  UniqueFd guardian_ = open_process(::getppid() == launch_.other ? launch_.other : -1);
+  UniqueFd launcher_ = open_process(launch_.launcher);
+  UniqueFd signals_ = watch_signals();
+  LaunchCgroup cgroup_;
+  std::optional<int> status_;  // of the launcher, once it has ended
+  bool has_told_ = false;      // that nothing is left
+  UnansweredSignals unanswered_{launch_.launcher};
+};
+
+void SpareBetween::run(UniqueFd ready) {
+  cgroup_ = LaunchCgroup::make(launch_.id, launch_.launcher);
+  ready.reset();
+  for (bool guarded = true;; reap()) {
+    if (guarded && has_ended(guardian_)) {
+      guarded = false;
+      guardian_.reset();
+      on_lost_guardian();
+    }
+    if (guarded) {
+      continue_guardian();
+    } else if (status_) {
+      const bool ended_all =
+          end_rest(launch_, members_below(launch_), !has_children(), "launcher and guardian have gone", signals_.get());
+      end_with(ended_all || *status_ != 0 ? *status_ : EXIT_FAILURE << 8);
+    } else if (unanswered_.over()) {
+      send_signal(launcher_, SIGKILL);
+    }
+    std::array<pollfd, 2> wait{{{signals_.get(), POLLIN, 0}, {guardian_.get(), POLLIN, 0}}};  // skips a negative one
+    ::poll(wait.data(), wait.size(), guarded ? kBetweenLooksAtGuardian : unanswered_.next_look());
+    // Signals to this process mean nothing while the guardian lives; GentleEnd reads them later on.
+    for (signalfd_siginfo signal{}; ::read(signals_.get(), &signal, sizeof signal) == sizeof signal;) {
+    }
+  }
+}
+
+void SpareBetween::reap() {
+  int status = 0;
+  pid_t pid = 0;
+  bool launcher_ended = false;
+  while ((pid = ::waitpid(-1, &status, WNOHANG | WUNTRACED)) > 0) {
+    if (pid != launch_.launcher) {
+      continue;
+    }
+    if (!WIFSTOPPED(status)) {
+      status_ = status;
+      launcher_ended = true;
+    } else if (WSTOPSIG(status) != SIGSTOP) {
+      tell_guardian(kLauncherStopped, 0);
+    }
+  }
+  if (status_ && pid < 0 && !has_told_) {
+    has_told_ = true;
+    cgroup_.remove();
+    tell_guardian(kNothingLeft, *status_);
+  } else if (launcher_ended) {
+    tell_guardian(kLauncherLeaves, *status_);
+  }
+}
+
+void SpareBetween::tell_guardian(int what, int value) const {
+  if (guardian_) {
+    ::sigqueue(launch_.other, SIGRTMIN + what, {.sival_int = value});
+  }
+}
+
+// Ctrl-Z stops the launcher and then the guardian. A guardian that is stopped alone was stopped by somebody else.
+void SpareBetween::continue_guardian() const {
+  if (is_stopped(launch_.other) && (status_ || !is_stopped(launch_.launcher))) {
+    send_signal(guardian_, SIGCONT);
+  }
+}
+
+// The launcher sees that the guardian has gone, and says so. It can be too busy to take the signal.
+void SpareBetween::on_lost_guardian() {
+  if (!status_) {
+    send_signal(launcher_, SIGTERM);
+    send_signal(launcher_, SIGCONT);
+    unanswered_.over();
+  }
+}
+
+}  // namespace
+
+void stand_between(GuardedLaunch launch, UniqueFd ready) {
+  leave_group();
+  SpareBetween(std::move(launch)).run(std::move(ready));
+}
+
+void stand_beside(const GuardedLaunch& launch, const UniqueFd& guardian) {
+  leave_session();
+  const UniqueFd launcher = open_process(launch.launcher);
+  // A launcher without a guardian gets SIGTERM. It can be too busy to take it.
+  UnansweredSignals unanswered(launch.launcher);
+  bool guarded = static_cast<bool>(guardian);
+  while (!has_ended(launcher)) {
+    std::array<pollfd, 2> ended{{{launcher.get(), POLLIN, 0}, {guarded ? guardian.get() : -1, POLLIN, 0}}};
+    ::poll(ended.data(), ended.size(), unanswered.next_look());
+    guarded = guarded && !has_ended(guardian);
+    if (!guarded && unanswered.over()) {
+      send_signal(launcher, SIGKILL);
+    }
+  }
+  if (guardian) {
+    send_signal(guardian, SIGCONT);  // a guardian that somebody has stopped must go on now
+    pollfd ended{guardian.get(), POLLIN, 0};
+    while (::poll(&ended, 1, -1) != 1) {
+    }
+  }
+  LaunchMembers members = members_below(launch);
+  members.by_mark = true;
+  end_rest(launch, std::move(members), false, "launcher and guardian have gone", -1);
+  ::_exit(EXIT_SUCCESS);
+}
+
+}  // namespace launch
