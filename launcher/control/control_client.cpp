@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <filesystem>
@@ -25,9 +26,18 @@ constexpr int kForEver = -1;
 }  // namespace
 
 void ControlClient::send_request(const Json& request) {
+  if (!found_.connected) {
+    throw_no_answer();
+  }
   Json whole{{"version", kControlVersion}};
   whole.update(request);
   send(whole.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void ControlClient::throw_no_answer() const {
+  const std::string of = found_.user.empty() ? "" : fmt::format(" of {}", found_.user);
+  throw ControlError(fmt::format("launch {}{} does not answer", pid(), of),
+                     "it is busy or stopped: see its terminal, or end it by 'kill'");
 }
 
 template <typename HasAnswer>
@@ -39,7 +49,7 @@ void ControlClient::wait_for_answer(const HasAnswer& has_answer) {
     }
     const auto left = std::chrono::duration_cast<milliseconds>(until - std::chrono::steady_clock::now()).count();
     if (left <= 0) {
-      throw ControlError(fmt::format("launch {} does not answer", pid()), "it may be stopped: see its terminal");
+      throw_no_answer();
     }
     receive(static_cast<int>(left));
   }
@@ -128,7 +138,7 @@ void ControlClient::send(std::string_view text) {
     } else if (errno == EAGAIN) {
       pollfd writable{fd(), POLLOUT, 0};
       if (::poll(&writable, 1, static_cast<int>(kPatience.count())) == 0) {
-        throw ControlError(fmt::format("launch {} does not answer", pid()));
+        throw_no_answer();
       }
     } else if (errno != EINTR) {
       ended_ = true;
@@ -147,7 +157,7 @@ std::string files_of(const Json& answer) {
 
 ControlClient choose_launch(const Environment& environment, const std::string& wanted) {
   std::vector<ControlClient> all;
-  for (FoundLaunch& found : find_launches(environment)) {
+  for (FoundLaunch& found : find_launches(environment, WhoseLaunches::kAll)) {
     all.emplace_back(std::move(found));
   }
   if (all.empty()) {
@@ -155,7 +165,12 @@ ControlClient choose_launch(const Environment& environment, const std::string& w
   }
   std::string list;
   std::vector<ControlClient> chosen;
-  const bool only = all.size() == 1 && wanted.empty();
+  const auto is_own = [](const ControlClient& client) { return client.user().empty(); };
+  const bool has_own = std::any_of(all.begin(), all.end(), is_own);
+  if (wanted.empty() && has_own) {
+    std::erase_if(all, [&](const ControlClient& client) { return !is_own(client); });
+  }
+  const bool only = all.size() == 1 && wanted.empty() && has_own;
   for (ControlClient& client : all) {
     if (only) {
       return std::move(client);
@@ -169,14 +184,17 @@ ControlClient choose_launch(const Environment& environment, const std::string& w
       }
       files = error.what();
     }
-    list += fmt::format("\n  {:<8} {}", client.pid(), files);
+    list += fmt::format("\n  {:<8} {}{}", client.pid(), files, is_own(client) ? "" : ", of " + client.user());
     const bool named = (", " + files + ", ").find(", " + wanted + ", ") != std::string::npos;
-    if (wanted.empty() || wanted == std::to_string(client.pid()) || named) {
+    if ((wanted.empty() && has_own) || wanted == std::to_string(client.pid()) || named) {
       chosen.push_back(std::move(client));
     }
   }
   if (list.empty()) {
     throw ControlError("no launch runs");
+  }
+  if (chosen.empty() && wanted.empty()) {
+    throw ControlError(fmt::format("no launch of this user runs; choose one with --launch NUMBER:{}", list));
   }
   if (chosen.empty()) {
     throw ControlError(fmt::format("launch '{}' does not run; there are:{}", wanted, list));

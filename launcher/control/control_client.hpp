@@ -33,6 +33,8 @@ class ControlClient {
   explicit ControlClient(FoundLaunch found) : found_(std::move(found)) {}
 
   pid_t pid() const { return found_.pid; }
+  // The owner of the launch if that is another user, else "".
+  const std::string& user() const { return found_.user; }
   // Readable when next() has something.
   int fd() const { return found_.socket.get(); }
 
@@ -57,6 +59,7 @@ class ControlClient {
   void wait_for_answer(const HasAnswer& has_answer);
   std::optional<Json> take(bool answer);
   bool receive(int patience);
+  [[noreturn]] void throw_no_answer() const;
   void send(std::string_view text);
 
   FoundLaunch found_;
@@ -65,8 +68,8 @@ class ControlClient {
   bool ended_ = false;
 };
 
-// The launch that is meant: the only one that runs, or the one of this number or with a launch file of this name.
-// Throws ControlError.
+// The launch that is meant: the only one of this user that runs, or the one of this number or with a launch file of
+// this name, for root also of another user. Throws ControlError.
 ControlClient choose_launch(const Environment& environment, const std::string& wanted);
 // "system.launch.xml, left.launch.xml", of an answer to "info" or "ps".
 std::string files_of(const ControlClient::Json& answer);

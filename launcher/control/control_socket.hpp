@@ -39,11 +39,18 @@ class ControlSocket {
 struct FoundLaunch {
   pid_t pid;         // of the process that the user has started
   std::string path;  // of the socket
-  UniqueFd socket;   // connected
+  UniqueFd socket;
+  bool connected;    // false: it has not taken the connection for some seconds, so it is busy or stopped
+  std::string user;  // the owner if that is another user, else ""
 };
 
-// Connects to every launch of this user that runs, sorted by process number. Removes sockets that dead launches have
-// left.
-std::vector<FoundLaunch> find_launches(const Environment& environment);
+enum class WhoseLaunches {
+  kOwn,
+  kAll  // of root: those of all users, else the own ones
+};
+
+// Connects to every launch that runs, sorted by process number. Waits some seconds for one that is busy. Removes
+// sockets that dead launches have left.
+std::vector<FoundLaunch> find_launches(const Environment& environment, WhoseLaunches whose = WhoseLaunches::kOwn);
 
 }  // namespace launch

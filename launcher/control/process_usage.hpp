@@ -17,6 +17,7 @@ namespace launch {
 struct ProcessUsage {
   double cpu = 0;            // seconds of processor time of all its threads
   std::uint64_t memory = 0;  // bytes that are resident, shared ones included
+  bool stopped = false;      // by a signal or a debugger
 };
 
 // Nothing when the process has gone.

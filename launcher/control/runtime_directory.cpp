@@ -7,6 +7,9 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
+#include <filesystem>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -30,13 +33,13 @@ std::vector<std::string> paths(const Environment& environment) {
 }
 
 // Sets errno if there is none.
-UniqueFd open_own(const std::string& path) {
+UniqueFd open_of(uid_t owner, const std::string& path) {
   UniqueFd fd(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
   struct stat status {};
   if (!fd || ::fstat(fd.get(), &status) != 0) {
     return {};
   }
-  if (status.st_uid != ::geteuid() || (status.st_mode & 0777 & ~kOwnerOnly) != 0) {
+  if (status.st_uid != owner || (status.st_mode & 0777 & ~kOwnerOnly) != 0) {
     errno = EPERM;
     return {};
   }
@@ -55,10 +58,10 @@ RuntimeDirectory RuntimeDirectory::make(const Environment& environment) {
   for (const std::string& path : paths(environment)) {
     UniqueFd fd;
     if (::mkdir(path.c_str(), kOwnerOnly) == 0 || errno == EEXIST) {
-      fd = open_own(path);
+      fd = open_of(::geteuid(), path);
     }
     if (fd) {
-      return {path, std::move(fd)};
+      return {path, std::move(fd), ::geteuid()};
     }
     failed = path;
     error = errno;
@@ -69,9 +72,34 @@ RuntimeDirectory RuntimeDirectory::make(const Environment& environment) {
 std::vector<RuntimeDirectory> RuntimeDirectory::find(const Environment& environment) {
   std::vector<RuntimeDirectory> found;
   for (const std::string& path : paths(environment)) {
-    if (UniqueFd fd = open_own(path)) {
-      found.push_back({path, std::move(fd)});
+    if (UniqueFd fd = open_of(::geteuid(), path)) {
+      found.push_back({path, std::move(fd), ::geteuid()});
     }
+  }
+  return found;
+}
+
+std::vector<RuntimeDirectory> RuntimeDirectory::find_of_others() {
+  std::vector<RuntimeDirectory> found;
+  const auto add = [&found](const std::string& number, const std::string& path) {
+    uid_t owner = 0;
+    const auto end = std::from_chars(number.data(), number.data() + number.size(), owner);
+    if (end.ec != std::errc() || end.ptr != number.data() + number.size() || owner == ::geteuid()) {
+      return;
+    }
+    if (UniqueFd fd = open_of(owner, path)) {
+      found.push_back({path, std::move(fd), owner});
+    }
+  };
+  constexpr std::string_view kPrefix = "launch-";
+  std::error_code unreadable;
+  for (const auto& entry : std::filesystem::directory_iterator("/tmp", unreadable)) {
+    if (const std::string name = entry.path().filename().string(); name.starts_with(kPrefix)) {
+      add(name.substr(kPrefix.size()), entry.path().string());
+    }
+  }
+  for (const auto& entry : std::filesystem::directory_iterator("/run/user", unreadable)) {
+    add(entry.path().filename().string(), entry.path().string() + "/launch");
   }
   return found;
 }

@@ -6,6 +6,8 @@
 // descriptor, so nobody can exchange the directory afterwards.
 #pragma once
 
+#include <sys/types.h>
+
 #include <string>
 #include <vector>
 
@@ -17,6 +19,7 @@ namespace launch {
 struct RuntimeDirectory {
   std::string path;
   UniqueFd fd;
+  uid_t owner;
 
   // The address of a socket in the directory, short enough for every directory (sun_path has 108 bytes).
   std::string address(const std::string& name) const;
@@ -25,6 +28,8 @@ struct RuntimeDirectory {
   static RuntimeDirectory make(const Environment& environment);
   // Those that exist and can be used: a launch and its user may have different environments.
   static std::vector<RuntimeDirectory> find(const Environment& environment);
+  // Those of other users, where they are without a variable; only root may look into them.
+  static std::vector<RuntimeDirectory> find_of_others();
 };
 
 }  // namespace launch

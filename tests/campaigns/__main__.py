@@ -12,7 +12,7 @@ from . import place as places
 from .campaign import table
 
 NAMES = ('crashes', 'overload', 'rotations', 'early_ends', 'configurations', 'deaths', 'skewed_clocks', 'live_views',
-         'false_alarms', 'daemons', 'own_buffers')
+         'false_alarms', 'daemons', 'own_buffers', 'ownership')
 
 
 def main():

@@ -145,8 +145,9 @@ bool Processes::drop(const TrackedProcess& process) {
     const auto found = std::find(all.begin() + static_cast<std::ptrdiff_t>(starting_->next), all.end(), &process);
     const auto behind = std::find_if(starting_->behind.begin(), starting_->behind.end(),
                                      [&](const auto& each) { return each.second == &process && !process.is_over; });
-    TrackedProcess* const dropped =
-        found != all.end() ? std::exchange(*found, nullptr) : behind != starting_->behind.end() ? behind->second : nullptr;
+    TrackedProcess* const dropped = found != all.end()                  ? std::exchange(*found, nullptr)
+                                    : behind != starting_->behind.end() ? behind->second
+                                                                        : nullptr;
     if (dropped != nullptr) {
       dropped->is_over = true;
       order_.on_process_event(*dropped);

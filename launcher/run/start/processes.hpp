@@ -56,15 +56,15 @@ class Processes {
   void execute(const ProcessCommand& command);
   // The process must never start. Returns whether it waited.
   bool drop(const TrackedProcess& process);
-  // In the order in which they were asked for. `waiting` is null for a process that does not wait for something, nor for
-  // its turn.
+  // In the order in which they were asked for. `waiting` is null for a process that does not wait for something, nor
+  // for its turn.
   void for_each(const std::function<void(const TrackedProcess& process, const ProcessSpec* waiting)>& tell) const;
 
   // The processes of a round that wait for something begin to wait. They watch the others from their start on, so this
   // must be called before start().
   void wait(Round& round);
-  // Starts the other processes, unless the shutdown comes before, and calls `started` then: before this returns, or in a
-  // later turn of the loop. The round must stay where it is until then. What its processes wait for may happen
+  // Starts the other processes, unless the shutdown comes before, and calls `started` then: before this returns, or in
+  // a later turn of the loop. The round must stay where it is until then. What its processes wait for may happen
   // meanwhile; those start behind the others.
   void start(Round& round, EventLoop::Callback started);
   // Processes that still wait never start, and start() does nothing after this.

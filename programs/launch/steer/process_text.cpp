@@ -23,6 +23,9 @@ void add_usage(nlohmann::ordered_json& processes) {
     if (usage[i]) {
       processes[i]["cpu"] = usage[i]->cpu;
       processes[i]["memory"] = usage[i]->memory;
+      if (usage[i]->stopped && processes[i].value("state", "") == "running") {
+        processes[i]["state"] = "stopped";
+      }
     }
   }
 }

@@ -39,7 +39,7 @@ std::string cpu_text(const ProcessUsage& usage, double running_for) {
 ProcessRow row_of(const ListedLaunch& launch, const ListedProcess& process, const std::optional<ProcessUsage>& usage) {
   const bool runs = process.pid >= 0;
   return {process.name,
-          state_text(process.state, process.end),
+          usage && usage->stopped && process.state == "running" ? "stopped" : state_text(process.state, process.end),
           runs ? std::to_string(process.pid) : "-",
           process.restarts < 0 ? "-" : std::to_string(process.restarts),
           usage ? cpu_text(*usage, process.running_for) : "-",
@@ -73,7 +73,7 @@ std::string table(const ListedLaunch& launch, const std::vector<std::optional<Pr
   return text;
 }
 
-std::string heading(const ListedLaunch& launch) {
+std::string heading(const ListedLaunch& launch, const std::string& user) {
   const double age =
       std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count() - launch.started;
   std::vector<std::string> files;
@@ -81,8 +81,8 @@ std::string heading(const ListedLaunch& launch) {
     files.push_back(std::filesystem::path(file).filename().string());
   }
   const std::size_t count = launch.processes.size();
-  return fmt::format("launch {}: {}, {} for {}, {} process{}{}{}\n", launch.pid, fmt::join(files, ", "), launch.state,
-                     duration_text(age), count, count == 1 ? "" : "es",
+  return fmt::format("launch {}{}{}: {}, {} for {}, {} process{}{}{}\n", launch.pid, user.empty() ? "" : " of ", user,
+                     fmt::join(files, ", "), launch.state, duration_text(age), count, count == 1 ? "" : "es",
                      launch.isolation.empty() ? "" : ", isolated by ", launch.isolation);
 }
 
@@ -93,7 +93,7 @@ std::vector<ControlClient> launches(const Environment& environment, const std::s
     all.push_back(choose_launch(environment, wanted));
     return all;
   }
-  for (FoundLaunch& found : find_launches(environment)) {
+  for (FoundLaunch& found : find_launches(environment, WhoseLaunches::kAll)) {
     all.emplace_back(std::move(found));
   }
   return all;
@@ -123,6 +123,9 @@ int ps_command(const std::vector<std::string>& words) {
       if (as_json) {
         Json answer = launch.ask(request);
         add_usage(answer["processes"]);
+        if (!launch.user().empty()) {
+          answer["launch"]["user"] = launch.user();
+        }
         answer.erase("ok");
         answer.erase("version");
         answers.push_back(std::move(answer));
@@ -130,7 +133,7 @@ int ps_command(const std::vector<std::string>& words) {
         UsageReader usage;
         const ListedLaunch listed = read_ps_answer(launch.ask_for_line(request),
                                                    [&usage](const ListedProcess& process) { usage.add(process.pid); });
-        tables.push_back(heading(listed) + table(listed, usage.take()));
+        tables.push_back(heading(listed, launch.user()) + table(listed, usage.take()));
       }
     } catch (const ControlError& error) {
       // Another launch may have a process of this name.

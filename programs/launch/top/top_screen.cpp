@@ -7,9 +7,15 @@
 #include <ncurses.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <stdexcept>
+#include <string_view>
 
 #include "programs/launch/steer/process_text.hpp"
+
+// Its header, term.h, makes macros of names such as `lines`.
+extern "C" char* tigetstr(const char* name);
 
 namespace launch {
 namespace {
@@ -33,8 +39,23 @@ std::string fit(const std::string& text, std::size_t width) {
   return cut + std::string(width - columns, ' ');
 }
 
+// Names differ at the end more often than at the beginning: "driver-17" and "driver-18".
+std::string fit_name(const std::string& name, std::size_t width) {
+  if (columns_of(name) <= width) {
+    return fit(name, width);
+  }
+  const std::size_t head = width / 3;
+  std::size_t begin = name.size();
+  for (std::size_t tail = 0; tail + head + 1 < width; ++tail) {
+    do {
+      --begin;
+    } while ((static_cast<unsigned char>(name[begin]) & 0xC0U) == 0x80U);
+  }
+  return fit(name, head) + "…" + name.substr(begin);
+}
+
 std::string line_of(const TopRow& row, std::size_t name_width) {
-  return fmt::format("{} {} {:>8} {:>6} {:>10} {:>8} {:>8}  {}", fit(row.name, name_width), fit(row.state, 18),
+  return fmt::format("{} {} {:>8} {:>6} {:>10} {:>8} {:>8}  {}", fit_name(row.name, name_width), fit(row.state, 18),
                      row.pid.empty() ? "-" : row.pid, row.pid.empty() ? "-" : fmt::format("{:.1f}", row.cpu),
                      row.pid.empty() ? "-" : memory_text(row.memory), row.restarts, fmt::format("{:.0f}", row.lines),
                      row.place);
@@ -43,6 +64,11 @@ std::string line_of(const TopRow& row, std::size_t name_width) {
 }  // namespace
 
 TopScreen::TopScreen() {
+  const char* const type = std::getenv("TERM");
+  if (type == nullptr || *type == '\0' || std::string_view(type) == "dumb") {
+    throw std::runtime_error(
+        "nothing can be drawn on this terminal (TERM is 'dumb' or empty); 'launch ps' prints a table");
+  }
   ::setlocale(LC_ALL, "");
   if (::newterm(nullptr, stdout, stdin) == nullptr) {
     throw std::runtime_error("the terminal is not known, see the variable TERM");
@@ -57,6 +83,11 @@ TopScreen::TopScreen() {
 
 TopScreen::~TopScreen() {
   ::endwin();
+  // Without a screen of its own, the view stays there, and what follows would be written into its last line.
+  if (const char* const leaves = ::tigetstr("rmcup"); leaves == nullptr || leaves == reinterpret_cast<char*>(-1)) {
+    ::fputs("\n", stdout);
+    ::fflush(stdout);
+  }
 }
 
 std::size_t TopScreen::height() const {

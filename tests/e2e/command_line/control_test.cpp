@@ -62,6 +62,16 @@ class Control : public testing::Test {
     return names;
   }
 
+  // The child of the spare guardian, which is the child of the guardian.
+  static pid_t launcher_below(pid_t guardian) {
+    pid_t process = guardian;
+    for (int level = 0; level < 2; ++level) {
+      const std::string number = std::to_string(process);
+      process = std::stoi(read_file("/proc/" + number + "/task/" + number + "/children"));
+    }
+    return process;
+  }
+
   Sandbox sandbox_;
   fs::path runtime_;
   std::map<std::string, std::string> environment_;
@@ -103,6 +113,63 @@ TEST_F(Control, PsListsProcessesWithTheirStatesAndPlaces) {
   EXPECT_EQ(unknown.err, "launch ps: error: no process is named 'talkr'\n      = help: did you mean 'talker'?\n");
   run.send_signal(SIGINT);
   EXPECT_EQ(run.wait().exit_code, 3) << "one has failed";
+}
+
+// More clients than may wait for a launcher are refused by the system at once.
+TEST_F(Control, ALaunchThatDoesNotAnswerIsNamedHoweverManyWaitForIt) {
+  RunningCommand run(launch({write(kTalker)}));
+  ASSERT_TRUE(run.wait_for_output("[talker-1] ready", kPatience));
+  const pid_t launcher = launcher_below(run.pid());
+  ASSERT_EQ(::kill(launcher, SIGSTOP), 0);
+  std::vector<int> waiting;
+  const fs::path before = fs::current_path();
+  fs::current_path(runtime_ / "launch");
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  sockets().front().copy(address.sun_path, sizeof address.sun_path - 1);
+  do {
+    waiting.push_back(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0));
+  } while (::connect(waiting.back(), reinterpret_cast<sockaddr*>(&address), sizeof address) == 0);
+  EXPECT_EQ(errno, EAGAIN);
+  fs::current_path(before);
+  EXPECT_THAT(ask({"ps"}).err,
+              testing::StartsWith("launch ps: error: launch " + std::to_string(run.pid()) + " does not answer\n"));
+  for (const int fd : waiting) {
+    ::close(fd);
+  }
+  ::kill(launcher, SIGCONT);
+  EXPECT_THAT(ask({"ps"}).out, HasSubstr("talker-1"));
+  run.send_signal(SIGINT);
+  EXPECT_EQ(run.wait().exit_code, 0);
+}
+
+TEST_F(Control, RootSeesTheLaunchesOfOthersAndWhoseTheyAre) {
+  if (::geteuid() != 0) {
+    GTEST_SKIP() << "skipped, because it needs root";
+  }
+  constexpr uid_t kOther = 54321;  // nobody has it
+  const fs::path directory = "/tmp/launch-54321";
+  const fs::path logs = sandbox_.directory() / "logs";
+  for (const fs::path& own : {directory, logs}) {
+    fs::create_directory(own);
+    fs::permissions(own, fs::perms::owner_all);
+    ASSERT_EQ(::chown(own.c_str(), kOther, kOther), 0);
+  }
+  fs::permissions(sandbox_.directory(), fs::perms::others_exec | fs::perms::others_read, fs::perm_options::add);
+  Command other = launch({write(kTalker)});
+  other.argv.insert(other.argv.begin(), {"setpriv", "--reuid=54321", "--regid=54321", "--clear-groups"});
+  other.environment = {{"XDG_RUNTIME_DIR", ""}, {"ROS_LOG_DIR", logs.string()}, {"HOME", logs.string()}};
+  {
+    RunningCommand run(other);
+    EXPECT_TRUE(run.wait_for_output("[talker-1] ready", kPatience)) << run.out() << run.err();
+    const std::string number = std::to_string(run.pid());
+    EXPECT_THAT(ask({"ps"}).out, HasSubstr("launch " + number + " of 54321: system.launch.xml, running"));
+    EXPECT_THAT(ask({"stop", "talker"}).err,
+                HasSubstr("no launch of this user runs; choose one with --launch NUMBER:\n  " + number + " "));
+    EXPECT_EQ(ask({"shutdown", "--launch", number}).exit_code, 0);
+    EXPECT_EQ(run.wait().exit_code, 0);
+  }
+  fs::remove_all(directory);
 }
 
 TEST_F(Control, StopStartAndRestartWaitUntilItHasHappened) {
@@ -307,9 +374,7 @@ TEST_F(Control, AKilledLauncherLeavesNoSocket) {
   RunningCommand run(launch({write(kTalker)}));
   ASSERT_TRUE(run.wait_for_output("[talker-1] ready", kPatience));
   ASSERT_EQ(sockets().size(), 1U);
-  const std::string children =
-      "/proc/" + std::to_string(run.pid()) + "/task/" + std::to_string(run.pid()) + "/children";
-  const pid_t launcher = std::stoi(read_file(children));
+  const pid_t launcher = launcher_below(run.pid());
   ASSERT_EQ(::kill(launcher, SIGKILL), 0);
   EXPECT_EQ(run.wait(kPatience).signal, SIGKILL);
   EXPECT_THAT(sockets(), testing::IsEmpty());

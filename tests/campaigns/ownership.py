@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Launches of processes that are hard to find or to end (daemons without environment, processes whose main thread has ended,
+that nobody may look into, that start themselves again and again, trees of all of them, launches in launches), ended in
+random ways: Ctrl-C, and launcher, guardian and spare guardian stopped and killed, one or two of them, at any moment.
+Nothing is left. What is left when all three are killed at once is counted apart.
+"""
+
+import os
+import signal
+import subprocess
+import time
+from pathlib import Path
+from xml.sax.saxutils import quoteattr
+
+from .campaign import Outcome
+
+RUNS = 200
+PATIENCE = 60.0  # seconds until everything has ended
+SHAPES = ('leaderless', 'hidden', 'empty', 'tracer', 'endless', 'leaderless-daemon', 'hidden-daemon', 'empty-daemon',
+          'tree', 'launch')
+# What happens to guardian (G), spare (S) and launcher (L), one after the other. A pause between two steps has a random
+# length. In the last way all three are killed.
+WAYS = {
+    'Ctrl-C': ('INT G',),
+    'Ctrl-C three times': ('INT G', 'wait 1.1', 'INT G', 'wait 1.1', 'INT G'),
+    'L': ('KILL L',),
+    'G': ('KILL G',),
+    'S': ('KILL S', 'wait 0.2', 'INT G'),
+    'G, L': ('KILL G', 'pause', 'KILL L'),
+    'L, G': ('KILL L', 'pause', 'KILL G'),
+    'L, S': ('KILL L', 'pause', 'KILL S'),
+    'S, L': ('KILL S', 'pause', 'KILL L'),
+    'the group': ('KILL group',),
+    'L stopped': ('STOP L', 'wait 0.1', 'TERM G'),
+    'S stopped; L, G': ('STOP S', 'wait 0.3', 'KILL L', 'pause', 'KILL G'),
+    'G stopped; S, L': ('STOP G', 'wait 2', 'KILL S', 'pause', 'KILL L'),
+    'all three': ('KILL G', 'KILL S', 'KILL L'),
+}
+
+
+def runs(place, random, count):
+    ways = list(WAYS)
+    for number in range(count):
+        yield run(place, random, ways[number % len(ways)])
+
+
+def run(place, random, way):
+    place.end_daemons()
+    place.run += 1
+    place.path().mkdir()
+    before = processes()
+    shapes = [random.choice(SHAPES) for _ in range(random.randint(1, 4))]
+    with place.path('launch.log').open('wb') as log:
+        process = subprocess.Popen((place.program, launch_file(place, random, shapes)), stdout=log, stderr=log,
+                                   start_new_session=True)
+    launcher, spare = wait_for_start(process.pid)
+    time.sleep(random.choice((0.0, random.uniform(0, 0.3), 0.5, 1.0)))
+    strike(WAYS[way], {'G': process.pid, 'S': spare, 'L': launcher}, random)
+    begin = time.monotonic()
+    left = set()
+    while time.monotonic() - begin < (PATIENCE if way != 'all three' else 2):
+        reap()
+        left = processes() - before
+        if not left:
+            break
+        time.sleep(0.02)
+    outcome = Outcome(f'killed: {way}', numbers={'end took s': time.monotonic() - begin})
+    if left:
+        named = sorted(f'{name(pid)} ({pid})' for pid in left)
+        if way == 'all three':
+            outcome.result += ', something is left'
+        else:
+            outcome.wrong.append(f'{way}, {shapes}: left {", ".join(named)}')
+            outcome.wrong.append(place.path('launch.log').read_text(encoding='utf-8', errors='replace')[-2000:])
+    for pid in left:
+        try:
+            os.kill(pid, signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+    process.wait()
+    return outcome
+
+
+def launch_file(place, random, shapes):
+    process = place.build / 'tests/unit/process/hostile_process'
+    tree = place.build / 'tests/e2e/supervision/random_tree'
+    lines = []
+    for number, shape in enumerate(shapes):
+        command = f'{process} {shape}'
+        if shape == 'tree':
+            command = f'{tree} {random.randrange(100000)}'
+        elif shape == 'tracer':
+            command = f'sh -c "(sleep 0.3; kill -USR2 $$) & exec {process} tracer"'
+        elif shape == 'launch':
+            inner = place.path(f'inner-{number}.launch.xml')
+            inner.write_text(f'<launch><executable cmd="{process} {random.choice(SHAPES[:8])}" sigterm_timeout="0.1" '
+                             'sigkill_timeout="0.1"/></launch>')
+            command = f'{place.program} {inner}'
+        timeout = random.choice((0.05, 0.3))
+        lines.append(f'<executable cmd={quoteattr(command)} name="x" sigterm_timeout="{timeout}" '
+                     f'sigkill_timeout="{timeout}"/>')
+    path = place.path('system.launch.xml')
+    path.write_text('<launch>\n' + '\n'.join(lines) + '\n</launch>\n', encoding='utf-8')
+    return path
+
+
+def strike(steps, pids, random):
+    for step in steps:
+        what, _, whom = step.partition(' ')
+        if what == 'wait':
+            time.sleep(float(whom))
+        elif what == 'pause':
+            time.sleep(random.choice((0.0, 0.0, random.uniform(0, 0.003), random.uniform(0, 0.3))))
+        else:
+            number = signal.Signals[f'SIG{what}']
+            try:
+                if whom == 'group':
+                    os.killpg(pids['G'], number)
+                elif pids[whom] > 0:
+                    os.kill(pids[whom], number)
+            except ProcessLookupError:
+                pass
+
+
+def wait_for_start(guardian):
+    """Launcher and spare guardian; 0 for what has ended already."""
+    until = time.monotonic() + PATIENCE
+    while time.monotonic() < until:
+        spare = first_child(guardian)
+        launcher = first_child(spare) if spare else 0
+        if launcher and name(spare) == 'guardian-spare':
+            return launcher, spare
+        time.sleep(0.001)
+    return 0, 0
+
+
+def first_child(parent):
+    try:
+        children = Path(f'/proc/{parent}/task/{parent}/children').read_text(encoding='ascii').split()
+    except OSError:
+        children = []
+    return int(children[0]) if children else 0
+
+
+def name(pid):
+    try:
+        return Path(f'/proc/{pid}/comm').read_text(encoding='utf-8').strip()
+    except OSError:
+        return ''
+
+
+def processes():
+    """All that live: the campaign has a process namespace of its own. A main thread that has ended is no death."""
+    found = set()
+    for path in Path('/proc').glob('[0-9]*'):
+        try:
+            fields = (path / 'stat').read_text(encoding='utf-8', errors='replace').rsplit(')', 1)[1].split()
+        except OSError:
+            continue
+        if fields[0] not in 'ZX' or int(fields[17]) > 1:
+            found.add(int(path.name))
+    return found
+
+
+def reap():
+    """What has become a child of this program, where that is the first process of the namespace."""
+    if os.getpid() == 1:
+        while True:
+            try:
+                if os.waitpid(-1, os.WNOHANG)[0] == 0:
+                    return
+            except ChildProcessError:
+                return
