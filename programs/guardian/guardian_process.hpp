@@ -44,9 +44,9 @@ class GuardianProcess {
   UniqueFd signals_ = watch_signals();
   const std::optional<TerminalState> terminal_ = TerminalState::of(STDIN_FILENO);
   UnansweredSignals unanswered_{launch_.launcher};
-  pid_t spare_ = launch_.other;  // -1: it was killed, and the launcher has become our child
-  pid_t beside_ = -1;            // the spare that has taken its place
-  std::optional<int> status_;    // of the launcher, once it has ended
+  pid_t spare_ = launch_.other;                  // -1: it was killed, and the launcher has become our child
+  pid_t beside_ = -1;                            // the spare that has taken its place
+  std::optional<int> status_;                    // of the launcher, once it has ended
   std::optional<Clock::time_point> dead_since_;  // the launcher, while nobody has told how it has ended
   bool nothing_left_ = false;
   bool ended_all_ = true;

@@ -53,6 +53,7 @@ class SpareBetween {
   void tell_guardian(int what, int value) const;
   void continue_guardian() const;
   void on_lost_guardian();
+  [[noreturn]] void end_all();
 
   GuardedLaunch launch_;
   UniqueFd guardian_ = open_process(::getppid() == launch_.other ? launch_.other : -1);
@@ -75,14 +76,13 @@ void SpareBetween::run(UniqueFd ready) {
     }
     if (guarded) {
       continue_guardian();
-    } else if (status_) {
-      const bool ended_all =
-          end_rest(launch_, members_below(launch_), !has_children(), "launcher and guardian have gone", signals_.get());
-      end_with(ended_all || *status_ != 0 ? *status_ : EXIT_FAILURE << 8);
+    } else if (has_ended(launcher_)) {
+      end_all();
     } else if (unanswered_.over()) {
       send_signal(launcher_, SIGKILL);
     }
-    std::array<pollfd, 2> wait{{{signals_.get(), POLLIN, 0}, {guardian_.get(), POLLIN, 0}}};  // skips a negative one
+    // The end of a launcher that is traced makes no signal. poll(2) skips a negative descriptor.
+    std::array<pollfd, 2> wait{{{signals_.get(), POLLIN, 0}, {guarded ? guardian_.get() : launcher_.get(), POLLIN, 0}}};
     ::poll(wait.data(), wait.size(), guarded ? kBetweenLooksAtGuardian : unanswered_.next_look());
     // Signals to this process mean nothing while the guardian lives; GentleEnd reads them later on.
     for (signalfd_siginfo signal{}; ::read(signals_.get(), &signal, sizeof signal) == sizeof signal;) {
@@ -122,9 +122,23 @@ void SpareBetween::tell_guardian(int what, int value) const {
 
 // Ctrl-Z stops the launcher and then the guardian. A guardian that is stopped alone was stopped by somebody else.
 void SpareBetween::continue_guardian() const {
-  if (is_stopped(launch_.other) && (status_ || !is_stopped(launch_.launcher))) {
+  if (is_stopped(launch_.other) && (has_ended(launcher_) || !is_stopped(launch_.launcher))) {
     send_signal(guardian_, SIGCONT);
   }
+}
+
+// A launcher that was killed while another process traces it can be waited for only when that process has ended.
+void SpareBetween::end_all() {
+  LaunchMembers members = members_below(launch_);
+  members.reaped = [this](pid_t pid, int status) {
+    if (pid == launch_.launcher) {
+      status_ = status;
+    }
+  };
+  const bool ended_all =
+      end_rest(launch_, std::move(members), !has_children(), "launcher and guardian have gone", signals_.get());
+  const int status = status_.value_or(EXIT_FAILURE << 8);
+  end_with(ended_all || status != 0 ? status : EXIT_FAILURE << 8);
 }
 
 // The launcher sees that the guardian has gone, and says so. It can be too busy to take the signal.

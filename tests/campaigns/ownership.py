@@ -6,6 +6,7 @@ random ways: Ctrl-C, and launcher, guardian and spare guardian stopped and kille
 Nothing is left. What is left when all three are killed at once is counted apart.
 """
 
+import ctypes
 import os
 import signal
 import subprocess
@@ -15,7 +16,8 @@ from xml.sax.saxutils import quoteattr
 
 from .campaign import Outcome
 
-RUNS = 200
+RUNS = 210
+PR_SET_CHILD_SUBREAPER = 36
 PATIENCE = 60.0  # seconds until everything has ended
 SHAPES = ('leaderless', 'hidden', 'empty', 'tracer', 'endless', 'leaderless-daemon', 'hidden-daemon', 'empty-daemon',
           'tree', 'launch')
@@ -40,6 +42,7 @@ WAYS = {
 
 
 def runs(place, random, count):
+    ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
     ways = list(WAYS)
     for number in range(count):
         yield run(place, random, ways[number % len(ways)])
@@ -73,13 +76,21 @@ def run(place, random, way):
         else:
             outcome.wrong.append(f'{way}, {shapes}: left {", ".join(named)}')
             outcome.wrong.append(place.path('launch.log').read_text(encoding='utf-8', errors='replace')[-2000:])
-    for pid in left:
-        try:
-            os.kill(pid, signal.SIGKILL)
-        except ProcessLookupError:
-            pass
+    end(before)
     process.wait()
     return outcome
+
+
+def end(before):
+    """Some start themselves again and again, so one round is not enough."""
+    until = time.monotonic() + PATIENCE
+    while (left := processes() - before) and time.monotonic() < until:
+        for pid in sorted(left, reverse=True):
+            try:
+                os.kill(pid, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+        reap()
 
 
 def launch_file(place, random, shapes):
@@ -164,11 +175,9 @@ def processes():
 
 
 def reap():
-    """What has become a child of this program, where that is the first process of the namespace."""
-    if os.getpid() == 1:
-        while True:
-            try:
-                if os.waitpid(-1, os.WNOHANG)[0] == 0:
-                    return
-            except ChildProcessError:
-                return
+    """What the guardians leave becomes a child of this program."""
+    try:
+        while os.waitpid(-1, os.WNOHANG)[0] != 0:
+            pass
+    except ChildProcessError:
+        pass

@@ -334,6 +334,18 @@ TEST_F(GuardianTest, EndsALauncherThatAProcessOfItsTraces) {
   expect_nothing_left();
 }
 
+TEST_F(GuardianTest, TheSpareEndsALauncherThatAProcessOfItsTraces) {
+  start({"--timeouts", "100", "100", kHostile + " tracer"}, 1);
+  ::kill(shell_pids[0], SIGUSR2);
+  while (state_of(launcher) != 't') {
+    ::sched_yield();
+  }
+  ::kill(guardian, SIGKILL);
+  end();
+  ::kill(launcher, SIGKILL);  // it cannot be waited for before its tracer has ended
+  expect_nothing_left();
+}
+
 TEST_F(GuardianTest, ASpareThatIsStoppedGoesOn) {
   start({"--timeouts", "100", "100", kSleeper}, 1);
   const pid_t spare = wait_for_spare();

@@ -77,6 +77,7 @@ void tell(int signal) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const pid_t parent = getppid();
   std::string shape = argc > 1 ? argv[1] : "";
   file = argc > 2 ? argv[2] : "";
   const std::size_t suffix = shape.find("-daemon");
@@ -110,7 +111,9 @@ int main(int argc, char** argv) {
     say_ready();
     int number = 0;
     sigwait(&asked, &number);
-    ptrace(PTRACE_ATTACH, getppid(), nullptr, nullptr);
+    if (getppid() == parent) {
+      ptrace(PTRACE_ATTACH, parent, nullptr, nullptr);
+    }
     wait_for_ever();
   }
   if (shape == "endless") {
