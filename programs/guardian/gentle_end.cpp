@@ -173,9 +173,15 @@ std::vector<FoundProcess> GentleEnd::marked(const std::vector<FoundProcess>& all
   std::set<pid_t> roots;
   std::vector<FoundProcess> found;
   const std::set<pid_t> in_cgroup = members_.cgroup.members();
+  const std::map<pid_t, std::uint64_t> orphans = read_orphans(members_.records);
+  const auto is_orphan = [&orphans](const FoundProcess& process) {
+    const auto noted = orphans.find(process.pid);
+    return noted != orphans.end() && noted->second == process.started;
+  };
   for (const FoundProcess& process : all) {
     if (process.pid != ::getpid() && !process.is_dead() &&
-        (in_cgroup.count(process.pid) != 0 || ending_of(process).mark.ours || holds(process.pid, members_.records))) {
+        (in_cgroup.count(process.pid) != 0 || is_orphan(process) || ending_of(process).mark.ours ||
+         holds(process.pid, members_.records))) {
       roots.insert(process.pid);
       found.push_back(process);
     }

@@ -9,9 +9,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cstring>
+#include <optional>
 #include <utility>
 
+#include "launcher/process/guardian/guardian_protocol.hpp"
 #include "programs/guardian/clean_ups.hpp"
 #include "programs/guardian/launch_cgroup.hpp"
 
@@ -45,6 +49,20 @@ LaunchMembers members_below(const GuardedLaunch& launch) {
   members.strangers = launch.strangers;
   members.records = launch.records;
   return members;
+}
+
+void note_orphans(const GuardedLaunch& launch, const std::set<pid_t>& known) {
+  std::array<GuardianOrphan, kGuardianOrphans> orphans{};
+  std::size_t count = 0;
+  for (const pid_t pid : children_of(::getpid()).value_or(std::set<pid_t>())) {
+    const std::optional<FoundProcess> child =
+        known.count(pid) == 0 && launch.strangers.count(pid) == 0 ? read_process(pid) : std::optional<FoundProcess>();
+    if (child && !child->is_dead() && count < orphans.size()) {
+      orphans[count++] = {.pid = pid, .started = child->started};
+    }
+  }
+  const std::size_t size = std::min(count + 1, orphans.size()) * sizeof(GuardianOrphan);
+  static_cast<void>(!::pwrite(launch.records, orphans.data(), size, kGuardianOrphansBegin));
 }
 
 bool end_rest(const GuardedLaunch& launch, LaunchMembers members, bool nothing_left, const std::string& launcher_ended,

@@ -34,7 +34,15 @@ struct GuardianEntry {
   std::int64_t sigkill_timeout;
 };
 constexpr std::size_t kGuardianEntries = 16384;  // further processes are not in the table
-constexpr off_t kGuardianRecords = kGuardianEntries * sizeof(GuardianEntry);
+// Behind the table: orphans that a guardian has adopted, as of the last second. Zero: no further ones. Only somebody
+// who has not adopted them needs to know them.
+struct GuardianOrphan {
+  std::int64_t pid;
+  std::uint64_t started;
+};
+constexpr std::size_t kGuardianOrphans = 256;
+constexpr off_t kGuardianOrphansBegin = kGuardianEntries * sizeof(GuardianEntry);
+constexpr off_t kGuardianRecords = kGuardianOrphansBegin + kGuardianOrphans * sizeof(GuardianOrphan);
 
 // The rest of the memory file is a series of records. The last one may be incomplete.
 struct GuardianRecord {
