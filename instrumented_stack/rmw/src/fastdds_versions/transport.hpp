@@ -84,7 +84,8 @@ struct InterceptedSender : rtps::SenderResource {
 #endif
 };
 
-// Hands everything over to `inner`, which it owns.
+// Hands everything over to `inner`, which it owns. What it sends in shared memory ends with the message
+// (transport.cpp).
 class ForwardingTransport : public rtps::TransportInterface {
  public:
   explicit ForwardingTransport(std::unique_ptr<TransportInterface> inner)
@@ -120,9 +121,7 @@ class ForwardingTransport : public rtps::TransportInterface {
   rtps::Locator RemoteToMainLocal(const rtps::Locator& remote) const override {
     return inner_->RemoteToMainLocal(remote);
   }
-  bool OpenOutputChannel(rtps::SendResourceList& senders, const rtps::Locator& locator) override {
-    return inner_->OpenOutputChannel(senders, locator);
-  }
+  bool OpenOutputChannel(rtps::SendResourceList& senders, const rtps::Locator& locator) override;
   bool OpenInputChannel(const rtps::Locator& locator, rtps::TransportReceiverInterface* receiver,
                         std::uint32_t largest_message) override {
     return inner_->OpenInputChannel(locator, receiver, largest_message);
@@ -178,5 +177,8 @@ class ForwardingTransport : public rtps::TransportInterface {
 
   std::unique_ptr<TransportInterface> inner_;
 };
+
+// Puts a ForwardingTransport before the shared memory of a profile, where that makes a difference.
+void forward_shared_memory(fdds::DomainParticipantQos& qos);
 
 }  // namespace rmw_fastrtps

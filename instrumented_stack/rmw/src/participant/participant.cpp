@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "fastdds_versions/discovery_listener.hpp"
+#include "fastdds_versions/transport.hpp"
 #include "participant/default_transports.hpp"
 #include "participant/discovery_range.hpp"
 #include "participant/discovery_traffic.hpp"
@@ -192,6 +193,8 @@ Participant::Participant(const rmw_init_options_t& options, GraphCache& graph)
   configure_discovery(options.discovery_options, domain_id, traffic_, qos);
   if (leaves_buffers_to_us && qos.transport().user_transports.empty()) {
     use_default_transports(0, traffic_, qos);
+  } else if (!leaves_buffers_to_us) {
+    forward_shared_memory(qos);
   }
   const std::string enclave = options.enclave == nullptr ? "/" : options.enclave;
   qos.user_data().data_vec(enclave_user_data(enclave));

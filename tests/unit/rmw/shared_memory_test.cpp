@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the transports of rmw send in shared memory arrives as it was sent.
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <memory>
+#include <mutex>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fastdds_versions/transport.hpp"
+#include "participant/default_transports.hpp"
+
+namespace {
+
+using rmw_fastrtps::DiscoveryTraffic;
+using testing::ElementsAre;
+namespace fdds = eprosima::fastdds::dds;
+namespace rtps = rmw_fastrtps::rtps;
+
+constexpr std::uint32_t kLargestMessage = 65500;
+
+class Arrived final : public rtps::TransportReceiverInterface {
+ public:
+  void OnDataReceived(const rtps::octet* data, std::uint32_t size, const rtps::Locator_t&,
+                      const rtps::Locator_t&) override {
+    const std::lock_guard lock(mutex_);
+    messages_.emplace_back(reinterpret_cast<const char*>(data), size);
+    changed_.notify_all();
+  }
+
+  std::optional<std::string> next() {
+    std::unique_lock lock(mutex_);
+    if (!changed_.wait_for(lock, std::chrono::seconds(30), [this] { return !messages_.empty(); })) {
+      return std::nullopt;
+    }
+    std::string message = std::move(messages_.front());
+    messages_.pop_front();
+    return message;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<std::string> messages_;
+};
+
+// Sends a message that is made of these parts.
+void send(rtps::SenderResource& sender, const rtps::Locator_t& to, const std::vector<std::string>& parts) {
+  const std::vector<rtps::Locator_t> destinations{to};
+  rtps::Locators begin(destinations.begin());
+  rtps::Locators end(destinations.end());
+  const std::string whole = std::accumulate(parts.begin(), parts.end(), std::string());
+  const auto size = static_cast<std::uint32_t>(whole.size());
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+#if RMW_FASTDDS_MAJOR >= 3
+  std::vector<rtps::NetworkBuffer> buffers;
+  for (const std::string& part : parts) {
+    buffers.emplace_back(part.data(), static_cast<std::uint32_t>(part.size()));
+  }
+  EXPECT_TRUE(sender.send(buffers, size, &begin, &end, deadline));
+#else
+  EXPECT_TRUE(sender.send(reinterpret_cast<const rtps::octet*>(whole.data()), size, &begin, &end, deadline));
+#endif
+}
+
+// Version 3 hands statistics to a transport as the last part, 60 bytes with their header.
+std::vector<std::string> as_fast_dds_sends(const std::string& message) {
+  return RMW_FASTDDS_MAJOR >= 3 ? std::vector{message, std::string("\x80\x01\x38\0", 4) + std::string(56, 's')}
+                                : std::vector{message};
+}
+
+// Sends a short message after a long one. The short one gets memory that the long one has had.
+void expect_whole_messages(const rtps::TransportDescriptorInterface& descriptor) {
+  const std::unique_ptr<rtps::TransportInterface> transport(descriptor.create_transport());
+  ASSERT_TRUE(transport->init());
+  rtps::Locator_t here(LOCATOR_KIND_SHM, 0x7ffffff3);
+  here.address[0] = 'U';
+  Arrived arrived;
+  ASSERT_TRUE(transport->OpenInputChannel(here, &arrived, kLargestMessage));
+  rtps::SendResourceList senders;
+  ASSERT_TRUE(transport->OpenOutputChannel(senders, here));
+  ASSERT_EQ(senders.size(), 1U);
+  for (const std::string& message : {std::string(1000, 'l'), std::string(40, 's')}) {
+    send(*senders.front(), here, as_fast_dds_sends(message));
+    EXPECT_EQ(arrived.next(), message);
+  }
+  senders.clear();
+  EXPECT_TRUE(transport->CloseInputChannel(here));
+  transport->shutdown();
+}
+
+// Fast DDS 3.1.2 sends 60 bytes of an older message behind each one. A participant that was asked for its endpoints
+// took such an end for the acknowledgement of all of them, which another process had got, and never sent them.
+TEST(SharedMemory, AMessageEndsWhereItEnds) {
+  fdds::DomainParticipantQos qos;
+  const auto traffic = std::make_shared<DiscoveryTraffic>();
+  traffic->introduce({});
+  rmw_fastrtps::use_default_transports(0, traffic, qos);
+  ASSERT_EQ(qos.transport().user_transports.size(), 2U);
+  expect_whole_messages(*qos.transport().user_transports.back());
+}
+
+// The kinds of the submessages, and 0 for what is none.
+std::vector<int> submessages(const std::string& message) {
+  std::vector<int> kinds;
+  std::size_t at = 20;  // behind the header
+  while (at + 4 <= message.size()) {
+    const auto byte = [&](std::size_t i) { return std::size_t{static_cast<std::uint8_t>(message[at + i])}; };
+    kinds.push_back(static_cast<int>(byte(0)));
+    const bool is_little_endian = (byte(1) & 1) != 0;
+    at += 4 + (is_little_endian ? byte(2) | byte(3) << 8 : byte(3) | byte(2) << 8);
+  }
+  if (at != message.size()) {
+    kinds.push_back(0);
+  }
+  return kinds;
+}
+
+TEST(SharedMemory, WhatFastDdsAnnouncesHasNothingBehindIt) {
+  fdds::DomainParticipantQos qos;
+  const auto traffic = std::make_shared<DiscoveryTraffic>();
+  traffic->introduce({});
+  rmw_fastrtps::use_default_transports(0, traffic, qos);
+  ASSERT_EQ(qos.transport().user_transports.size(), 2U);
+  const auto shared_memory = qos.transport().user_transports.back();
+  qos.transport().user_transports = {shared_memory};
+
+  const std::unique_ptr<rtps::TransportInterface> transport(shared_memory->create_transport());
+  ASSERT_TRUE(transport->init());
+  rtps::Locator_t here(LOCATOR_KIND_SHM, 0x7ffffff1);
+  here.address[0] = 'U';
+  Arrived arrived;
+  ASSERT_TRUE(transport->OpenInputChannel(here, &arrived, kLargestMessage));
+  qos.wire_protocol().builtin.initialPeersList.push_back(here);
+  auto& factory = *fdds::DomainParticipantFactory::get_instance();
+  fdds::DomainParticipant* participant = factory.create_participant(0, qos);
+  ASSERT_TRUE(participant);
+  const std::optional<std::string> announcement = arrived.next();
+  EXPECT_EQ(factory.delete_participant(participant), rmw_fastrtps::return_code::kOk);
+  ASSERT_TRUE(announcement);
+  constexpr int kTimestamp = 0x09;
+  constexpr int kData = 0x15;
+  EXPECT_THAT(submessages(*announcement), ElementsAre(kTimestamp, kData));
+  EXPECT_TRUE(transport->CloseInputChannel(here));
+  transport->shutdown();
+}
+
+TEST(SharedMemory, AMessageEndsWhereItEndsWithTheTransportsOfAProfile) {
+  fdds::DomainParticipantQos qos;
+  auto of_profile = std::make_shared<rtps::SharedMemTransportDescriptor>();
+  of_profile->segment_size(1 << 20);
+  of_profile->max_message_size(kLargestMessage);
+  qos.transport().use_builtin_transports = false;
+  qos.transport().user_transports = {of_profile};
+  rmw_fastrtps::forward_shared_memory(qos);
+  ASSERT_EQ(qos.transport().user_transports.size(), 1U);
+  const auto used = std::dynamic_pointer_cast<rtps::SharedMemTransportDescriptor>(qos.transport().user_transports[0]);
+  ASSERT_TRUE(used);
+  EXPECT_EQ(used->segment_size(), 1U << 20);
+  EXPECT_EQ(used->max_message_size(), kLargestMessage);
+  expect_whole_messages(*used);
+}
+
+// Here the profile has sizes of buffers only.
+TEST(SharedMemory, AMessageEndsWhereItEndsWithTheBuffersOfAProfile) {
+  fdds::DomainParticipantQos qos;
+  qos.transport().send_socket_buffer_size = 300'000;
+  rmw_fastrtps::forward_shared_memory(qos);
+  if (qos.transport().use_builtin_transports) {
+    GTEST_SKIP() << "this release of Fast DDS needs no other transports than its own";
+  }
+  bool has_udp = false;
+  bool has_shared_memory = false;
+  for (const auto& descriptor : qos.transport().user_transports) {
+    if (const auto* udp = dynamic_cast<rtps::UDPv4TransportDescriptor*>(descriptor.get())) {
+      EXPECT_EQ(udp->sendBufferSize, 300'000U);
+      has_udp = true;
+    } else {
+      EXPECT_TRUE(dynamic_cast<rtps::SharedMemTransportDescriptor*>(descriptor.get()));
+      expect_whole_messages(*descriptor);
+      has_shared_memory = true;
+    }
+  }
+  EXPECT_TRUE(has_udp && has_shared_memory);
+}
+
+}  // namespace
