@@ -26,3 +26,24 @@ function(project_header_view target scope)
   file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${view}/${folder} SYMBOLIC)
   target_include_directories(${target} ${scope} $<BUILD_INTERFACE:${view}>)
 endfunction()
+
+# project_exports(<library> NAMESPACE <namespace> [TEMPLATES <pattern>...] [COMPILED_BY <target>...]): others see of this shared
+# library the names of the C++ namespace alone, and templates for which the library has code, whose names begin with what they
+# return. Everything else that it holds is its own: what another library of the process has under the same name can't take its
+# place. COMPILED_BY: the targets that compile its interface, if not the library itself. They say the types to ./dev abi.
+function(project_exports library)
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "NAMESPACE" "TEMPLATES;COMPILED_BY")
+  set(patterns ${ARG_TEMPLATES})
+  foreach(kind IN ITEMS "" "typeinfo?for?" "typeinfo?name?for?" "vtable?for?")
+    list(APPEND patterns "${kind}${ARG_NAMESPACE}::*")
+  endforeach()
+  list(JOIN patterns "; " patterns)
+  set(script ${CMAKE_CURRENT_BINARY_DIR}/${library}.map)
+  file(CONFIGURE OUTPUT ${script} CONTENT "{ global: extern \"C++\" { @patterns@; }; local: *; };\n" @ONLY)
+  target_link_options(${library} PRIVATE -Wl,--version-script=${script} -Wl,-Bsymbolic-functions)
+  set_property(TARGET ${library} APPEND PROPERTY LINK_DEPENDS ${script})
+  foreach(target IN LISTS library ARG_COMPILED_BY)
+    set_target_properties(${target} PROPERTIES VISIBILITY_INLINES_HIDDEN ON)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:-g>)
+  endforeach()
+endfunction()

@@ -15,7 +15,7 @@ SOURCE = Path(os.environ['SOURCE_DIRECTORY'])
 TABLE = SOURCE / 'packages/table.txt'
 FUNCTIONS = SOURCE / 'packages/systems.sh'
 
-GROUPS = {'build', 'test', 'bench', 'format', 'lint', 'fuzz', 'docs', 'guest', 'package', 'root', 'emulator'}
+GROUPS = {'build', 'test', 'bench', 'format', 'lint', 'fuzz', 'docs', 'guest', 'package', 'abi', 'root', 'emulator'}
 ABOUT_THE_SYSTEM = {'suite', 'also', 'verified'}
 
 
@@ -165,61 +165,6 @@ class On(unittest.TestCase):
         result = self.on('debian:12')
         self.assertEqual(result.returncode, 2)
         self.assertTrue(result.stderr.startswith('Usage: ./dev on SYSTEM COMMAND'), result.stderr)
-
-
-class Release(unittest.TestCase):
-
-    ON = ('#!/bin/sh\n'
-          'echo "$*"\n'
-          'case "$*" in\n'
-          '  "debian:13 build") exit 1 ;;\n'
-          '  "debian:testing test"*) echo "97% tests passed, 3 tests failed out of 100"; exit 8 ;;\n'
-          '  "debian:13/cross-arm64 "*) echo "dev on: error: there is no emulator" >&2; exit 2 ;;\n'
-          '  "debian:12 package") mkdir -p build/systems/debian-12/build/packages && echo x >build/systems/debian-12/build/packages/launch-tools_1.deb ;;\n'
-          '  *check_image) echo "check_image: error: no podman"; exit 1 ;;\n'
-          'esac\n')
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-        (self.folder / 'packages').mkdir()
-        for name in ('dev', 'packages/systems.sh', 'packages/table.txt', 'packages/release', 'CMakeLists.txt', 'CHANGELOG.md'):
-            shutil.copy(SOURCE / name, self.folder / name)
-        on = self.folder / 'packages/on'
-        on.write_text(self.ON)
-        on.chmod(0o755)
-
-    def release(self, *words):
-        return subprocess.run([self.folder / 'dev', 'release', *words], capture_output=True, text=True)
-
-    def test_goes_on_after_a_failure_and_says_what_has_failed_and_what_was_skipped(self):
-        result = self.release('--skip', 'sources=no git here', '--skip', 'docs=no time')
-        self.assertEqual(result.returncode, 1)
-        rows = [re.split('  +', line, maxsplit=2) for line in result.stdout.splitlines()]
-        self.assertEqual([(name, outcome) for name, minutes, outcome in rows],
-                         [('sources', 'skipped: no git here'), ('debian-12', 'passed'), ('debian-13', 'failed, see build/release-logs/debian-13.log'),
-                          ('debian-testing', 'failed: 97% tests passed, 3 tests failed out of 100'), ('arm64', 'skipped: there is no emulator'),
-                          ('packages', 'passed'), ('install', 'passed'), ('image', 'failed: check_image: error: no podman'),
-                          ('docs', 'skipped: no time'), ('notes', 'passed'), ('checksums', 'passed')])
-        self.assertEqual((self.folder / 'build/release-logs/debian-testing.log').read_text(), 'debian:testing build\ndebian:testing test -L unit\n'
-                         '97% tests passed, 3 tests failed out of 100\n')
-
-    def test_makes_files_with_their_checksums(self):
-        result = self.release('packages', 'notes', 'checksums')
-        self.assertEqual(result.returncode, 0, result.stdout)
-        files = self.folder / 'build/release-files'
-        self.assertEqual(sorted(path.name for path in files.iterdir()), ['NOTES.md', 'SHA256SUMS', 'launch-tools_1.deb'])
-        checked = subprocess.run(['sha256sum', '--check', '--quiet', 'SHA256SUMS'], cwd=files)
-        self.assertEqual(checked.returncode, 0)
-        self.assertIn('### Added', (files / 'NOTES.md').read_text())
-
-    def test_a_step_that_does_not_exist(self):
-        for words in (['pancakes'], ['--skip', 'pancakes=no eggs']):
-            with self.subTest(words):
-                result = self.release(*words)
-                self.assertEqual(result.returncode, 2)
-                self.assertRegex(result.stderr, r"^dev release: error: there is no step 'pancakes'; there are: sources debian-12 ")
 
 
 if __name__ == '__main__':
