@@ -103,10 +103,10 @@ int error_of_writing(const std::filesystem::path& directory) {
   if (fd < 0) {
     return errno == EDQUOT || errno == ENOSPC ? errno : 0;
   }
-  static constexpr std::array<char, kRoomLeftByAWorkingConsumer> kNothing{};
+  static constexpr std::array<char, 4096> kPage{};
   int error = 0;
-  for (std::size_t written = 0; written < kNothing.size() && error == 0;) {
-    const ssize_t count = write(fd, kNothing.data() + written, kNothing.size() - written);
+  for (std::size_t written = 0; written < kRoomLeftByAWorkingConsumer && error == 0;) {
+    const ssize_t count = write(fd, kPage.data(), std::min(kPage.size(), kRoomLeftByAWorkingConsumer - written));
     if (count >= 0) {
       written += static_cast<std::size_t>(count);
     } else if (errno != EINTR) {
