@@ -2,6 +2,7 @@
 #include "launcher/control/control_protocol.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <string.h>
 #include <sys/time.h>
 #include <time.h>

@@ -2,6 +2,7 @@
 // `launch trace read DIRECTORY...`: prints the events of traces, or counts them. `launch` executes this program, so
 // that the launcher itself links no libraries for reading traces.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

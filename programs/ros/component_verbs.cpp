@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // launch component list, load, unload, types
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>

@@ -2,6 +2,7 @@
 #include "programs/ros/graph_names.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <rcl/graph.h>
 
 #include <algorithm>

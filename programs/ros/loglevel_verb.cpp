@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // launch loglevel
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <fnmatch.h>
 
 #include <CLI/CLI.hpp>

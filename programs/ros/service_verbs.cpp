@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // launch service info, call
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 

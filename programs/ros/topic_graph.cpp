@@ -2,6 +2,7 @@
 #include "programs/ros/topic_graph.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <rmw/qos_profiles.h>
 
 #include <CLI/CLI.hpp>

@@ -117,6 +117,10 @@ class OneForm(unittest.TestCase):
                           and '\n#pragma once\n' not in text and 'HEADER_MULTI_READ' not in text], [])
 
 
+    def test_what_joins_texts_includes_the_header_that_newer_versions_of_fmt_have_it_in(self):
+        self.assertEqual([name for name, text in self.texts.items() if 'fmt::join(' in text and '#include <fmt/ranges.h>' not in text], [])
+
+
 class Version(unittest.TestCase):
 
     @classmethod

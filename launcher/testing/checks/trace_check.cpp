@@ -2,6 +2,7 @@
 #include "launcher/testing/checks/trace_check.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <limits>

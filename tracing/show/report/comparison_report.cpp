@@ -2,6 +2,7 @@
 #include "tracing/show/report/comparison_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
