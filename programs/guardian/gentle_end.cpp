@@ -164,6 +164,7 @@ std::vector<FoundProcess> GentleEnd::find() {
   };
   found.erase(std::remove_if(found.begin(), found.end(), stays), found.end());
   for (const FoundProcess& process : found) {
+    numbers_.insert(process.pid);
     output_.follow(process, ending_of(process).mark);
   }
   return found;
@@ -280,7 +281,7 @@ GentleEnd::Clock::time_point GentleEnd::signal(const std::vector<FoundProcess>& 
 
 bool GentleEnd::send(const FoundProcess& process, int signal) {
   pid_t to = process.pid;
-  if (signal != SIGKILL && process.group != members_.group && endings_.count(process.group) != 0) {
+  if (signal != SIGKILL && process.group != members_.group && numbers_.count(process.group) != 0) {
     if (!asked_groups_.emplace(process.group, signal).second) {
       return true;  // it was asked with its group, or has been started later
     }

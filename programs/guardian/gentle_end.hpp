@@ -96,7 +96,8 @@ class GentleEnd {
   LeftOutput output_;
   std::map<pid_t, Ending> endings_;
   std::optional<std::map<pid_t, ProcessMark>> notes_;  // once they have been read
-  std::set<std::pair<pid_t, int>> asked_groups_;       // and the signals that they got
+  std::set<pid_t> numbers_;  // of all that were found: only their groups are signalled, never one of a foreign process
+  std::set<std::pair<pid_t, int>> asked_groups_;  // and the signals that they got
   Clock::time_point begin_ = Clock::now();
   bool first_ = true;
   bool leaves_some_ = false;          // that are meant to go on

@@ -273,8 +273,11 @@ pid_t child_named(pid_t parent, const std::string& name) {
 TEST_P(PingPong, KillOfTheLauncherLeavesNoProcessNoSessionAndAWholeTrace) {
   RunningCommand run({.argv = {LAUNCH_PROGRAM, file(), "count:=0", "period_ms:=20"}});
   ASSERT_TRUE(run.wait_for_output("[pong-1] ")) << run.out() << run.err();
-  // The started process is the guardian.
-  const pid_t launcher = child_named(run.pid(), "launch");
+  // The started process is the guardian, above its spare.
+  const pid_t spare = child_named(run.pid(), "guardian-spare");
+  ASSERT_GT(spare, 0);
+  const pid_t launcher = child_named(spare, "launch");
+  ASSERT_GT(launcher, 0);
   for (const char* const name : {"ping", "pong"}) {
     child_named(launcher, name);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// launch-guardian and processes that are hard to find or to end (hostile_process.cpp), with guardians and launchers that
-// are killed, stopped and traced.
+// launch-guardian and processes that are hard to find or to end (hostile_process.cpp), with guardians and launchers
+// that are killed, stopped and traced.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -167,7 +167,10 @@ TEST_F(HostileProcesses, ALauncherThatHasLostBothKnowsTheOrphansThatTheyHadAdopt
   for (int word = 0; word < 4; ++word) {
     records += std::strlen(records) + 1;
   }
-  const UniqueFd memory(::open(fmt::format("/proc/{}/fd/{}", spare, records).c_str(), O_RDONLY));
+  UniqueFd opened(::open(fmt::format("/proc/{}/fd/{}", spare, records).c_str(), O_RDONLY));
+  // Under another number, or else this process would count as one that the launcher has forked.
+  const UniqueFd memory(::fcntl(opened.get(), F_DUPFD_CLOEXEC, 100));
+  opened.reset();
   GuardianOrphan orphan{};
   while (::pread(memory.get(), &orphan, sizeof orphan, kGuardianOrphansBegin) <= 0 || orphan.pid == 0) {
     ::sched_yield();

@@ -8,7 +8,7 @@ namespace tracing {
 
 namespace {
 
-constexpr std::int64_t kNeighbours = 1'000'000;    // ns; a tracepoint takes less, unless its thread has to wait
+constexpr std::int64_t kNeighbours = 1'000'000;   // ns; a tracepoint takes less, unless its thread has to wait
 constexpr std::uint64_t kLeastAddress = 1 << 16;  // smaller numbers are no addresses
 
 // All fields as text. `has_address`: one of them is an address.
