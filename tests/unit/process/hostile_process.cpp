@@ -95,8 +95,11 @@ int main(int argc, char** argv) {
     prctl(PR_SET_DUMPABLE, 0);
   }
   if (!file.empty()) {
-    signal(SIGINT, tell);
-    signal(SIGTERM, tell);
+    struct sigaction action {};
+    action.sa_handler = tell;
+    sigfillset(&action.sa_mask);  // or else of two signals the second one would be told first
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
   }
   if (shape == "empty") {
     for (char** variable = environ; *variable != nullptr; ++variable) {

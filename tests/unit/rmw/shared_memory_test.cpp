@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the transports of rmw send in shared memory arrives as it was sent.
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <condition_variable>
@@ -26,6 +27,13 @@ namespace fdds = eprosima::fastdds::dds;
 namespace rtps = rmw_fastrtps::rtps;
 
 constexpr std::uint32_t kLargestMessage = 65500;
+
+// Of this process alone, and none of the ports that participants have.
+rtps::Locator_t own_port() {
+  rtps::Locator_t port(LOCATOR_KIND_SHM, 0x40000000U + static_cast<std::uint32_t>(::getpid()));
+  port.address[0] = 'U';
+  return port;
+}
 
 class Arrived final : public rtps::TransportReceiverInterface {
  public:
@@ -81,8 +89,7 @@ std::vector<std::string> as_fast_dds_sends(const std::string& message) {
 void expect_whole_messages(const rtps::TransportDescriptorInterface& descriptor) {
   const std::unique_ptr<rtps::TransportInterface> transport(descriptor.create_transport());
   ASSERT_TRUE(transport->init());
-  rtps::Locator_t here(LOCATOR_KIND_SHM, 0x7ffffff3);
-  here.address[0] = 'U';
+  const rtps::Locator_t here = own_port();
   Arrived arrived;
   ASSERT_TRUE(transport->OpenInputChannel(here, &arrived, kLargestMessage));
   rtps::SendResourceList senders;
@@ -135,13 +142,14 @@ TEST(SharedMemory, WhatFastDdsAnnouncesHasNothingBehindIt) {
 
   const std::unique_ptr<rtps::TransportInterface> transport(shared_memory->create_transport());
   ASSERT_TRUE(transport->init());
-  rtps::Locator_t here(LOCATOR_KIND_SHM, 0x7ffffff1);
-  here.address[0] = 'U';
+  const rtps::Locator_t here = own_port();
   Arrived arrived;
   ASSERT_TRUE(transport->OpenInputChannel(here, &arrived, kLargestMessage));
   qos.wire_protocol().builtin.initialPeersList.push_back(here);
   auto& factory = *fdds::DomainParticipantFactory::get_instance();
-  fdds::DomainParticipant* participant = factory.create_participant(0, qos);
+  constexpr std::uint32_t kDomains = 200;
+  fdds::DomainParticipant* participant =
+      factory.create_participant(static_cast<std::uint32_t>(::getpid()) % kDomains, qos);
   ASSERT_TRUE(participant);
   const std::optional<std::string> announcement = arrived.next();
   EXPECT_EQ(factory.delete_participant(participant), rmw_fastrtps::return_code::kOk);
