@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(Hidden, AnyTwo,
 
 TEST_F(HostileProcesses, UsesTheTimeoutsOfAProcessWhoseEnvironmentTellsNothing) {
   const std::string told = directory.path() + "/told";
-  start({"--timeouts", "1", "1000000", kHostile + " empty " + told}, 1);
+  start({"--timeouts", "300", "1000000", kHostile + " empty " + told}, 1);
   const auto begin = std::chrono::steady_clock::now();
   ::kill(launcher, SIGKILL);
   EXPECT_EQ(end(), -SIGKILL);
