@@ -158,7 +158,7 @@ LeftWork read_records(int file) {
 std::map<pid_t, ProcessMark> read_notes(int file) {
   std::map<pid_t, ProcessMark> notes;
   std::array<GuardianEntry, 64> entries{};
-  for (off_t begin = 0; begin < kGuardianOrphansBegin; begin += static_cast<off_t>(sizeof entries)) {
+  for (off_t begin = 0; begin < kGuardianMark; begin += static_cast<off_t>(sizeof entries)) {
     const ssize_t count = ::pread(file, entries.data(), sizeof entries, begin);
     if (count <= 0) {
       break;
@@ -177,15 +177,9 @@ std::map<pid_t, ProcessMark> read_notes(int file) {
   return notes;
 }
 
-std::map<pid_t, std::uint64_t> read_orphans(int file) {
-  std::array<GuardianOrphan, kGuardianOrphans> orphans{};
-  std::map<pid_t, std::uint64_t> found;
-  if (::pread(file, orphans.data(), sizeof orphans, kGuardianOrphansBegin) > 0) {
-    for (std::size_t i = 0; i < orphans.size() && orphans[i].pid > 0; ++i) {
-      found[static_cast<pid_t>(orphans[i].pid)] = orphans[i].started;
-    }
-  }
-  return found;
+InheritedMark read_inherited_mark(int file) {
+  std::uint64_t value = 0;
+  return InheritedMark(::pread(file, &value, sizeof value, kGuardianMark) == sizeof value ? value : 0);
 }
 
 std::string run_clean_up(const std::vector<std::string>& command, int signals) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "launcher/process/guardian/inherited_mark.hpp"
 #include "launcher/process/guardian/process_scan.hpp"
 
 namespace launch {
@@ -24,8 +25,7 @@ LeftWork read_records(int file);
 // The table of the memory file, by process number: what marks would say.
 std::map<pid_t, ProcessMark> read_notes(int file);
 
-// The orphans that a guardian has adopted, and when they have started.
-std::map<pid_t, std::uint64_t> read_orphans(int file);
+InheritedMark read_inherited_mark(int file);
 
 // Runs a command. Returns what went wrong, or "". A command that makes no progress for ten seconds, or takes two
 // minutes, is killed, and so is one that runs when a user asks to end again. `signals` is a signalfd with the signals

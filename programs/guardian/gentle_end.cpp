@@ -79,6 +79,9 @@ std::uint64_t tick_of(std::chrono::steady_clock::time_point time) {
 
 }  // namespace
 
+GentleEnd::GentleEnd(LaunchMembers members, GuardianLog& log)
+    : members_(std::move(members)), log_(log), output_(log), inherited_(read_inherited_mark(members_.records)) {}
+
 bool GentleEnd::run(const std::string& launcher_ended, int signals) {
   bool ended = true;
   std::optional<Clock::time_point> nothing_since;
@@ -174,14 +177,9 @@ std::vector<FoundProcess> GentleEnd::marked(const std::vector<FoundProcess>& all
   std::set<pid_t> roots;
   std::vector<FoundProcess> found;
   const std::set<pid_t> in_cgroup = members_.cgroup.members();
-  const std::map<pid_t, std::uint64_t> orphans = read_orphans(members_.records);
-  const auto is_orphan = [&orphans](const FoundProcess& process) {
-    const auto noted = orphans.find(process.pid);
-    return noted != orphans.end() && noted->second == process.started;
-  };
   for (const FoundProcess& process : all) {
     if (process.pid != ::getpid() && !process.is_dead() &&
-        (in_cgroup.count(process.pid) != 0 || is_orphan(process) || ending_of(process).mark.ours ||
+        (in_cgroup.count(process.pid) != 0 || ending_of(process).mark.ours || inherited_.is_on(process.pid) ||
          holds(process.pid, members_.records))) {
       roots.insert(process.pid);
       found.push_back(process);
@@ -209,7 +207,10 @@ GentleEnd::Ending& GentleEnd::ending_of(const FoundProcess& process) {
 // A process leads a group with its own number, in which its descendants are.
 ProcessMark GentleEnd::noted(const FoundProcess& process) {
   if (!notes_) {
-    notes_ = members_.by_mark ? std::map<pid_t, ProcessMark>() : read_notes(members_.records);
+    notes_ = read_notes(members_.records);
+  }
+  if (members_.by_mark && !inherited_.is_on(process.pid)) {
+    return {};  // the number may be that of another process by now
   }
   for (const pid_t pid : {process.pid, process.group}) {
     if (const auto found = notes_->find(pid); found != notes_->end()) {

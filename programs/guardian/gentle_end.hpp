@@ -20,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "launcher/process/guardian/inherited_mark.hpp"
 #include "launcher/process/guardian/process_scan.hpp"
 #include "programs/guardian/guardian_log.hpp"
 #include "programs/guardian/launch_cgroup.hpp"
@@ -33,7 +34,8 @@ struct LaunchMembers {
   pid_t session = 0;            // of the launcher
   std::set<pid_t> strangers{};  // these and their descendants are not ours
   // False: all descendants of this process. True: this process has not adopted them, so the processes with the mark of
-  // the launch, those that still have the launcher's descriptor of the records, and all their descendants.
+  // the launch (inherited or in their environment), those that still have the launcher's descriptor of the records, and
+  // all their descendants.
   bool by_mark = false;
   int records = -1;
   LaunchCgroup cgroup{};  // further members, where there is one
@@ -48,7 +50,7 @@ struct LaunchMembers {
 
 class GentleEnd {
  public:
-  GentleEnd(LaunchMembers members, GuardianLog& log) : members_(std::move(members)), log_(log), output_(log) {}
+  GentleEnd(LaunchMembers members, GuardianLog& log);
 
   // Returns false when a process could not be ended, which the log says then. `launcher_ended` is what has happened to
   // the launcher, such as "the launcher was killed by SIGKILL". Empty: it has ended by itself, and each process that it
@@ -94,6 +96,7 @@ class GentleEnd {
   LaunchMembers members_;
   GuardianLog& log_;
   LeftOutput output_;
+  InheritedMark inherited_;
   std::map<pid_t, Ending> endings_;
   std::optional<std::map<pid_t, ProcessMark>> notes_;  // once they have been read
   std::set<pid_t> numbers_;  // of all that were found: only their groups are signalled, never one of a foreign process

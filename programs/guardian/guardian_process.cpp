@@ -115,7 +115,6 @@ void GuardianProcess::note_end(pid_t pid, int status) {
   } else if (pid == spare_) {
     spare_ = -1;  // its children have become ours, the launcher too
     start_spare_beside();
-    note_orphans(launch_, {launch_.launcher, beside_});
   } else if (pid == beside_) {
     start_spare_beside();
   }

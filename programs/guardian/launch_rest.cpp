@@ -51,20 +51,6 @@ LaunchMembers members_below(const GuardedLaunch& launch) {
   return members;
 }
 
-void note_orphans(const GuardedLaunch& launch, const std::set<pid_t>& known) {
-  std::array<GuardianOrphan, kGuardianOrphans> orphans{};
-  std::size_t count = 0;
-  for (const pid_t pid : children_of(::getpid()).value_or(std::set<pid_t>())) {
-    const std::optional<FoundProcess> child =
-        known.count(pid) == 0 && launch.strangers.count(pid) == 0 ? read_process(pid) : std::optional<FoundProcess>();
-    if (child && !child->is_dead() && count < orphans.size()) {
-      orphans[count++] = {.pid = pid, .started = child->started};
-    }
-  }
-  const std::size_t size = std::min(count + 1, orphans.size()) * sizeof(GuardianOrphan);
-  static_cast<void>(!::pwrite(launch.records, orphans.data(), size, kGuardianOrphansBegin));
-}
-
 bool end_rest(const GuardedLaunch& launch, LaunchMembers members, bool nothing_left, const std::string& launcher_ended,
               int signals) {
   const LeftWork work = read_records(launch.records);

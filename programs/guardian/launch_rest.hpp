@@ -34,9 +34,6 @@ void send_signal(const UniqueFd& process, int signal);
 // Which processes belong to the launch, for one that is above them.
 LaunchMembers members_below(const GuardedLaunch& launch);
 
-// Notes the children of this process, without those of the launch itself, for a spare that will not be above them.
-void note_orphans(const GuardedLaunch& launch, const std::set<pid_t>& known);
-
 // Ends what the launcher has left (gentle_end.hpp), unless the spare has told that nothing is, and runs its clean-up
 // commands. False when a process could not be ended. `launcher_ended` and `signals` are those of GentleEnd::run().
 bool end_rest(const GuardedLaunch& launch, LaunchMembers members, bool nothing_left, const std::string& launcher_ended,

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdlib>
 #include <optional>
 #include <utility>
@@ -53,7 +52,6 @@ class SpareBetween {
   void reap();
   void tell_guardian(int what, int value) const;
   void continue_guardian() const;
-  void note_orphans_now_and_then();
   void on_lost_guardian();
   [[noreturn]] void end_all();
 
@@ -64,7 +62,6 @@ class SpareBetween {
   LaunchCgroup cgroup_;
   std::optional<int> status_;  // of the launcher, once it has ended
   bool has_told_ = false;      // that nothing is left
-  std::chrono::steady_clock::time_point noted_ = std::chrono::steady_clock::now();
   UnansweredSignals unanswered_{launch_.launcher};
 };
 
@@ -87,7 +84,6 @@ void SpareBetween::run(UniqueFd ready) {
     // The end of a launcher that is traced makes no signal. poll(2) skips a negative descriptor.
     std::array<pollfd, 2> wait{{{signals_.get(), POLLIN, 0}, {guarded ? guardian_.get() : launcher_.get(), POLLIN, 0}}};
     ::poll(wait.data(), wait.size(), guarded ? kBetweenLooksAtGuardian : unanswered_.next_look());
-    note_orphans_now_and_then();
     // Signals to this process mean nothing while the guardian lives; GentleEnd reads them later on.
     for (signalfd_siginfo signal{}; ::read(signals_.get(), &signal, sizeof signal) == sizeof signal;) {
     }
@@ -143,15 +139,6 @@ void SpareBetween::end_all() {
       end_rest(launch_, std::move(members), !has_children(), "launcher and guardian have gone", signals_.get());
   const int status = status_.value_or(EXIT_FAILURE << 8);
   end_with(ended_all || status != 0 ? status : EXIT_FAILURE << 8);
-}
-
-// The launcher will need them when both guardians are killed.
-void SpareBetween::note_orphans_now_and_then() {
-  const auto now = std::chrono::steady_clock::now();
-  if (now - noted_ >= std::chrono::milliseconds(kBetweenLooksAtGuardian)) {
-    noted_ = now;
-    note_orphans(launch_, {launch_.launcher});
-  }
 }
 
 // The launcher sees that the guardian has gone, and says so. It can be too busy to take the signal.

@@ -33,6 +33,7 @@
 #include "base/processes/process_mark.hpp"
 #include "base/processes/spawn.hpp"
 #include "launcher/process/guardian/guardian_protocol.hpp"
+#include "launcher/process/guardian/inherited_mark.hpp"
 #include "launcher/process/guardian/process_scan.hpp"
 
 namespace launch {
@@ -66,10 +67,13 @@ std::string earlier_children() {
   return all;
 }
 
-// The launcher has lost a guardian. As long as the other one lives, it is the parent.
+// The launcher has lost a guardian. As long as the other one lives, it is the parent. Who has lost both learns it here
+// a moment before their descriptors tell it.
 volatile sig_atomic_t guardian_of_launcher = -1;
+volatile sig_atomic_t has_lost_both = 0;
 void on_lost_guardian(int) {
   if (::getppid() != guardian_of_launcher) {
+    has_lost_both = 1;
     ::kill(::getpid(), SIGTERM);
   }
 }
@@ -213,6 +217,10 @@ Guardian Guardian::put_above(const std::vector<std::string>& command_line, const
     ::_exit(EXIT_FAILURE);  // the guardian says what is wrong with the program
   }
   guardian_of_launcher = guardian;
+  const std::uint64_t mark = InheritedMark::give_to_this_process(id).value();
+  if (::pwrite(records.get(), &mark, sizeof mark, kGuardianMark) != sizeof mark) {
+    ::_exit(EXIT_FAILURE);
+  }
   struct sigaction action {};
   action.sa_handler = on_lost_guardian;
   action.sa_flags = SA_RESTART;
@@ -265,7 +273,7 @@ void Guardian::wait_until_ready() {
 
 bool Guardian::is_alive() const {
   pollfd ended{process_.get(), POLLIN, 0};
-  return ::poll(&ended, 1, 0) == 0;
+  return has_lost_both == 0 && ::poll(&ended, 1, 0) == 0;
 }
 
 void Guardian::note(std::size_t number, pid_t pid, const std::string& label, const ProcessSpec& spec) {

@@ -3,7 +3,7 @@
 // nothing can be lost, and nothing makes the launcher wait.
 //
 // - The environment of each process holds its mark (process_mark.hpp). A process has it before its first instruction,
-//   and its descendants inherit it.
+//   and its descendants inherit it. A process can empty its environment, so there is an inherited mark, too.
 // - A memory file holds a table of the processes, for those whose environment can't be read, and behind it the clean-up
 //   commands and the path of launch.log.
 //
@@ -34,15 +34,9 @@ struct GuardianEntry {
   std::int64_t sigkill_timeout;
 };
 constexpr std::size_t kGuardianEntries = 16384;  // further processes are not in the table
-// Behind the table: orphans that a guardian has adopted, as of the last second. Zero: no further ones. Only somebody
-// who has not adopted them needs to know them.
-struct GuardianOrphan {
-  std::int64_t pid;
-  std::uint64_t started;
-};
-constexpr std::size_t kGuardianOrphans = 256;
-constexpr off_t kGuardianOrphansBegin = kGuardianEntries * sizeof(GuardianEntry);
-constexpr off_t kGuardianRecords = kGuardianOrphansBegin + kGuardianOrphans * sizeof(GuardianOrphan);
+// Behind the table: the value of the inherited mark (inherited_mark.hpp), eight bytes.
+constexpr off_t kGuardianMark = kGuardianEntries * sizeof(GuardianEntry);
+constexpr off_t kGuardianRecords = kGuardianMark + sizeof(std::uint64_t);
 
 // The rest of the memory file is a series of records. The last one may be incomplete.
 struct GuardianRecord {

@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // launch-guardian and processes that are hard to find or to end (hostile_process.cpp), with guardians and launchers
 // that are killed, stopped and traced.
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <unistd.h>
 
 #include <chrono>
-#include <cstring>
 #include <fstream>
 #include <map>
 #include <string>
 #include <tuple>
 
 #include "guardian_fixture.hpp"
-#include "launcher/process/guardian/guardian_protocol.hpp"
 
 namespace launch {
 namespace {
@@ -57,6 +54,12 @@ bool has_pending(pid_t process, int signal) {
 
 // What a daemon does to hide, and which two of the three are killed.
 using Kill = std::tuple<const char*, const char*>;
+std::string name_of_kill(const testing::TestParamInfo<Kill>& test) {
+  std::string name = std::string(std::get<0>(test.param)) + std::get<1>(test.param);
+  std::erase(name, '-');
+  return name;
+}
+
 class AnyTwo : public HostileProcesses, public testing::WithParamInterface<Kill> {};
 
 TEST_P(AnyTwo, MayBeKilledWhateverADaemonHides) {
@@ -74,11 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Hidden, AnyTwo,
                          testing::Combine(testing::Values("empty-daemon", "hidden-daemon", "leaderless-daemon",
                                                           "endless"),
                                           testing::Values("G", "L", "GL", "LG", "LS", "SL")),
-                         [](const testing::TestParamInfo<Kill>& test) {
-                           std::string name = std::string(std::get<0>(test.param)) + std::get<1>(test.param);
-                           std::erase(name, '-');
-                           return name;
-                         });
+                         name_of_kill);
 
 TEST_F(HostileProcesses, UsesTheTimeoutsOfAProcessWhoseEnvironmentTellsNothing) {
   const std::string told = directory.path() + "/told";
@@ -159,28 +158,25 @@ TEST_F(HostileProcesses, AGuardianThatIsStoppedGoesOn) {
   expect_nothing_left();
 }
 
-TEST_F(HostileProcesses, ALauncherThatHasLostBothKnowsTheOrphansThatTheyHadAdopted) {
-  start({"--timeouts", "100", "100", "--end-by-sigterm", kHostile + " empty-daemon"}, 1);
-  const pid_t spare = wait_for_spare();
-  const std::string words = read_file(fmt::format("/proc/{}/cmdline", spare));
-  const char* records = words.c_str();
-  for (int word = 0; word < 4; ++word) {
-    records += std::strlen(records) + 1;
+class BothGuardians : public HostileProcesses, public testing::WithParamInterface<Kill> {};
+
+// The daemon may have lost its parent a moment ago.
+TEST_P(BothGuardians, MayBeKilledAtOnceWhateverADaemonHides) {
+  const auto [shape, killed] = GetParam();
+  start({"--timeouts", "100", "100", "--end-by-sigterm", kHostile + " " + shape}, 1);
+  const std::map<char, pid_t> pids = {{'G', guardian}, {'S', wait_for_spare()}};
+  for (const char* who = killed; *who != '\0'; ++who) {
+    ::kill(pids.at(*who), SIGKILL);
   }
-  UniqueFd opened(::open(fmt::format("/proc/{}/fd/{}", spare, records).c_str(), O_RDONLY));
-  // Under another number, or else this process would count as one that the launcher has forked.
-  const UniqueFd memory(::fcntl(opened.get(), F_DUPFD_CLOEXEC, 100));
-  opened.reset();
-  GuardianOrphan orphan{};
-  while (::pread(memory.get(), &orphan, sizeof orphan, kGuardianOrphansBegin) <= 0 || orphan.pid == 0) {
-    ::sched_yield();
-  }
-  ::kill(guardian, SIGSTOP);  // or else it would start another spare
-  ::kill(spare, SIGKILL);
-  ::kill(guardian, SIGKILL);
   EXPECT_EQ(end(), -SIGKILL);
   expect_nothing_left();
 }
+
+INSTANTIATE_TEST_SUITE_P(Hidden, BothGuardians,
+                         testing::Combine(testing::Values("empty-daemon", "hidden-daemon", "leaderless-daemon",
+                                                          "endless"),
+                                          testing::Values("GS", "SG")),
+                         name_of_kill);
 
 }  // namespace
 }  // namespace launch
