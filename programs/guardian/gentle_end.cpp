@@ -120,8 +120,14 @@ bool GentleEnd::is_proven() const {
   if (members_.by_mark) {
     return false;
   }
-  return members_.spare > 0 ? nothing_below_spare_ && children_of(::getpid()) == std::set<pid_t>{members_.spare}
-                            : !has_children();
+  if (members_.spare <= 0 && members_.strangers.empty()) {
+    return !has_children();
+  }
+  // A child that has ended is among them until this process reaps it, so none is missed while they are read.
+  const std::optional<std::set<pid_t>> children = children_of(::getpid());
+  return (members_.spare <= 0 || nothing_below_spare_) && children &&
+         std::all_of(children->begin(), children->end(),
+                     [this](pid_t child) { return child == members_.spare || members_.strangers.count(child) != 0; });
 }
 
 bool GentleEnd::has_missed_some() {
@@ -144,8 +150,11 @@ void GentleEnd::reap_ended() {
   int status = 0;
   for (pid_t pid = 0; (pid = ::waitpid(-1, &status, WNOHANG | WUNTRACED)) > 0;) {
     if (!WIFSTOPPED(status)) {
-      members_.reaped(pid, status);
       members_.spare = pid == members_.spare ? -1 : members_.spare;
+      members_.strangers.erase(pid);
+      if (const pid_t stranger = members_.reaped(pid, status); stranger > 0) {
+        members_.strangers.insert(stranger);
+      }
     } else if (pid == members_.spare) {
       ::kill(pid, SIGCONT);
     }
@@ -178,7 +187,7 @@ std::vector<FoundProcess> GentleEnd::marked(const std::vector<FoundProcess>& all
   std::vector<FoundProcess> found;
   const std::set<pid_t> in_cgroup = members_.cgroup.members();
   for (const FoundProcess& process : all) {
-    if (process.pid != ::getpid() && !process.is_dead() &&
+    if (process.pid != ::getpid() && !process.is_dead() && !is_guardian(process, members_.launch_id) &&
         (in_cgroup.count(process.pid) != 0 || ending_of(process).mark.ours || inherited_.is_on(process.pid) ||
          holds(process.pid, members_.records))) {
       roots.insert(process.pid);

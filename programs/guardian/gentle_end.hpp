@@ -42,8 +42,8 @@ struct LaunchMembers {
   // The spare guardian, a child of this process that adopts orphans before this process does, and tells by a signal
   // when it has no child any more (guardian_protocol.hpp); -1: none.
   pid_t spare = -1;
-  // Told of each child that has ended, with its wait status.
-  std::function<void(pid_t pid, int status)> reaped = [](pid_t, int) {};
+  // Told of each child that has ended, with its wait status. Returns a further stranger that it has started, or -1.
+  std::function<pid_t(pid_t pid, int status)> reaped = [](pid_t, int) { return -1; };
   // Told when the spare tells how the launcher has ended.
   std::function<void(int status)> launcher_ended = [](int) {};
 };

@@ -112,18 +112,9 @@ void GuardianProcess::reap() {
 void GuardianProcess::note_end(pid_t pid, int status) {
   if (pid == launch_.launcher) {
     status_ = status;
-  } else if (pid == spare_) {
-    spare_ = -1;  // its children have become ours, the launcher too
-    start_spare_beside();
-  } else if (pid == beside_) {
-    start_spare_beside();
-  }
-}
-
-void GuardianProcess::start_spare_beside() {
-  beside_ = ::fork();
-  if (beside_ == 0) {
-    stand_beside(launch_, self_);
+  } else if (pid == spare_ || pid == beside_) {
+    spare_ = pid == spare_ ? -1 : spare_;  // its children have become ours, the launcher too
+    beside_ = start_beside(launch_, self_);
   }
 }
 
@@ -135,11 +126,9 @@ void GuardianProcess::finish() {
   LaunchMembers members = members_below(launch_);
   members.spare = spare_;
   members.reaped = [this](pid_t pid, int status) {
-    if (pid == launch_.launcher) {
-      status_ = status;
-    }
-    spare_ = pid == spare_ ? -1 : spare_;
-    beside_ = pid == beside_ ? -1 : beside_;
+    const bool was_spare = pid == spare_ || pid == beside_;
+    note_end(pid, status);
+    return was_spare ? beside_ : -1;
   };
   members.launcher_ended = [this](int status) { status_ = status; };
   for (const pid_t spare : {spare_, beside_}) {

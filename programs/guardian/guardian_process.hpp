@@ -33,7 +33,6 @@ class GuardianProcess {
   void end_blocked_launcher() const;
   void reap();
   void note_end(pid_t pid, int status);
-  void start_spare_beside();
   // Whether the launcher has ended, as far as this process can know: a spare that somebody holds tells nothing.
   bool is_over();
   void finish();

@@ -50,6 +50,7 @@ class SpareBetween {
 
  private:
   void reap();
+  void note_end(pid_t pid, int status);
   void tell_guardian(int what, int value) const;
   void continue_guardian() const;
   void on_lost_guardian();
@@ -58,6 +59,8 @@ class SpareBetween {
   GuardedLaunch launch_;
   UniqueFd guardian_ = open_process(::getppid() == launch_.other ? launch_.other : -1);
   UniqueFd launcher_ = open_process(launch_.launcher);
+  UniqueFd self_ = open_process(::getpid());
+  pid_t beside_ = -1;  // the spare of this one, once the guardian has gone
   UniqueFd signals_ = watch_signals();
   LaunchCgroup cgroup_;
   std::optional<int> status_;  // of the launcher, once it has ended
@@ -95,13 +98,12 @@ void SpareBetween::reap() {
   pid_t pid = 0;
   bool launcher_ended = false;
   while ((pid = ::waitpid(-1, &status, WNOHANG | WUNTRACED)) > 0) {
-    if (pid != launch_.launcher) {
-      continue;
-    }
     if (!WIFSTOPPED(status)) {
-      status_ = status;
-      launcher_ended = true;
-    } else if (WSTOPSIG(status) != SIGSTOP) {
+      launcher_ended = launcher_ended || pid == launch_.launcher;
+      note_end(pid, status);
+    } else if (pid == beside_) {
+      ::kill(pid, SIGCONT);
+    } else if (pid == launch_.launcher && WSTOPSIG(status) != SIGSTOP) {
       tell_guardian(kLauncherStopped, 0);
     }
   }
@@ -111,6 +113,14 @@ void SpareBetween::reap() {
     tell_guardian(kNothingLeft, *status_);
   } else if (launcher_ended) {
     tell_guardian(kLauncherLeaves, *status_);
+  }
+}
+
+void SpareBetween::note_end(pid_t pid, int status) {
+  if (pid == launch_.launcher) {
+    status_ = status;
+  } else if (pid == beside_) {
+    beside_ = start_beside(launch_, self_);
   }
 }
 
@@ -131,18 +141,27 @@ void SpareBetween::continue_guardian() const {
 void SpareBetween::end_all() {
   LaunchMembers members = members_below(launch_);
   members.reaped = [this](pid_t pid, int status) {
-    if (pid == launch_.launcher) {
-      status_ = status;
-    }
+    const bool was_spare = pid == beside_;
+    note_end(pid, status);
+    return was_spare ? beside_ : -1;
   };
+  if (beside_ > 0) {
+    members.strangers.insert(beside_);
+  }
+  const bool nothing_left = children_of(::getpid()) == members.strangers;
   const bool ended_all =
-      end_rest(launch_, std::move(members), !has_children(), "launcher and guardian have gone", signals_.get());
+      end_rest(launch_, std::move(members), nothing_left, "launcher and guardian have gone", signals_.get());
+  if (beside_ > 0) {
+    ::kill(beside_, SIGKILL);
+    ::waitpid(beside_, nullptr, 0);
+  }
   const int status = status_.value_or(EXIT_FAILURE << 8);
   end_with(ended_all || status != 0 ? status : EXIT_FAILURE << 8);
 }
 
 // The launcher sees that the guardian has gone, and says so. It can be too busy to take the signal.
 void SpareBetween::on_lost_guardian() {
+  beside_ = start_beside(launch_, self_);
   if (!status_) {
     send_signal(launcher_, SIGTERM);
     send_signal(launcher_, SIGCONT);
@@ -181,6 +200,14 @@ void stand_beside(const GuardedLaunch& launch, const UniqueFd& guardian) {
   members.by_mark = true;
   end_rest(launch, std::move(members), false, "launcher and guardian have gone", -1);
   ::_exit(EXIT_SUCCESS);
+}
+
+pid_t start_beside(const GuardedLaunch& launch, const UniqueFd& self) {
+  const pid_t spare = ::fork();
+  if (spare == 0) {
+    stand_beside(launch, self);
+  }
+  return spare;
 }
 
 }  // namespace launch

@@ -251,11 +251,9 @@ Guardian::~Guardian() {
 }
 
 bool Guardian::has_spare() const {
-  const std::string argument = '\0' + id_ + '\0';
   const std::vector<FoundProcess> all = all_processes();
   return std::any_of(all.begin(), all.end(), [&](const FoundProcess& process) {
-    if (process.name != "guardian-spare" ||
-        read_proc_file(process.pid, "cmdline").find(argument) == std::string::npos || is_being_killed(process.pid)) {
+    if (!is_guardian(process, id_) || is_being_killed(process.pid)) {
       return false;
     }
     // A process that takes SIGKILL has it no longer, and begins to exit.

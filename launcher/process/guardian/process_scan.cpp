@@ -194,6 +194,11 @@ ProcessMark read_mark(const FoundProcess& process, const std::string& launch_id)
   return mark;
 }
 
+bool is_guardian(const FoundProcess& process, const std::string& launch_id) {
+  return (process.name == "guardian-spare" || process.name == "launch-guardian") &&
+         read_proc_file(process.pid, "cmdline").find('\0' + launch_id + '\0') != std::string::npos;
+}
+
 bool is_being_killed(pid_t pid) {
   constexpr std::uint64_t kKill = 1ULL << (SIGKILL - 1);
   const std::string status = read_proc_file(pid, "status");

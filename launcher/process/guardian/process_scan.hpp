@@ -66,6 +66,9 @@ std::vector<FoundProcess> descendants(const std::vector<FoundProcess>& all, cons
 // (PR_SET_DUMPABLE), and one that has overwritten its environment, have the mark of no launch.
 ProcessMark read_mark(const FoundProcess& process, const std::string& launch_id);
 
+// Whether it is a guardian of this launch, one that is about to become a spare as well.
+bool is_guardian(const FoundProcess& process, const std::string& launch_id);
+
 // Whether SIGKILL has been sent to the process, which has not died yet.
 bool is_being_killed(pid_t pid);
 

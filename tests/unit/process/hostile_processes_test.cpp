@@ -158,6 +158,36 @@ TEST_F(HostileProcesses, AGuardianThatIsStoppedGoesOn) {
   expect_nothing_left();
 }
 
+// What has begun to end the processes may be killed as well, when the launcher has ended for the lack of the guardian.
+TEST_F(HostileProcesses, AnotherSpareGoesOnWhenTheSpareIsKilledWhileItEndsTheRest) {
+  const std::string told = directory.path() + "/told";
+  start({"--timeouts", "300", "300", kHostile + " plain-daemon " + told}, 1);
+  const pid_t spare = wait_for_spare();
+  ::kill(guardian, SIGKILL);
+  while (read_file(told) != "INT\n") {
+    ::sched_yield();
+  }
+  ::kill(spare, SIGKILL);
+  end();
+  expect_nothing_left();
+  EXPECT_EQ(read_file(told), "INT\nINT\nTERM\n");
+}
+
+TEST_F(HostileProcesses, AnotherSpareStandsByWhenTheSpareIsKilledWhileTheGuardianEndsTheRest) {
+  const std::string told = directory.path() + "/told";
+  start({"--timeouts", "300", "300", kHostile + " plain-daemon " + told}, 1);
+  const pid_t spare = wait_for_spare();
+  ::kill(launcher, SIGKILL);
+  while (read_file(told) != "INT\n") {
+    ::sched_yield();
+  }
+  ::kill(spare, SIGKILL);
+  wait_for_spare(spare);
+  ::kill(guardian, SIGKILL);
+  end();
+  expect_nothing_left();
+}
+
 class BothGuardians : public HostileProcesses, public testing::WithParamInterface<Kill> {};
 
 // The daemon may have lost its parent a moment ago.
