@@ -182,7 +182,9 @@ Guardian Guardian::put_above(const std::vector<std::string>& command_line, const
                                     role};
   };
   const pid_t guardian = ::getpid();
-  const pid_t spare = ::fork();
+  // The spare keeps nothing of this memory, so only the launcher needs a copy of it. This process goes on when the
+  // spare has become another program.
+  const pid_t spare = ::vfork();
   if (spare < 0) {
     const int error = errno;
     ::sigprocmask(SIG_SETMASK, &before, nullptr);
