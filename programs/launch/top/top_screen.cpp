@@ -3,6 +3,7 @@
 
 #define NCURSES_NOMACROS 1
 #include <fmt/format.h>
+#include <langinfo.h>
 #include <locale.h>
 #include <ncurses.h>
 
@@ -51,7 +52,8 @@ std::string fit_name(const std::string& name, std::size_t width) {
       --begin;
     } while ((static_cast<unsigned char>(name[begin]) & 0xC0U) == 0x80U);
   }
-  return fit(name, head) + "…" + name.substr(begin);
+  static const bool has_dots = std::string_view(::nl_langinfo(CODESET)) == "UTF-8";
+  return fit(name, head) + (has_dots ? "…" : "~") + name.substr(begin);
 }
 
 std::string line_of(const TopRow& row, std::size_t name_width) {

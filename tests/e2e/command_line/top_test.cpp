@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // launch top in a terminal of its own: what it shows, and what its keys do.
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <sys/stat.h>
@@ -9,6 +10,7 @@
 
 #include <chrono>
 #include <sstream>
+#include <utility>
 
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
@@ -230,6 +232,71 @@ TEST_F(TopTest, SaysWhyItCannotShowWhatTheNodesDo) {
   EXPECT_TRUE(top.shows("= help: install the package lttng-tools")) << top.screen();
   top.type("tq");
   EXPECT_EQ(top.wait(), 0);
+  run.send_signal(SIGINT);
+  EXPECT_EQ(run.wait().exit_code, 0);
+}
+
+TEST_F(TopTest, AStoppedProcessIsStopped) {
+  RunningCommand run(launch(R"xml(<executable name="sleeper" cmd="sleep 1000"/>)xml"));
+  ASSERT_TRUE(run.wait_for_output("[sleeper-1]: process started", kPatience));
+  Terminal top(top_of(run), environment_);
+  ASSERT_TRUE(top.shows("sleeper-1", "running")) << top.screen();
+  top.type("kSTOP\r");
+  EXPECT_TRUE(top.shows("sleeper-1", "stopped")) << top.screen();
+  const CommandResult ps =
+      run_command({.argv = {LAUNCH_PROGRAM, "ps", "--launch", std::to_string(run.pid())}, .environment = environment_});
+  EXPECT_THAT(ps.out, testing::ContainsRegex("sleeper-1 +stopped ")) << ps.err;
+  top.type("kCONT\r");
+  EXPECT_TRUE(top.shows("sleeper-1", "running")) << top.screen();
+  top.type("q");
+  EXPECT_EQ(top.wait(), 0);
+  run.send_signal(SIGINT);
+  EXPECT_EQ(run.wait().exit_code, 0);
+}
+
+TEST_F(TopTest, LongNamesAreCutInTheMiddle) {
+  RunningCommand run(launch(R"xml(<executable name="driver_of_the_camera_left" cmd="sleep 1000"/>
+    <executable name="driver_of_the_camera_right" cmd="sleep 1000"/>)xml"));
+  ASSERT_TRUE(run.wait_for_output("right-2]: process started", kPatience));
+  for (const auto& [language, dots] : {std::pair("C.UTF-8", "…"), std::pair("C", "~")}) {
+    environment_["LC_ALL"] = language;
+    Terminal top(top_of(run), environment_);
+    EXPECT_TRUE(top.shows(fmt::format("drive{}era_left-1 running", dots))) << top.screen();
+    EXPECT_TRUE(top.shows(fmt::format("drive{}ra_right-2 running", dots))) << top.screen();
+    EXPECT_THAT(top.line_with("NAME"), HasSubstr("LINES/S")) << "all figures are seen";
+    top.type("q");
+    EXPECT_EQ(top.wait(), 0);
+  }
+  run.send_signal(SIGINT);
+  EXPECT_EQ(run.wait().exit_code, 0);
+}
+
+TEST_F(TopTest, APromptThatFollowsHasALineOfItsOwn) {
+  RunningCommand run(launch(kTalker));
+  ASSERT_TRUE(run.wait_for_output("[talker-1] ready", kPatience));
+  const std::string top_and_prompt =
+      LAUNCH_PROGRAM " top --launch " + std::to_string(run.pid()) + "; printf 'prompt$ '";
+  Terminal shell({"/bin/sh", "-c", top_and_prompt}, environment_);
+  ASSERT_TRUE(shell.shows("talker-1", "running")) << shell.screen();
+  ASSERT_TRUE(shell.shows("quit"));
+  shell.type("q");
+  EXPECT_TRUE(shell.shows_line("prompt$")) << shell.screen();
+  EXPECT_EQ(shell.wait(), 0);
+  run.send_signal(SIGINT);
+  EXPECT_EQ(run.wait().exit_code, 0);
+}
+
+TEST_F(TopTest, SaysThatATerminalCannotBeDrawnOn) {
+  RunningCommand run(launch(kTalker));
+  ASSERT_TRUE(run.wait_for_output("[talker-1] ready", kPatience));
+  for (const char* const type : {"dumb", ""}) {
+    environment_["TERM"] = type;
+    Terminal top(top_of(run), environment_);
+    EXPECT_EQ(top.wait(), 1);
+    EXPECT_THAT(top.everything(),
+                HasSubstr("launch top: error: nothing can be drawn on this terminal (TERM is 'dumb' or "
+                          "empty); 'launch ps' prints a table\r\n"));
+  }
   run.send_signal(SIGINT);
   EXPECT_EQ(run.wait().exit_code, 0);
 }

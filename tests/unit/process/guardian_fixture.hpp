@@ -67,6 +67,7 @@ class GuardianTest : public testing::Test {
   void start(std::vector<std::string> words, std::size_t shells) {
     const bool exits = std::ranges::find(words, "--exit") != words.end();
     words.insert(words.begin(), {DOOMED_LAUNCHER, LAUNCH_GUARDIAN});
+    words.insert(words.begin(), before.begin(), before.end());
     ProcessSpec spec;
     spec.name = "test";
     spec.argv = std::move(words);
@@ -131,6 +132,7 @@ class GuardianTest : public testing::Test {
   }
 
   const TemporaryDirectory directory;
+  std::vector<std::string> before;  // the words of a program that starts the launcher
   std::unique_ptr<ProcessRunner> runner = make_posix_process_runner();
   Process run;
   pid_t guardian = -1;

@@ -5,6 +5,7 @@
 // hidden       nobody but root may look into it
 // empty        it has emptied its environment
 // tracer       it traces its parent from SIGUSR2 on
+// root         it belongs to root, if its file may do that (setuid)
 // endless      daemons, each of which ends when it has started the next one, in a session of its own
 // *-daemon     the same in a session of its own, without its parent and its output
 //
@@ -93,6 +94,9 @@ int main(int argc, char** argv) {
   }
   if (shape == "hidden") {
     prctl(PR_SET_DUMPABLE, 0);
+  }
+  if (shape == "root" && setresuid(0, 0, 0) != 0) {
+    return EXIT_FAILURE;
   }
   if (!file.empty()) {
     struct sigaction action {};
