@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "launcher/process/guardian/guardian_protocol.hpp"
+#include "programs/guardian/clean_ups.hpp"
 #include "programs/guardian/launch_cgroup.hpp"
 #include "programs/guardian/unanswered_signals.hpp"
 
@@ -35,6 +36,12 @@ void leave_group() {
 void leave_session() {
   ::setsid();
   ::prctl(PR_SET_NAME, "guardian-spare");
+}
+
+// One that another process has stopped can't make the signal itself.
+void ask_to_end(const UniqueFd& launcher) {
+  send_signal(launcher, SIGTERM);
+  send_signal(launcher, SIGCONT);
 }
 
 bool is_stopped(pid_t pid) {
@@ -163,8 +170,7 @@ void SpareBetween::end_all() {
 void SpareBetween::on_lost_guardian() {
   beside_ = start_beside(launch_, self_);
   if (!status_) {
-    send_signal(launcher_, SIGTERM);
-    send_signal(launcher_, SIGCONT);
+    ask_to_end(launcher_);
     unanswered_.over();
   }
 }
@@ -180,12 +186,15 @@ void stand_beside(const GuardedLaunch& launch, const UniqueFd& guardian) {
   leave_session();
   const UniqueFd launcher = open_process(launch.launcher);
   // A launcher without a guardian gets SIGTERM. It can be too busy to take it.
-  UnansweredSignals unanswered(launch.launcher);
+  UnansweredSignals unanswered(launch.launcher, read_inherited_mark(launch.records));
   bool guarded = static_cast<bool>(guardian);
   while (!has_ended(launcher)) {
     std::array<pollfd, 2> ended{{{launcher.get(), POLLIN, 0}, {guarded ? guardian.get() : -1, POLLIN, 0}}};
     ::poll(ended.data(), ended.size(), unanswered.next_look());
-    guarded = guarded && !has_ended(guardian);
+    if (guarded && has_ended(guardian)) {
+      guarded = false;
+      ask_to_end(launcher);
+    }
     if (!guarded && unanswered.over()) {
       send_signal(launcher, SIGKILL);
     }

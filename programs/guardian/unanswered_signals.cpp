@@ -31,10 +31,10 @@ bool is_held(const std::string& status) {
   return state == 'T' || state == 't';
 }
 
-// By a process that does not descend from this one.
-bool is_traced_from_outside(const std::string& status) {
+// By a process that neither descends from this one nor has the mark.
+bool is_traced_from_outside(const std::string& status, const InheritedMark& mark) {
   const auto tracer = static_cast<pid_t>(std::strtol(value_of(status, "\nTracerPid:\t"), nullptr, 10));
-  if (tracer == 0) {
+  if (tracer == 0 || mark.is_on(tracer)) {
     return false;
   }
   const std::vector<FoundProcess> below = descendants(all_processes(), {::getpid()});
@@ -68,7 +68,7 @@ bool UnansweredSignals::over() {
   if (held_ && wishes_ >= kWishes) {
     return true;
   }
-  return now - *pending_since_ >= kPatience && !(held_ && is_traced_from_outside(status));
+  return now - *pending_since_ >= kPatience && !(held_ && is_traced_from_outside(status, mark_));
 }
 
 void UnansweredSignals::count() {

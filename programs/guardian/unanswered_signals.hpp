@@ -9,6 +9,8 @@
 #include <optional>
 #include <string>
 
+#include "launcher/process/guardian/inherited_mark.hpp"
+
 namespace launch {
 
 // The launcher blocks these signals and reads them in its loop. A signal that stays pending has not been read. A
@@ -19,7 +21,9 @@ class UnansweredSignals {
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::seconds kPatience{10};
 
-  explicit UnansweredSignals(pid_t launcher) : launcher_(launcher) {}
+  // With the mark of the launch, what has it does not count as outside, also where it does not descend from this
+  // process.
+  explicit UnansweredSignals(pid_t launcher, InheritedMark mark = {}) : launcher_(launcher), mark_(mark) {}
 
   // True when a signal has been pending for kPatience. Looks into /proc, so call it after a signal has come and when
   // next_look() has passed.
@@ -33,6 +37,7 @@ class UnansweredSignals {
 
  private:
   pid_t launcher_;
+  InheritedMark mark_;
   std::optional<Clock::time_point> pending_since_;
   std::optional<Clock::time_point> counted_;
   int wishes_ = 0;

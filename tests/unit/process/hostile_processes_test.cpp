@@ -130,6 +130,20 @@ TEST_F(HostileProcesses, TheSpareEndsALauncherThatAProcessOfItsTraces) {
   expect_nothing_left();
 }
 
+TEST_F(HostileProcesses, ASpareBesideEndsALauncherThatAProcessOfItsTraces) {
+  start({"--timeouts", "100", "100", kHostile + " tracer"}, 1);
+  const pid_t spare = wait_for_spare();
+  ::kill(shell_pids[0], SIGUSR2);
+  while (state_of(launcher) != 't') {
+    ::sched_yield();
+  }
+  ::kill(spare, SIGKILL);
+  wait_for_spare(spare);
+  ::kill(guardian, SIGKILL);
+  end();
+  expect_nothing_left();
+}
+
 TEST_F(HostileProcesses, ASpareThatIsStoppedGoesOn) {
   start({"--timeouts", "100", "100", kSleeper}, 1);
   const pid_t spare = wait_for_spare();
