@@ -31,6 +31,10 @@ bool is_held(const std::string& status) {
   return state == 'T' || state == 't';
 }
 
+bool is_traced(const std::string& status) {
+  return *value_of(status, "\nState:\t") == 't';
+}
+
 // By a process that neither descends from this one nor has the mark.
 bool is_traced_from_outside(const std::string& status, const InheritedMark& mark) {
   const auto tracer = static_cast<pid_t>(std::strtol(value_of(status, "\nTracerPid:\t"), nullptr, 10));
@@ -55,9 +59,10 @@ bool has_pending_request(const std::string& status) {
 
 bool UnansweredSignals::over() {
   const std::string status = read_proc_file(launcher_, "status");
-  if (!has_pending_request(status)) {
+  // One that has taken a signal can be traced before it does what the signal asks for.
+  if (!has_pending_request(status) && !(counted_ && is_traced(status))) {
     pending_since_.reset();
-    wishes_ = 0;
+    wishes_ = 0;  // it has taken them
     return false;
   }
   const Clock::time_point now = Clock::now();

@@ -32,8 +32,8 @@ class UnansweredSignals {
   void count();
   // "the launcher has not answered a signal for 10 s, so something in it is blocked"
   std::string reason() const;
-  // How long to wait before the next look, as poll(2) wants it: milliseconds, or -1 when nothing is pending.
-  int next_look() const { return pending_since_ ? 500 : -1; }
+  // How long to wait before the next look, as poll(2) wants it: milliseconds, or -1 when nothing is asked.
+  int next_look() const { return pending_since_ || counted_ ? 500 : -1; }
 
  private:
   pid_t launcher_;

@@ -118,6 +118,18 @@ TEST_F(HostileProcesses, EndsALauncherThatAProcessOfItsTraces) {
   expect_nothing_left();
 }
 
+TEST_F(HostileProcesses, EndsALauncherThatHasTakenTheSignalAndIsTracedThen) {
+  before = {"/usr/bin/env", "--ignore-signal=INT"};  // nothing stays pending
+  start({"--timeouts", "100", "100", kHostile + " tracer"}, 1);
+  ::kill(guardian, SIGINT);
+  while (has_pending(guardian, SIGINT)) {
+    ::sched_yield();
+  }
+  ::kill(shell_pids[0], SIGUSR2);
+  EXPECT_EQ(end(), -SIGKILL);
+  expect_nothing_left();
+}
+
 TEST_F(HostileProcesses, TheSpareEndsALauncherThatAProcessOfItsTraces) {
   start({"--timeouts", "100", "100", kHostile + " tracer"}, 1);
   ::kill(shell_pids[0], SIGUSR2);
