@@ -127,7 +127,9 @@ int main(int argc, char** argv) {
     for (const int number : {SIGINT, SIGTERM}) {
       signal(number, SIG_IGN);
     }
-    for (const timespec a_moment{.tv_sec = 0, .tv_nsec = 2'000'000};;) {
+    const timespec a_moment{.tv_sec = 0, .tv_nsec = 2'000'000};
+    constexpr int kMost = 20'000;  // so that one that a failed test leaves does not go on for ever
+    for (int generation = 0; generation < kMost; ++generation) {
       nanosleep(&a_moment, nullptr);
       if (fork() > 0) {
         _exit(0);

@@ -229,8 +229,7 @@ TEST_P(BothGuardians, MayBeKilledAtOnceWhateverADaemonHides) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Hidden, BothGuardians,
-                         testing::Combine(testing::Values("empty-daemon", "hidden-daemon", "leaderless-daemon",
-                                                          "endless"),
+                         testing::Combine(testing::Values("empty-daemon", "hidden-daemon", "leaderless-daemon"),
                                           testing::Values("GS", "SG")),
                          name_of_kill);
 
