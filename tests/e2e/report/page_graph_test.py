@@ -28,13 +28,21 @@ MANY_NODES = '''(() => {
 })()'''
 
 
-class Graph(page_case.PageTest):
+class GraphTest(page_case.PageTest):
+
+    def show_graph(self):
+        """A new picture is fitted before it is painted."""
+        self.show('graph')
+        self.browser.wait_for('document.querySelector(".graph svg > g").hasAttribute("transform")')
+
+
+class Graph(GraphTest):
 
     def scale(self):
         return self.browser.evaluate('document.querySelector(".graph svg > g").getCTM().a')
 
     def test_it_has_a_box_for_each_node_and_topic_with_rate_and_latency(self):
-        self.show('graph')
+        self.show_graph()
         labels = self.browser.evaluate('[...document.querySelectorAll(".box")].map(box => box.getAttribute("aria-label")).sort()')
         self.assertEqual([label.split(' ')[:2] for label in labels],
                          [['node', '/display'], ['node', '/filter'], ['node', '/sensor'], ['topic', '/points'], ['topic', '/scan']])
@@ -45,7 +53,7 @@ class Graph(page_case.PageTest):
         self.assertEqual(sorted(xs, key=xs.get), order)
 
     def test_a_click_filters_all_views_and_the_chip_takes_it_back(self):
-        self.show('graph')
+        self.show_graph()
         self.browser.click('[data-box="node /filter"]')
         self.assertEqual(self.text('[data-chip=node]'), 'node /filter ✕')
         self.assertEqual(self.browser.evaluate('document.querySelector(".box.active").dataset.box'), 'node /filter')
@@ -60,20 +68,20 @@ class Graph(page_case.PageTest):
         self.assertEqual(self.text('#selection'), '')
 
     def test_a_box_is_chosen_by_keys(self):
-        self.show('graph')
+        self.show_graph()
         self.browser.evaluate('document.querySelector(\'[data-box="topic /scan"]\').focus()')
         self.browser.key('Enter')
         self.assertEqual(self.text('[data-chip=topic]'), 'topic /scan ✕')
         self.assertEqual(self.browser.evaluate('document.activeElement.dataset.box'), 'topic /scan', 'it keeps the focus')
 
     def test_all_of_it_is_in_sight(self):
-        self.show('graph')
-        self.browser.wait_for(f'{OUT_OF_SIGHT} <= 0')  # the picture is fitted before it is painted
+        self.show_graph()
+        self.browser.wait_for(f'{OUT_OF_SIGHT} <= 0')
 
     def test_a_hundred_nodes_with_long_names_are_in_sight_and_none_is_cut(self):
         self.browser.evaluate(MANY_NODES)
         self.assertEqual(self.browser.evaluate('document.querySelectorAll(".box").length'), 200)
-        self.browser.wait_for(f'{OUT_OF_SIGHT} <= 0')  # the picture is fitted before it is painted
+        self.browser.wait_for(f'{OUT_OF_SIGHT} <= 0')
         self.assertTrue(self.browser.evaluate('''[...document.querySelectorAll(".box")].every(box => {
           const name = [...box.querySelectorAll("text:not(.rate)")].map(line => line.textContent).join("");
           const outer = box.querySelector("rect").getBoundingClientRect();
@@ -84,7 +92,7 @@ class Graph(page_case.PageTest):
         self.assert_fits()
 
     def test_the_wheel_zooms_at_the_pointer(self):
-        self.show('graph')
+        self.show_graph()
         box = '[data-box="node /filter"]'
         place = f'(() => {{ const box = document.querySelector(\'{box}\').getBoundingClientRect(); return [box.x + box.width / 2, box.y + box.height / 2]; }})()'
         x, y = self.browser.evaluate(place)
@@ -97,7 +105,7 @@ class Graph(page_case.PageTest):
         self.browser.wait_for(f'Math.abs(document.querySelector(".graph svg > g").getCTM().a - {before}) < 0.01')
 
     def test_dragging_moves_and_chooses_nothing(self):
-        self.show('graph')
+        self.show_graph()
         place = '(() => { const box = document.querySelector(\'[data-box="node /filter"]\').getBoundingClientRect(); return [box.x + box.width / 2, box.y + box.height / 2]; })()'
         x, y = self.browser.evaluate(place)
         for kind, at in (('mousePressed', x), ('mouseMoved', x + 30), ('mouseMoved', x + 80), ('mouseReleased', x + 80)):
@@ -110,7 +118,7 @@ class Graph(page_case.PageTest):
         self.assertAlmostEqual(self.browser.evaluate(place)[0], moved[0], delta=1, msg='it stays where it is')
 
     def test_keys_zoom_move_and_fit_at_once(self):
-        self.show('graph')
+        self.show_graph()
         whole = self.scale()
         self.browser.key('+')
         self.browser.wait_for(f'document.querySelector(".graph svg > g").getCTM().a > {1.3 * whole}')
@@ -121,23 +129,23 @@ class Graph(page_case.PageTest):
         self.browser.wait_for(f'document.querySelector(".graph svg > g").getCTM().a === {whole}')
 
     def test_the_zoom_stays_when_the_view_changes(self):
-        self.show('graph')
+        self.show_graph()
         self.browser.key('+')
         scale = self.scale()
         self.show('topics')
-        self.show('graph')
+        self.show_graph()
         self.assertEqual(self.scale(), scale)
 
 
-class NarrowGraph(page_case.PageTest):
+class NarrowGraph(GraphTest):
     SIZE = (390, 800)
 
     def test_all_of_it_is_in_sight(self):
-        self.show('graph')
-        self.browser.wait_for(f'{OUT_OF_SIGHT} <= 0')  # the picture is fitted before it is painted
+        self.show_graph()
+        self.browser.wait_for(f'{OUT_OF_SIGHT} <= 0')
         self.assert_fits()
         self.browser.evaluate(MANY_NODES)
-        self.browser.wait_for(f'{OUT_OF_SIGHT} <= 0')  # the picture is fitted before it is painted
+        self.browser.wait_for(f'{OUT_OF_SIGHT} <= 0')
 
 
 if __name__ == '__main__':

@@ -22,6 +22,7 @@ class PictureZoom {
       this.moved = false;
     }, true);
     new ResizeObserver(() => this.apply()).observe(svg);
+    this.apply();  // at once, if the picture is in the page already
   }
 
   pointOf(event) {
