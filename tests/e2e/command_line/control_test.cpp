@@ -2,7 +2,9 @@
 // The commands that ask a running launch, with real processes: launch ps, stop, start, restart, signal, shutdown,
 // events, logs.
 #include <gmock/gmock.h>
+#include <sched.h>
 #include <signal.h>
+#include <sys/mount.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -147,18 +149,23 @@ TEST_F(Control, RootSeesTheLaunchesOfOthersAndWhoseTheyAre) {
   if (::geteuid() != 0) {
     GTEST_SKIP() << "skipped, because it needs root";
   }
+  // In a /run of its own: tests beside must not see the launch of another user.
+  ASSERT_EQ(::unshare(CLONE_NEWNS), 0);
+  ASSERT_EQ(::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr), 0);
+  ASSERT_EQ(::mount("tmpfs", "/run", "tmpfs", 0, nullptr), 0);
   constexpr uid_t kOther = 54321;  // nobody has it
-  const fs::path directory = "/tmp/launch-54321";
+  const fs::path directory = "/run/user/54321";
   const fs::path logs = sandbox_.directory() / "logs";
   for (const fs::path& own : {directory, logs}) {
-    fs::create_directory(own);
+    fs::create_directories(own);
     fs::permissions(own, fs::perms::owner_all);
     ASSERT_EQ(::chown(own.c_str(), kOther, kOther), 0);
   }
   fs::permissions(sandbox_.directory(), fs::perms::others_exec | fs::perms::others_read, fs::perm_options::add);
   Command other = launch({write(kTalker)});
   other.argv.insert(other.argv.begin(), {"setpriv", "--reuid=54321", "--regid=54321", "--clear-groups"});
-  other.environment = {{"XDG_RUNTIME_DIR", ""}, {"ROS_LOG_DIR", logs.string()}, {"HOME", logs.string()}};
+  other.environment = {
+      {"XDG_RUNTIME_DIR", directory.string()}, {"ROS_LOG_DIR", logs.string()}, {"HOME", logs.string()}};
   {
     RunningCommand run(other);
     EXPECT_TRUE(run.wait_for_output("[talker-1] ready", kPatience)) << run.out() << run.err();
@@ -169,7 +176,6 @@ TEST_F(Control, RootSeesTheLaunchesOfOthersAndWhoseTheyAre) {
     EXPECT_EQ(ask({"shutdown", "--launch", number}).exit_code, 0);
     EXPECT_EQ(run.wait().exit_code, 0);
   }
-  fs::remove_all(directory);
 }
 
 TEST_F(Control, StopStartAndRestartWaitUntilItHasHappened) {
