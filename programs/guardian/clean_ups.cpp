@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "programs/guardian/clean_ups.hpp"
 
+#include <dirent.h>
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
@@ -85,16 +86,33 @@ std::uint64_t time_of(pid_t pid) {
   return has_run + std::strtoull(next, nullptr, 10);
 }
 
-// What shows that a command gets on: the time of its processes, and that of the daemons of LTTng, for which the command
-// of a trace waits.
+bool has_socket(pid_t pid) {
+  const std::string path = "/proc/" + std::to_string(pid) + "/fd";
+  bool found = false;
+  if (DIR* const directory = ::opendir(path.c_str())) {
+    while (const dirent* const entry = ::readdir(directory)) {
+      std::array<char, 16> target{};
+      const ssize_t size = ::readlinkat(::dirfd(directory), entry->d_name, target.data(), target.size());
+      found =
+          found || (size > 0 && std::string_view(target.data(), static_cast<std::size_t>(size)).starts_with("socket:"));
+    }
+    ::closedir(directory);
+  }
+  return found;
+}
+
+// What shows that a command gets on: the time of its processes. The command that ends a trace waits at a socket for
+// the daemons of LTTng, so theirs counts for it as well, also if they work for somebody else.
 std::uint64_t work_done(pid_t command) {
   const std::vector<FoundProcess> all = all_processes();
   std::uint64_t time = time_of(command);
+  bool waits_for_daemons = has_socket(command);
   for (const FoundProcess& process : descendants(all, {command})) {
     time += time_of(process.pid);
+    waits_for_daemons = waits_for_daemons || has_socket(process.pid);
   }
   for (const FoundProcess& process : all) {
-    if (process.name.compare(0, 6, "lttng-") == 0) {
+    if (waits_for_daemons && process.name.compare(0, 6, "lttng-") == 0) {
       time += time_of(process.pid);
     }
   }

@@ -2,21 +2,17 @@
 // The commands that ask a running launch, with real processes: launch ps, stop, start, restart, signal, shutdown,
 // events, logs.
 #include <gmock/gmock.h>
-#include <sched.h>
 #include <signal.h>
-#include <sys/mount.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "tests/support/command.hpp"
-#include "tests/support/sandbox.hpp"
+#include "tests/e2e/command_line/control_fixture.hpp"
 
 namespace {
 
@@ -27,57 +23,6 @@ using testing::HasSubstr;
 using testing::MatchesRegex;
 using testing::Not;
 namespace fs = std::filesystem;
-
-constexpr std::chrono::seconds kPatience{60};
-
-// Waits for a line of its input, so that nothing of a test depends on time.
-const std::string kTalker = R"xml(<executable name="talker" shell="true" output="both"
-    cmd="got() { echo got USR1; }; trap got USR1; echo ready; while :; do read x; done"/>)xml";
-const std::string kSleeper = R"xml(<executable name="sleeper" cmd="sleep 1000" respawn="true"/>)xml";
-
-class Control : public testing::Test {
- protected:
-  Control() : runtime_(sandbox_.directory() / "run") {
-    fs::create_directory(runtime_);
-    environment_ = {{"XDG_RUNTIME_DIR", runtime_.string()}};
-  }
-
-  std::string write(const std::string& actions, const std::string& name = "system.launch.xml") {
-    const fs::path path = sandbox_.directory() / name;
-    write_file(path, "<launch>\n" + actions + "\n</launch>\n");
-    return path.string();
-  }
-
-  Command launch(std::vector<std::string> words) const {
-    words.insert(words.begin(), LAUNCH_PROGRAM);
-    return {.argv = std::move(words), .environment = environment_, .directory = sandbox_.directory()};
-  }
-  CommandResult ask(const std::vector<std::string>& words) const { return run_command(launch(words), kPatience); }
-  json ps() const { return json::parse(ask({"ps", "--json"}).out); }
-
-  // The names of what is in the directory for sockets.
-  std::vector<std::string> sockets() const {
-    std::vector<std::string> names;
-    for (const fs::directory_entry& entry : fs::directory_iterator(runtime_ / "launch")) {
-      names.push_back(entry.path().filename().string());
-    }
-    return names;
-  }
-
-  // The child of the spare guardian, which is the child of the guardian.
-  static pid_t launcher_below(pid_t guardian) {
-    pid_t process = guardian;
-    for (int level = 0; level < 2; ++level) {
-      const std::string number = std::to_string(process);
-      process = std::stoi(read_file("/proc/" + number + "/task/" + number + "/children"));
-    }
-    return process;
-  }
-
-  Sandbox sandbox_;
-  fs::path runtime_;
-  std::map<std::string, std::string> environment_;
-};
 
 TEST_F(Control, PsListsProcessesWithTheirStatesAndPlaces) {
   const std::string file = write(kTalker + "\n" + R"xml(<executable name="broken" shell="true" cmd="exit 3"/>
@@ -115,67 +60,6 @@ TEST_F(Control, PsListsProcessesWithTheirStatesAndPlaces) {
   EXPECT_EQ(unknown.err, "launch ps: error: no process is named 'talkr'\n      = help: did you mean 'talker'?\n");
   run.send_signal(SIGINT);
   EXPECT_EQ(run.wait().exit_code, 3) << "one has failed";
-}
-
-// More clients than may wait for a launcher are refused by the system at once.
-TEST_F(Control, ALaunchThatDoesNotAnswerIsNamedHoweverManyWaitForIt) {
-  RunningCommand run(launch({write(kTalker)}));
-  ASSERT_TRUE(run.wait_for_output("[talker-1] ready", kPatience));
-  const pid_t launcher = launcher_below(run.pid());
-  ASSERT_EQ(::kill(launcher, SIGSTOP), 0);
-  std::vector<int> waiting;
-  const fs::path before = fs::current_path();
-  fs::current_path(runtime_ / "launch");
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  sockets().front().copy(address.sun_path, sizeof address.sun_path - 1);
-  do {
-    waiting.push_back(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0));
-  } while (::connect(waiting.back(), reinterpret_cast<sockaddr*>(&address), sizeof address) == 0);
-  EXPECT_EQ(errno, EAGAIN);
-  fs::current_path(before);
-  EXPECT_THAT(ask({"ps"}).err,
-              testing::StartsWith("launch ps: error: launch " + std::to_string(run.pid()) + " does not answer\n"));
-  for (const int fd : waiting) {
-    ::close(fd);
-  }
-  ::kill(launcher, SIGCONT);
-  EXPECT_THAT(ask({"ps"}).out, HasSubstr("talker-1"));
-  run.send_signal(SIGINT);
-  EXPECT_EQ(run.wait().exit_code, 0);
-}
-
-TEST_F(Control, RootSeesTheLaunchesOfOthersAndWhoseTheyAre) {
-  if (::geteuid() != 0) {
-    GTEST_SKIP() << "skipped, because it needs root";
-  }
-  // In a /run of its own: tests beside must not see the launch of another user.
-  ASSERT_EQ(::unshare(CLONE_NEWNS), 0);
-  ASSERT_EQ(::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr), 0);
-  ASSERT_EQ(::mount("tmpfs", "/run", "tmpfs", 0, nullptr), 0);
-  constexpr uid_t kOther = 54321;  // nobody has it
-  const fs::path directory = "/run/user/54321";
-  const fs::path logs = sandbox_.directory() / "logs";
-  for (const fs::path& own : {directory, logs}) {
-    fs::create_directories(own);
-    fs::permissions(own, fs::perms::owner_all);
-    ASSERT_EQ(::chown(own.c_str(), kOther, kOther), 0);
-  }
-  fs::permissions(sandbox_.directory(), fs::perms::others_exec | fs::perms::others_read, fs::perm_options::add);
-  Command other = launch({write(kTalker)});
-  other.argv.insert(other.argv.begin(), {"setpriv", "--reuid=54321", "--regid=54321", "--clear-groups"});
-  other.environment = {
-      {"XDG_RUNTIME_DIR", directory.string()}, {"ROS_LOG_DIR", logs.string()}, {"HOME", logs.string()}};
-  {
-    RunningCommand run(other);
-    EXPECT_TRUE(run.wait_for_output("[talker-1] ready", kPatience)) << run.out() << run.err();
-    const std::string number = std::to_string(run.pid());
-    EXPECT_THAT(ask({"ps"}).out, HasSubstr("launch " + number + " of 54321: system.launch.xml, running"));
-    EXPECT_THAT(ask({"stop", "talker"}).err,
-                HasSubstr("no launch of this user runs; choose one with --launch NUMBER:\n  " + number + " "));
-    EXPECT_EQ(ask({"shutdown", "--launch", number}).exit_code, 0);
-    EXPECT_EQ(run.wait().exit_code, 0);
-  }
 }
 
 TEST_F(Control, StopStartAndRestartWaitUntilItHasHappened) {

@@ -23,7 +23,7 @@ TEST_P(MissingCalls, AreNamed) {
   write_file(file, "<launch><executable cmd=\"touch " + started.string() + "\"/></launch>\n");
   const CommandResult result = run_command({WITHOUT_SYSTEM_CALL, name, error, LAUNCH_PROGRAM, file.string()});
   if (result.exit_code == 77) {
-    GTEST_SKIP() << result.err;
+    GTEST_SKIP() << "skipped, because " << result.err;
   }
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.err, std::string("launch: error: the system call ") + name +

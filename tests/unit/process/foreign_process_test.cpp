@@ -25,7 +25,7 @@ class ForeignProcess : public GuardianTest {
  protected:
   void SetUp() override {
     if (::geteuid() != 0) {
-      GTEST_SKIP() << "only root can make a process of another user";
+      GTEST_SKIP() << "skipped, because only root can make a process of another user";
     }
     fs::permissions(directory.path(), fs::perms::all);
     fs::copy_file(HOSTILE_PROCESS, program);

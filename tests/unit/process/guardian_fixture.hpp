@@ -26,8 +26,7 @@
 
 namespace launch {
 
-// Milliseconds, before a test fails: a clean-up that hangs has up to two minutes while daemons of LTTng do something.
-constexpr int kGuardianPatience = 150'000;
+constexpr int kGuardianPatience = 60'000;  // milliseconds, before a test fails
 inline const std::string kSleeper = "echo ready; exec sleep 1000";
 
 inline bool wait_for_end(const UniqueFd& fd) {

@@ -19,9 +19,25 @@ namespace {
 
 using testing::HasSubstr;
 
-class HostileProcesses : public GuardianTest {};
+char state_of(pid_t process) {
+  const std::string stat = read_file(fmt::format("/proc/{}/stat", process));
+  const std::size_t name_end = stat.rfind(')');
+  return name_end + 2 < stat.size() ? stat[name_end + 2] : 'X';
+}
 
 const std::string kHostile = "exec " HOSTILE_PROCESS;
+
+class HostileProcesses : public GuardianTest {
+ protected:
+  // A launcher that one of its processes traces.
+  void start_traced() {
+    start({"--timeouts", "100", "100", kHostile + " tracer"}, 1);
+    ::kill(shell_pids[0], SIGUSR2);
+    while (state_of(launcher) != 't') {
+      ::sched_yield();
+    }
+  }
+};
 
 TEST_F(HostileProcesses, EndsAProcessWhoseMainThreadHasEnded) {
   start({"--timeouts", "100", "100", kHostile + " leaderless", kHostile + " leaderless-daemon"}, 2);
@@ -37,12 +53,6 @@ TEST_F(HostileProcesses, TellsAProcessWhoseMainThreadHasEndedByItsMark) {
   EXPECT_EQ(end(), 0);
   EXPECT_THAT(read_file(log), HasSubstr("[WARNING] [launch]: shell-1 left "));
   expect_nothing_left();
-}
-
-char state_of(pid_t process) {
-  const std::string stat = read_file(fmt::format("/proc/{}/stat", process));
-  const std::size_t name_end = stat.rfind(')');
-  return name_end + 2 < stat.size() ? stat[name_end + 2] : 'X';
 }
 
 bool has_pending(pid_t process, int signal) {
@@ -105,11 +115,7 @@ TEST_F(HostileProcesses, ContinuesALauncherThatIsStoppedWhenItIsAskedToEnd) {
 }
 
 TEST_F(HostileProcesses, EndsALauncherThatAProcessOfItsTraces) {
-  start({"--timeouts", "100", "100", kHostile + " tracer"}, 1);
-  ::kill(shell_pids[0], SIGUSR2);
-  while (state_of(launcher) != 't') {
-    ::sched_yield();
-  }
+  start_traced();
   const UniqueFd ended = open_process(guardian);
   for (pollfd wait{ended.get(), POLLIN, 0}; ::poll(&wait, 1, 1100) == 0;) {
     ::kill(guardian, SIGTERM);  // the third one counts
@@ -131,11 +137,7 @@ TEST_F(HostileProcesses, EndsALauncherThatHasTakenTheSignalAndIsTracedThen) {
 }
 
 TEST_F(HostileProcesses, TheSpareEndsALauncherThatAProcessOfItsTraces) {
-  start({"--timeouts", "100", "100", kHostile + " tracer"}, 1);
-  ::kill(shell_pids[0], SIGUSR2);
-  while (state_of(launcher) != 't') {
-    ::sched_yield();
-  }
+  start_traced();
   ::kill(guardian, SIGKILL);
   end();
   ::kill(launcher, SIGKILL);  // it cannot be waited for before its tracer has ended

@@ -48,7 +48,7 @@ TEST(InheritedMark, IsReadInAnotherProcess) {
   int status = 0;
   ::waitpid(child, &status, 0);
   if (WEXITSTATUS(status) == 2) {
-    GTEST_SKIP() << "the limit is taken";
+    GTEST_SKIP() << "skipped, because this process has a limit of file locks already";
   }
   EXPECT_EQ(status, 0);
 }

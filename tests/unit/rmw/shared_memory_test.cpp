@@ -183,7 +183,7 @@ TEST(SharedMemory, AMessageEndsWhereItEndsWithTheBuffersOfAProfile) {
   qos.transport().send_socket_buffer_size = 300'000;
   rmw_fastrtps::forward_shared_memory(qos);
   if (qos.transport().use_builtin_transports) {
-    GTEST_SKIP() << "this release of Fast DDS needs no other transports than its own";
+    GTEST_SKIP() << "skipped, because this release of Fast DDS needs no other transports than its own";
   }
   bool has_udp = false;
   bool has_shared_memory = false;
