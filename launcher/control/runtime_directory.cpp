@@ -81,14 +81,14 @@ std::vector<RuntimeDirectory> RuntimeDirectory::find(const Environment& environm
 
 std::vector<RuntimeDirectory> RuntimeDirectory::find_of_others() {
   std::vector<RuntimeDirectory> found;
-  const auto add = [&found](const std::string& number, const std::string& path) {
-    uid_t owner = 0;
-    const auto end = std::from_chars(number.data(), number.data() + number.size(), owner);
-    if (end.ec != std::errc() || end.ptr != number.data() + number.size() || owner == ::geteuid()) {
+  const auto add = [&found](const std::string& number, const std::string& directory) {
+    uid_t user = 0;
+    const auto end = std::from_chars(number.data(), number.data() + number.size(), user);
+    if (end.ec != std::errc() || end.ptr != number.data() + number.size() || user == ::geteuid()) {
       return;
     }
-    if (UniqueFd fd = open_of(owner, path)) {
-      found.push_back({path, std::move(fd), owner});
+    if (UniqueFd opened = open_of(user, directory)) {
+      found.push_back({directory, std::move(opened), user});
     }
   };
   constexpr std::string_view kPrefix = "launch-";

@@ -79,7 +79,7 @@ SetParametersResult check_constraints(const ParameterDescriptor& descriptor, con
   if (descriptor.integer_range.empty() && descriptor.floating_point_range.empty()) {
     return success();
   }
-  const auto message = value.to_value_msg();
+  const auto& message = value.to_value_msg();
   const bool out_of_integer_range =
       !are_in_range(descriptor.integer_range, message.type, PARAMETER_INTEGER, message.integer_value,
                     PARAMETER_INTEGER_ARRAY, message.integer_array_value);
