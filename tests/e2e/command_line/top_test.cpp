@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <sstream>
 #include <utility>
 
 #include "tests/support/command.hpp"
@@ -160,19 +159,21 @@ TEST_F(TopTest, FiveHundredProcessesAreScrolledAndALargerTerminalShowsMore) {
   EXPECT_EQ(run.wait(kPatience).exit_code, 0);
 }
 
-// The number in that column of the line that begins with `name`, in a table that begins with `title`.
-std::string figure_of(const std::string& report, const std::string& title, const std::string& name, int column) {
+// What ends below the end of that heading, in the line that begins with `name` of a table that begins with `title`. The
+// table leaves columns out where it would be too wide, so their places are not known.
+std::string figure_of(const std::string& report, const std::string& title, const std::string& name,
+                      const std::string& heading) {
   const std::size_t table = report.find("\n" + title + " ");
   const std::size_t row = table == std::string::npos ? table : report.find("\n  " + name + " ", table);
   if (row == std::string::npos) {
     return "no row '" + name + "' in '" + title + "'";
   }
-  std::istringstream words(report.substr(row + name.size() + 3, report.find('\n', row + 1) - row - name.size() - 3));
-  std::string word;
-  for (int i = 0; i <= column; ++i) {
-    words >> word;
+  const std::size_t column = report.substr(table, report.find('\n', table + 1) - table).find(" " + heading);
+  if (column == std::string::npos) {
+    return "no column '" + heading + "' in '" + title + "'";
   }
-  return word;
+  const std::string before = report.substr(row, column + 1 + heading.size());
+  return before.substr(before.rfind(' ') + 1);
 }
 
 TEST_F(TopTest, ShowsWhatTheNodesDoAndSaysAtTheEndWhatTheTraceSays) {
@@ -209,13 +210,13 @@ TEST_F(TopTest, ShowsWhatTheNodesDoAndSaysAtTheEndWhatTheTraceSays) {
   const CommandResult offline = run_command({LAUNCH_REPORT, sandbox_.directory() / "traces" / "all"});
   EXPECT_EQ(offline.exit_code, 0) << offline.err;
   EXPECT_THAT(seen, HasSubstr("\nLosses     no events lost\n"));
-  EXPECT_EQ(figure_of(seen, "Callbacks", "/beat, timer 1 ms", 2), "120") << seen;
-  EXPECT_EQ(figure_of(seen, "Topics", "/beats", 3), "120");
-  for (const int column : {2, 3, 4}) {  // sent, received, dropped
+  EXPECT_EQ(figure_of(seen, "Callbacks", "/beat, timer 1 ms", "count"), "120") << seen;
+  EXPECT_EQ(figure_of(seen, "Topics", "/beats", "sent"), "120");
+  for (const char* column : {"sent", "received", "dropped"}) {
     EXPECT_EQ(figure_of(seen, "Topics", "/beats", column), figure_of(offline.out, "Topics", "/beats", column));
   }
   // The times are not compared: the two sessions take the time of an event one after the other.
-  EXPECT_EQ(figure_of(offline.out, "Callbacks", "/beat, timer 1 ms", 2), "120") << offline.out;
+  EXPECT_EQ(figure_of(offline.out, "Callbacks", "/beat, timer 1 ms", "count"), "120") << offline.out;
   // Nothing of the recording is left.
   EXPECT_EQ(run_command({"lttng", "list"}).out.find("launch-top"), std::string::npos);
   EXPECT_TRUE(fs::is_empty(sandbox_.directory() / "tmp"));

@@ -40,7 +40,8 @@ struct LossRange {
   std::string cpu;
   std::uint64_t begin_ns = 0;
   std::uint64_t end_ns = 0;
-  std::uint64_t events = 0;
+  std::uint64_t events = 0;   // discarded
+  std::uint64_t packets = 0;  // overwritten, with an unknown number of events
 };
 
 // From begin_ns on the events of a processor were not written. Times count as in LossRange.
@@ -90,7 +91,7 @@ struct ChannelLoss {
   std::uint64_t subbuffer_size = 0;  // bytes
   std::uint64_t subbuffer_count = 0;
   std::uint64_t bytes = 0;             // recorded
-  std::vector<LossRange> ranges = {};  // where the discarded events are missing
+  std::vector<LossRange> ranges = {};  // where discarded events and overwritten packets are missing
   std::vector<UnwrittenRange> unwritten = {};
   // Bytes. With so many sub-buffers of this size nothing would have been lost.
   std::uint64_t advised_subbuffer_size = 0;

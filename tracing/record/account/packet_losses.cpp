@@ -54,6 +54,11 @@ std::uint64_t discarded_in(const Stream& stream) {
   return highest;
 }
 
+std::uint64_t packets_between(const Packet& before, const Packet& after) {
+  const bool numbered = before.sequence_number && after.sequence_number;
+  return numbered ? beyond(*after.sequence_number, *before.sequence_number + 1) : 0;
+}
+
 PacketLosses losses_of(const Stream& stream) {
   PacketLosses losses;
   if (stream.packets.empty()) {
@@ -64,11 +69,7 @@ PacketLosses losses_of(const Stream& stream) {
   losses.earlier_discarded_events = losses.earlier_packets == 0 ? 0 : first.discarded_events;
   losses.discarded_events = discarded_in(stream) - losses.earlier_discarded_events;
   for (std::size_t i = 1; i < stream.packets.size(); ++i) {
-    const Packet& before = stream.packets[i - 1];
-    const Packet& packet = stream.packets[i];
-    if (packet.sequence_number && before.sequence_number) {
-      losses.lost_packets += beyond(*packet.sequence_number, *before.sequence_number + 1);
-    }
+    losses.lost_packets += packets_between(stream.packets[i - 1], stream.packets[i]);
   }
   return losses;
 }

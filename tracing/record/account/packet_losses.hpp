@@ -14,6 +14,9 @@ namespace tracing {
 // overload LTTng now and then writes a packet whose total is 0; the totals behind it go on from the one before.
 std::uint64_t discarded_in(const Stream& stream);
 
+// The packets that are missing between two packets that follow each other in their stream.
+std::uint64_t packets_between(const Packet& before, const Packet& after);
+
 // The losses of one stream: the climb of the total of discarded events over all its packets, and gaps between sequence
 // numbers.
 struct PacketLosses {

@@ -21,7 +21,7 @@
 namespace tracing {
 namespace {
 
-// The unbroken runs of packets before which events were lost. Returns the events of the longest.
+// The unbroken runs of packets before which something was lost. Returns the events of the longest.
 std::uint64_t add_ranges(const Stream& stream, std::uint64_t origin, std::vector<LossRange>& ranges) {
   if (stream.packets.empty()) {
     return 0;
@@ -34,19 +34,38 @@ std::uint64_t add_ranges(const Stream& stream, std::uint64_t origin, std::vector
   for (std::size_t i = 0; i < stream.packets.size(); ++i) {
     const Packet& packet = stream.packets[i];
     const std::uint64_t before = std::exchange(discarded, std::max(discarded, packet.discarded_events));
-    const std::uint64_t lost = discarded - before;
-    if (lost != 0) {
+    const std::uint64_t events = discarded - before;
+    const std::uint64_t packets = i == 0 ? 0 : packets_between(stream.packets[i - 1], packet);
+    const bool lost = events + packets != 0;
+    if (lost) {
       const std::uint64_t begin = i == 0 ? packet.begin : stream.packets[i - 1].end;
       if (!in_run) {
-        ranges.push_back({.cpu = stream.cpu, .begin_ns = begin - origin, .end_ns = 0, .events = 0});
+        ranges.push_back({.cpu = stream.cpu, .begin_ns = begin - origin});
       }
-      ranges.back().end_ns = packet.end - origin;
-      ranges.back().events += lost;
+      ranges.back().end_ns = (events == 0 ? packet.begin : packet.end) - origin;
+      ranges.back().events += events;
+      ranges.back().packets += packets;
       longest = std::max(longest, ranges.back().events);
     }
-    in_run = lost != 0;
+    in_run = lost;
   }
   return longest;
+}
+
+// `json` is an array.
+void append(nlohmann::ordered_json& json, const LossRange& range, const std::string* channel = nullptr) {
+  nlohmann::ordered_json lost;
+  if (channel != nullptr) {
+    lost["channel"] = *channel;
+  }
+  lost["cpu"] = range.cpu;
+  lost["begin_ns"] = range.begin_ns;
+  lost["end_ns"] = range.end_ns;
+  lost["events"] = range.events;
+  if (range.packets != 0) {
+    lost["packets"] = range.packets;
+  }
+  json.push_back(std::move(lost));
 }
 
 // Beyond kLargestAdvice nothing. LTTng takes no sub-buffer that is larger than the files of its channel.
@@ -102,8 +121,7 @@ nlohmann::ordered_json channel_as_json(const ChannelLoss& channel) {
     }
   }
   for (const LossRange& range : channel.ranges) {
-    json["lost"].push_back(
-        {{"cpu", range.cpu}, {"begin_ns", range.begin_ns}, {"end_ns", range.end_ns}, {"events", range.events}});
+    append(json["lost"], range);
   }
   for (const UnwrittenRange& range : channel.unwritten) {
     json["unwritten"].push_back({{"cpu", range.cpu}, {"begin_ns", range.begin_ns}, {"end_ns", range.end_ns}});
@@ -278,11 +296,7 @@ void write_snapshot_verdict(const std::filesystem::path& directory, const std::s
     std::vector<LossRange> ranges;
     add_ranges(stream, std::min(begin, end), ranges);
     for (const LossRange& range : ranges) {
-      json["lost"].push_back({{"channel", stream.channel},
-                              {"cpu", range.cpu},
-                              {"begin_ns", range.begin_ns},
-                              {"end_ns", range.end_ns},
-                              {"events", range.events}});
+      append(json["lost"], range, &stream.channel);
     }
   }
   for (const UnwrittenRange& range : account.unwritten) {
