@@ -17,6 +17,7 @@
 #include <variant>
 
 #include "base/diagnostics/diagnostic.hpp"
+#include "base/processes/outside_number.hpp"
 #include "launcher/language/exit_code_filter.hpp"
 
 namespace launch {
@@ -133,7 +134,7 @@ void append_process(std::string& text, const SteeredProcess& process, const Proc
     const ProcessView view = supervisor.view(process.id);
     fmt::format_to(to, ",\"state\":\"{}\"", state_name(view.state));
     if (view.pid >= 0) {
-      fmt::format_to(to, ",\"pid\":{},\"running_for\":{}", view.pid, seconds(view.running_for));
+      fmt::format_to(to, ",\"pid\":{},\"running_for\":{}", number_outside(view.pid), seconds(view.running_for));
     }
     fmt::format_to(to, ",\"restarts\":{}", view.runs > 0 ? view.runs - 1 : 0);
     if (view.last_exit) {
@@ -167,7 +168,7 @@ struct EventWriter {
 
   void operator()(const ProcessStarted& started) const {
     json["event"] = "started";
-    json["pid"] = started.pid;
+    json["pid"] = number_outside(started.pid);
   }
   void operator()(const ProcessStartFailed& failed) const {
     json["event"] = "start_failed";
@@ -176,7 +177,7 @@ struct EventWriter {
   }
   void operator()(const ProcessExited& exited) const {
     json["event"] = "exited";
-    json["pid"] = exited.pid;
+    json["pid"] = number_outside(exited.pid);
     put_end(json, exited.exit);
     json["expected"] = exited.expected;
     json["will_respawn"] = exited.will_respawn;
@@ -190,7 +191,7 @@ struct EventWriter {
   }
   void operator()(const ProcessLeft& left) const {
     json["event"] = "left_running";
-    json["pid"] = left.pid;
+    json["pid"] = number_outside(left.pid);
   }
   void operator()(const RespawnSlowed& slowed) const {
     json["event"] = "respawn_slowed";
@@ -198,7 +199,7 @@ struct EventWriter {
   }
   void operator()(const ProcessWaitsForTerminal& waits) const {
     json["event"] = "waits_for_terminal";
-    json["pid"] = waits.pid;
+    json["pid"] = number_outside(waits.pid);
   }
   void operator()(const ProcessDone&) const { json["event"] = "done"; }
 };

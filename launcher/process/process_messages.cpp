@@ -9,6 +9,8 @@
 #include <chrono>
 #include <string>
 
+#include "base/processes/outside_number.hpp"
+
 namespace launch {
 
 namespace {
@@ -32,7 +34,7 @@ class Messages {
   Messages(OutputRouter& output, const ProcessEvent& event) : output_(output), event_(event) {}
 
   void operator()(const ProcessStarted& started) const {
-    say(LogLevel::kInfo, fmt::format("process started with pid [{}]", started.pid));
+    say(LogLevel::kInfo, fmt::format("process started with pid [{}]", number_outside(started.pid)));
     if (started.lacks_terminal) {
       say(LogLevel::kWarning,
           fmt::format("process has nothing to read, because standard input of the launch is no terminal{}",
@@ -47,13 +49,14 @@ class Messages {
 
   void operator()(const ProcessExited& exited) const {
     if (exited.exit.code == 0) {
-      say(LogLevel::kInfo, fmt::format("process has finished cleanly [pid {}]", exited.pid));
+      say(LogLevel::kInfo, fmt::format("process has finished cleanly [pid {}]", number_outside(exited.pid)));
     } else if (event_.spec.allowed_exits.contains(exited.exit.code)) {
       say(LogLevel::kInfo, fmt::format("process has finished with exit code {}, which is allowed [pid {}]",
-                                       exited.exit.code, exited.pid));
+                                       exited.exit.code, number_outside(exited.pid)));
     } else {
-      say(LogLevel::kError, fmt::format("process has died [pid {}, exit code {}, cmd '{}'].{}", exited.pid,
-                                        exited.exit.code, fmt::join(event_.spec.argv, " "), place(event_.spec)));
+      say(LogLevel::kError,
+          fmt::format("process has died [pid {}, exit code {}, cmd '{}'].{}", number_outside(exited.pid),
+                      exited.exit.code, fmt::join(event_.spec.argv, " "), place(event_.spec)));
     }
   }
 
@@ -69,7 +72,7 @@ class Messages {
 
   void operator()(const ProcessLeft& left) const {
     say(LogLevel::kError,
-        fmt::format("process[{}] cannot be ended: pid {} {}{}", event_.label, left.pid,
+        fmt::format("process[{}] cannot be ended: pid {} {}{}", event_.label, number_outside(left.pid),
                     left.foreign ? "belongs to another user" : "has not ended after SIGKILL", place(event_.spec)));
   }
 

@@ -12,6 +12,8 @@
 #include <set>
 #include <utility>
 
+#include "launcher/process/guardian/guardian_protocol.hpp"
+#include "programs/guardian/contained_launch.hpp"
 #include "programs/guardian/guardian_process.hpp"
 #include "programs/guardian/launch_rest.hpp"
 #include "programs/guardian/spare_process.hpp"
@@ -35,9 +37,16 @@ int main(int argc, char** argv) {
   using launch::UniqueFd;
   const char* const role = argc < 8 ? "" : argv[7];
   const auto is = [role](const char* name) { return std::strcmp(role, name) == 0; };
-  if (!is("--") && !is("--between") && !is("--after")) {
+  if (!is("--") && !is("--between") && !is("--after") && !is(launch::kStandsOutside) && !is(launch::kIsFirst)) {
     std::fputs("launch-guardian is started by launch, not by hand\n", stderr);
     return EXIT_FAILURE;
+  }
+  if (is(launch::kStandsOutside)) {
+    launch::stand_outside(std::atoi(argv[2]), std::atoi(argv[4]), UniqueFd(std::atoi(argv[5])));
+  }
+  if (is(launch::kIsFirst)) {
+    launch::be_first(std::atoi(argv[2]), std::atoi(argv[4]), UniqueFd(std::atoi(argv[5])),
+                     UniqueFd(std::atoi(argv[6])));
   }
   launch::GuardedLaunch launch{.id = argv[1],
                                .launcher = std::atoi(argv[2]),

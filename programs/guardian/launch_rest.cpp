@@ -16,7 +16,6 @@
 #include <utility>
 
 #include "launcher/process/guardian/guardian_protocol.hpp"
-#include "programs/guardian/clean_ups.hpp"
 #include "programs/guardian/launch_cgroup.hpp"
 
 namespace launch {
@@ -65,12 +64,18 @@ bool end_rest(const GuardedLaunch& launch, LaunchMembers members, bool nothing_l
     ended_all = GentleEnd(std::move(members), log).run(launcher_ended, signals);
     cgroup.remove();
   }
+  run_clean_ups(launch.records, work, log, signals);
+  return ended_all;
+}
+
+void run_clean_ups(int records, const LeftWork& work, GuardianLog& log, int signals) {
   for (auto command = work.clean_ups.rbegin(); command != work.clean_ups.rend(); ++command) {
     if (const std::string failure = run_clean_up(command->second, signals); !failure.empty()) {
       log.say("ERROR", failure);
     }
+    const GuardianRecord done{GuardianRecord::Kind::kRemoveCleanUp, command->first, 0};
+    static_cast<void>(!::write(records, &done, sizeof done));
   }
-  return ended_all;
 }
 
 std::string launcher_ended(int status) {

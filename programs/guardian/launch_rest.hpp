@@ -9,7 +9,9 @@
 #include <string>
 
 #include "base/files/unique_fd.hpp"
+#include "programs/guardian/clean_ups.hpp"
 #include "programs/guardian/gentle_end.hpp"
+#include "programs/guardian/guardian_log.hpp"
 
 namespace launch {
 
@@ -38,6 +40,10 @@ LaunchMembers members_below(const GuardedLaunch& launch);
 // commands. False when a process could not be ended. `launcher_ended` and `signals` are those of GentleEnd::run().
 bool end_rest(const GuardedLaunch& launch, LaunchMembers members, bool nothing_left, const std::string& launcher_ended,
               int signals);
+
+// Runs what the launcher has left to be done, the latest first, and takes each command out of the records, so that
+// nobody runs it again.
+void run_clean_ups(int records, const LeftWork& work, GuardianLog& log, int signals);
 
 // "the launcher was ended by SIGKILL", or "" when it has exited.
 std::string launcher_ended(int status);

@@ -32,6 +32,7 @@
 #include "base/files/pipe.hpp"
 #include "base/processes/process_mark.hpp"
 #include "base/processes/spawn.hpp"
+#include "launcher/process/guardian/become_guardian.hpp"
 #include "launcher/process/guardian/guardian_protocol.hpp"
 #include "launcher/process/guardian/inherited_mark.hpp"
 #include "launcher/process/guardian/process_scan.hpp"
@@ -108,19 +109,6 @@ UniqueFd check_system_calls() {
   return process;
 }
 
-// Returns when the program can't be started.
-void become(const std::string& program, const std::vector<std::string>& words, const std::vector<int>& held) {
-  for (const int descriptor : held) {
-    ::fcntl(descriptor, F_SETFD, 0);
-  }
-  std::vector<char*> argv;
-  for (const std::string& word : words) {
-    argv.push_back(const_cast<char*>(word.c_str()));  // exec does not write, C has no way to say so
-  }
-  argv.push_back(nullptr);
-  ::execv(program.c_str(), argv.data());
-}
-
 [[noreturn]] void fail_to_become(const std::string& program, pid_t spare, pid_t launcher) {
   const int error = errno;
   ::kill(spare, SIGKILL);
@@ -147,13 +135,10 @@ std::int64_t milliseconds(Duration duration) {
 }  // namespace
 
 Guardian Guardian::put_above(const std::vector<std::string>& command_line, const std::string& program,
-                             const std::vector<int>& held) {
+                             const std::vector<int>& held, UniqueFd records) {
   UniqueFd process = check_system_calls();
-  const UniqueFd file(::memfd_create("launch-guardian", MFD_CLOEXEC));
-  // The number of a standard descriptor is free when that descriptor was closed.
-  UniqueFd records(file ? ::fcntl(file.get(), F_DUPFD_CLOEXEC, STDERR_FILENO + 1) : -1);
-  if (!records || ::lseek(records.get(), kGuardianRecords, SEEK_SET) != kGuardianRecords) {
-    throw_error("cannot create a memory file for launch-guardian");
+  if (!records) {
+    records = make_guardian_records();
   }
   Pipe ready = make_pipe();
   Pipe born = make_pipe();
@@ -202,7 +187,7 @@ Guardian Guardian::put_above(const std::vector<std::string>& command_line, const
     }
     std::vector<std::string> words = words_of(launcher, spare, "--");
     words.insert(words.end(), command_line.begin(), command_line.end());
-    become(program, words, inherited);
+    become_guardian(program, words, inherited);
     fail_to_become(program, spare, launcher);
   }
   if (::prctl(PR_SET_CHILD_SUBREAPER, 1) != 0) {
@@ -215,7 +200,7 @@ Guardian Guardian::put_above(const std::vector<std::string>& command_line, const
   }
   if (launcher > 0) {
     static_cast<void>(!::write(born.write.get(), &launcher, sizeof launcher));
-    become(program, words_of(launcher, guardian, "--between"), inherited);
+    become_guardian(program, words_of(launcher, guardian, "--between"), inherited);
     ::_exit(EXIT_FAILURE);  // the guardian says what is wrong with the program
   }
   guardian_of_launcher = guardian;

@@ -24,10 +24,12 @@ class Guardian {
   // Splits this process: the calling process becomes the guardian, a new one its spare, and this function returns in a
   // third one, which goes on as the launcher. Must be called while there is one thread. When the guardian is killed,
   // the launcher gets SIGTERM; SIGURG is used for that. `command_line` is what ps(1) shows. The guardians keep the
-  // descriptors `held` open until the end of the launch. Throws std::system_error, also when the kernel lacks a system
+  // descriptors `held` open until the end of the launch. `records` is the memory file of a contained launch
+  // (containment.hpp); without it one is made. Throws std::system_error, also when the kernel lacks a system
   // call; a missing program ends the process with exit code 1 and a message.
   static Guardian put_above(const std::vector<std::string>& command_line,
-                            const std::string& program = default_program(), const std::vector<int>& held = {});
+                            const std::string& program = default_program(), const std::vector<int>& held = {},
+                            UniqueFd records = {});
   // If guardian and spare have been killed, starts another spare, which ends what this process leaves.
   ~Guardian();
   Guardian(Guardian&&) = default;

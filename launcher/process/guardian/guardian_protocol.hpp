@@ -16,6 +16,14 @@
 //
 // "--between" stands in the place of "--" for the spare guardian, and OTHER is the guardian. A launcher that ends after
 // both were killed starts a spare again: it has "--after", and OTHER and READY are -1.
+//
+// A contained launch (containment.hpp) has two more of them:
+//
+//   launch-guardian contained FIRST -1 RECORDS SOCKET -1 --outside WORD…
+//   launch-guardian contained GUARDIAN -1 RECORDS SOCKET ALIVE --first
+//
+// The first process of the namespace tells the one outside through SOCKET when the launch is stopped or has ended, as a
+// ContainedNews. ALIVE is a pipe that ends when launcher, guardian and spare have gone.
 #pragma once
 
 #include <sys/types.h>
@@ -56,5 +64,19 @@ struct GuardianRecord {
 constexpr int kLauncherStopped = 3;  // by Ctrl-Z: the guardian stops, too
 constexpr int kLauncherLeaves = 4;   // the launcher has ended with this wait status, and something is left
 constexpr int kNothingLeft = 5;      // the launcher has ended with this wait status, and nothing is left any more
+
+// The roles of the two in a contained launch.
+constexpr const char* kStandsOutside = "--outside";
+constexpr const char* kIsFirst = "--first";
+
+struct ContainedNews {
+  enum class Kind : std::int32_t {
+    kStopped = 1,  // by Ctrl-Z
+    kEnded = 2     // and nothing is left
+  };
+
+  Kind kind;
+  std::int32_t status;  // of the guardian, as of wait(2)
+};
 
 }  // namespace launch

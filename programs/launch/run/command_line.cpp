@@ -71,6 +71,8 @@ std::variant<CommandLine, ExitNow> parse_command_line(const std::vector<std::str
   app.add_flag("--top", command.top, "begin in the full-screen view of launch top; q leaves it, the launch goes on");
   app.add_flag("--isolate", command.isolate,
                "give the launch a network and shared memory of its own, or a ROS domain where that is not allowed");
+  app.add_flag("--contain", command.contain,
+               "put the launch into a process namespace: the kernel ends what is left, whoever is killed");
   app.add_flag("--ignore-failures", command.ignore_failures,
                "exit with 0 also if processes have failed, as ros2 launch does");
   app.add_flag("--timestamps", command.timestamps, "put the time in front of every line on the screen");

@@ -26,6 +26,7 @@ struct CommandLine {
   bool top = false;  // show the launch in launch top
   bool ignore_failures = false;
   bool isolate = false;  // give the launch a network and shared memory of its own
+  bool contain = false;  // put the launch into a process namespace
   bool timestamps = false;
   std::uint64_t log_size = 0;  // bytes; 0: no limit
   int log_files = 5;

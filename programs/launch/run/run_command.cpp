@@ -20,6 +20,7 @@
 #include "base/environment/own_prefix.hpp"
 #include "base/files/unique_fd.hpp"
 #include "base/monotonic_clock.hpp"
+#include "base/processes/outside_number.hpp"
 #include "base/processes/process_mark.hpp"
 #include "base/terminal/terminal.hpp"
 #include "launcher/control/control_socket.hpp"
@@ -28,6 +29,7 @@
 #include "launcher/invocation/find_launch_file.hpp"
 #include "launcher/language/introspection.hpp"
 #include "launcher/plan/dry_run.hpp"
+#include "launcher/process/guardian/containment.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/isolation/namespaces.hpp"
 #include "launcher/process/process_messages.hpp"
@@ -171,6 +173,10 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
     output.message(LogLevel::kWarning, "launch", log_directory.warning);
   }
 
+  if (command.contain) {
+    output.message(LogLevel::kInfo, "launch",
+                   "the launch has process numbers of its own; nothing in its process namespace can survive it");
+  }
   tell_isolation(isolation, output);
 
   const Namespaces* const namespaces = isolation.namespaces ? &*isolation.namespaces : nullptr;
@@ -234,12 +240,29 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   return exit_code;
 }
 
+// Throws std::runtime_error.
+Containment contain(const CommandLine& command) {
+  try {
+    return contain_this_process(command.words, Guardian::default_program());
+  } catch (const std::system_error& error) {
+    throw std::runtime_error(
+        fmt::format("--contain needs a process namespace, which this machine does not allow: {}", error.what()));
+  }
+}
+
 // Before anything else: a launch file can start processes while it is loaded. Programs that the launcher starts for
 // itself have the mark of the launch, too.
-Guardian guard_this_process(const CommandLine& command, const Isolation& isolation) {
-  // The guardian may still end processes of the domain when the launcher has gone.
-  const std::vector<int> held = isolation.domain ? std::vector<int>{isolation.domain->fd()} : std::vector<int>{};
-  Guardian guardian = Guardian::put_above(command.words, Guardian::default_program(), held);
+Guardian guard_this_process(const CommandLine& command, const Isolation& isolation, Containment containment) {
+  std::vector<int> held;
+  if (isolation.domain) {
+    held.push_back(isolation.domain->fd());  // it may still end processes of the domain when the launcher has gone
+  }
+  if (containment.alive) {
+    held.push_back(containment.alive.get());
+  }
+  Guardian guardian =
+      Guardian::put_above(command.words, Guardian::default_program(), held, std::move(containment.records));
+  static_cast<void>(containment.alive.release());  // until the end of this process
   const std::string mark = guardian.mark("launch", {});
   ::setenv(kMarkVariable, mark.c_str() + std::string_view(kMarkVariable).size() + 1, 1);
   return guardian;
@@ -265,10 +288,15 @@ int run_command(const CommandLine& command, Environment environment,
   std::optional<Guardian> guardian;
   if (command.mode == CommandMode::kRun) {
     try {
+      Containment containment;
+      if (command.contain) {
+        containment = contain(command);
+        keep_proc_of_outside(std::move(containment.proc));
+      }
       if (command.isolate) {
         isolation = make_isolation();
       }
-      guardian = guard_this_process(command, isolation);
+      guardian = guard_this_process(command, isolation, std::move(containment));
     } catch (const std::runtime_error& error) {
       fmt::print(stderr, "{}", command_error("launch", error.what()));
       return 1;
