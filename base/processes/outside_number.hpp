@@ -12,7 +12,8 @@ namespace launch {
 void keep_proc_of_outside(UniqueFd proc);
 
 // The number outside of a process that runs or is not reaped. The number itself if this process is in no namespace of
-// its own. A number is kept: of a process that has ended it is still known if somebody has asked before. For one thread.
+// its own. A number is kept: of a process that has ended it is still known if somebody has asked before. For one
+// thread.
 pid_t number_outside(pid_t pid);
 
 }  // namespace launch

@@ -96,7 +96,8 @@ class OutsideProcess {
     const LeftWork work = read_records(records_);
     GuardianLog log;
     open_log(log, work);
-    log.say("ERROR", "the first process of the launch's namespace was killed, and the kernel has ended all others in it");
+    log.say("ERROR",
+            "the first process of the launch's namespace was killed, and the kernel has ended all others in it");
     run_clean_ups(records_, work, log, signals_.get());
     if (terminal_) {
       terminal_->restore();  // a process that had it may have been killed

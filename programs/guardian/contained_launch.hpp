@@ -9,8 +9,8 @@
 
 namespace launch {
 
-// Passes signals to `first`, stops when the launch is stopped, and ends as it has ended. If the first process is killed,
-// the kernel has ended all others in the namespace: then it runs the clean-up commands.
+// Passes signals to `first`, stops when the launch is stopped, and ends as it has ended. If the first process is
+// killed, the kernel has ended all others in the namespace: then it runs the clean-up commands.
 [[noreturn]] void stand_outside(pid_t first, int records, UniqueFd inside);
 
 // Passes signals to the guardian, and reaps. When launcher, guardian and spare have gone, whatever has ended them, it

@@ -3,7 +3,8 @@
 Launches of processes that are hard to find or to end (daemons without environment, processes whose main thread has ended,
 that nobody may look into, that start themselves again and again, trees of all of them, launches in launches), ended in
 random ways: Ctrl-C, and launcher, guardian and spare guardian stopped and killed, one or two of them, at any moment.
-Nothing is left. What is left when all three are killed at once is counted apart.
+Nothing is left. What is left when all three are killed at once is counted apart. Every other run is contained: there
+nothing is left in any case.
 """
 
 import ctypes
@@ -41,16 +42,28 @@ WAYS = {
     'G stopped; S, L': ('STOP G', 'wait 2', 'KILL S', 'pause', 'KILL L'),
     'all three': ('KILL G', 'KILL S', 'KILL L'),
 }
+# Of a contained launch also the process outside (O) and the first of the namespace (F).
+CONTAINED_WAYS = {
+    'O': ('KILL O',),
+    'F': ('KILL F',),
+    'O, F': ('KILL O', 'pause', 'KILL F'),
+    'O stopped; F': ('STOP O', 'KILL F', 'CONT O'),
+    'F stopped; G, S, L': ('STOP F', 'KILL G', 'KILL S', 'KILL L'),
+    'all five': ('KILL O', 'KILL G', 'KILL S', 'KILL L', 'KILL F'),
+}
 
 
 def runs(place, random, count):
     ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
-    ways = list(WAYS)
+    apart = [(way, False) for way in WAYS]
+    contained = [(way, True) for way in WAYS | CONTAINED_WAYS]
+    random.shuffle(contained)
     for number in range(count):
-        yield run(place, random, ways[number % len(ways)])
+        kind = contained if number % 2 else apart
+        yield run(place, random, *kind[number // 2 % len(kind)])
 
 
-def run(place, random, way):
+def run(place, random, way, contained):
     place.end_daemons()
     place.run += 1
     place.path().mkdir()
@@ -59,23 +72,25 @@ def run(place, random, way):
     possible = [shape for shape in SHAPES if shape != 'tracer' or way not in ('G, S', 'S, G')]
     shapes = [random.choice(possible) for _ in range(random.randint(1, 4))]
     with place.path('launch.log').open('wb') as log:
-        process = subprocess.Popen((place.program, launch_file(place, random, shapes)), stdout=log, stderr=log,
+        words = ('--contain',) if contained else ()
+        process = subprocess.Popen((place.program, *words, launch_file(place, random, shapes)), stdout=log, stderr=log,
                                    start_new_session=True)
-    launcher, spare = wait_for_start(process.pid)
+    chain = wait_for_start(process.pid, contained)
     time.sleep(random.choice((0.0, random.uniform(0, 0.3), 0.5, 1.0)))
-    strike(WAYS[way], {'G': process.pid, 'S': spare, 'L': launcher}, random)
+    strike((WAYS | CONTAINED_WAYS)[way], chain, random)
     begin = time.monotonic()
     left = set()
-    while time.monotonic() - begin < (PATIENCE if way != 'all three' else 2):
+    may_leave = way == 'all three' and not contained
+    while time.monotonic() - begin < (2 if may_leave else PATIENCE):
         reap()
         left = processes() - before
         if not left:
             break
         time.sleep(0.02)
-    outcome = Outcome(f'killed: {way}', numbers={'end took s': time.monotonic() - begin})
+    outcome = Outcome(f'killed: {way}' + (', contained' if contained else ''), numbers={'end took s': time.monotonic() - begin})
     if left:
         named = sorted(f'{name(pid)} ({pid})' for pid in left)
-        if way == 'all three':
+        if may_leave:
             outcome.result += ', something is left'
         else:
             outcome.wrong.append(f'{way}, {shapes}: left {", ".join(named)}')
@@ -131,23 +146,25 @@ def strike(steps, pids, random):
             number = signal.Signals[f'SIG{what}']
             try:
                 if whom == 'group':
-                    os.killpg(pids['G'], number)
+                    os.killpg(pids.get('O', pids['G']), number)
                 elif pids[whom] > 0:
                     os.kill(pids[whom], number)
             except ProcessLookupError:
                 pass
 
 
-def wait_for_start(guardian):
-    """Launcher and spare guardian; 0 for what has ended already."""
+def wait_for_start(started, contained):
+    """The process that was started, then by their letters; 0 for what has ended already."""
+    letters = 'OFGSL' if contained else 'GSL'
     until = time.monotonic() + PATIENCE
     while time.monotonic() < until:
-        spare = first_child(guardian)
-        launcher = first_child(spare) if spare else 0
-        if launcher and name(spare) == 'guardian-spare':
-            return launcher, spare
+        chain = {letters[0]: started}
+        for letter in letters[1:]:
+            chain[letter] = first_child(list(chain.values())[-1]) if list(chain.values())[-1] else 0
+        if chain['L'] and name(chain['S']) == 'guardian-spare':
+            return chain
         time.sleep(0.001)
-    return 0, 0
+    return chain | dict.fromkeys(letters[1:], 0)
 
 
 def first_child(parent):

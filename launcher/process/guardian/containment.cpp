@@ -153,9 +153,14 @@ Containment contain(const std::vector<std::string>& command_line, const std::str
     throw std::system_error(errno, std::system_category(), "clone");
   }
   const auto words_of = [&](pid_t process, const UniqueFd& end, int pipe, const char* role) {
-    return std::vector<std::string>{
-        "launch-guardian",         "contained",          std::to_string(process), "-1", std::to_string(records.get()),
-        std::to_string(end.get()), std::to_string(pipe), role};
+    return std::vector<std::string>{"launch-guardian",
+                                    "contained",
+                                    std::to_string(process),
+                                    "-1",
+                                    std::to_string(records.get()),
+                                    std::to_string(end.get()),
+                                    std::to_string(pipe),
+                                    role};
   };
   if (first > 0) {
     ends.inside.reset();
