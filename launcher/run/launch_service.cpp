@@ -36,8 +36,12 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
             context_.message(warning ? LogLevel::kWarning : LogLevel::kInfo, "launch.trace", text);
           },
           timing_),
-      rounds_(scopes_, {[this](Round round) { start(std::move(round)); },
-                        [this](const LaunchError& error) { fail(error); }, [this] { check_finished(); }}),
+      rounds_(scopes_,
+              {[this](Round round) { start(std::move(round)); }, [this](const LaunchError& error) { fail(error); },
+               [this] {
+                 check_started();
+                 check_finished();
+               }}),
       recording_(scopes_),
       processes_(loop, supervisor,
                  {[this](ProcessSpec& spec, ProcessId id) { prepare(spec, id); },
@@ -48,6 +52,7 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
                   [this](const TrackedProcess& process) {
                     ros_tasks_.on_skipped(process.names);
                     test_.on_skipped(process);
+                    loop_.post([this] { check_started(); });
                   },
                   [this](const std::string& process, const Dependency& dependency) {
                     record({.kind = LaunchRecord::Kind::kReady,
@@ -160,6 +165,7 @@ void LaunchService::on_process_event(const ProcessEvent& event) {
   handlers_.on_event(event);
   on_end_of_required(event);
   ros_tasks_.on_process_event(event);
+  check_started();
   if (std::holds_alternative<ProcessDone>(event.what)) {
     farewell_.on_done(event.id);
     post_check();
@@ -351,6 +357,12 @@ void LaunchService::stop_processes() {
 bool LaunchService::is_idle() const {
   return !(phase_ == Phase::kRunning && steering_.holds()) && rounds_.empty() && timers_.empty() && handlers_.idle() &&
          !processes_.waiting() && supervisor_.active() == 0 && coroutines_.idle() && ros_tasks_.idle();
+}
+
+void LaunchService::check_started() {
+  if (on_started_ && phase_ == Phase::kRunning && rounds_.empty() && !processes_.waiting()) {
+    std::exchange(on_started_, nullptr)();
+  }
 }
 
 void LaunchService::check_finished() {

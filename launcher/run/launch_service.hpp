@@ -73,6 +73,9 @@ class LaunchService {
     signals_.observe_suspension(std::move(observer));
   }
 
+  // Called once: what the file asks for has started, each process after what it depends on.
+  void observe_started(std::function<void()> observer) { on_started_ = std::move(observer); }
+
   // Called when the end does not come, although a second signal has asked for it at once (hurry.hpp). It must end this
   // process.
   void give_up_by(std::function<void()> end) { hurry_.give_up_by(std::move(end)); }
@@ -124,6 +127,7 @@ class LaunchService {
   Requests visit_farewell(const Invocation& invocation);
   void stop_processes();
   bool is_idle() const;
+  void check_started();
   void check_finished();
   // Checks later, because the code that reports an end may still be at work.
   void post_check();
@@ -135,6 +139,7 @@ class LaunchService {
   ErrorSink errors_;
   const Guardian* guardian_ = nullptr;
   bool guardian_missed_ = false;
+  std::function<void()> on_started_;
   std::vector<TimedStep> timing_;
 
   Phase phase_ = Phase::kRunning;

@@ -17,6 +17,7 @@ int graph_command(const Words& words);
 int reference_command(const Words& words);
 int run_program_command(const Words& words);  // `launch run`
 int schema_command(const Words& words);
+int unit_command(const Words& words);
 
 // These ask a running launch, and throw ControlError.
 int events_command(const Words& words);
@@ -42,6 +43,7 @@ Words launch_file_words(const Words& words);  // launch files, packages, argumen
 Words process_words(const Words& words);      // names of the processes of the launches that run
 Words run_program_words(const Words& words);  // packages, programs, and options
 Words schema_words(const Words& words);       // formats
+Words unit_words(const Words& words);         // verbs, then what a launch takes, or units
 Words signal_words(const Words& words);       // a process, then a signal
 
 }  // namespace launch

@@ -88,6 +88,10 @@ constexpr const char* kCheckStatus =
 constexpr const char* kRunStatus =
     "That of the program, or 128+N if signal N ended it; 1 if it could not be started, 2 after a wrong "
     "command line.";
+constexpr const char* kInHelpOfVerbs =
+    "0 without errors, 1 after an error, 2 after a wrong command line. Of status: 0 if the launch is active, 3 if it "
+    "is "
+    "not, 4 if there is no such unit.";
 constexpr const char* kInHelp = "";  // the help tells the exit status
 
 }  // namespace
@@ -194,6 +198,12 @@ const std::vector<Command>& command_table() {
        .help = "makes stand-ins of a recorded system, and tells what would be if it were changed",
        .program = "launch-twin",
        .exit_status = kInHelp},
+      {.name = "unit",
+       .operand = "VERB",
+       .help = "makes systemd start a launch with the machine",
+       .run = unit_command,
+       .complete = unit_words,
+       .exit_status = kInHelpOfVerbs},
       {.name = "complete", .run = complete_command, .hidden = true},
       {.name = "list-commands", .run = list_commands, .hidden = true},
   };

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <signal.h>
 #include <sys/stat.h>
+#include <syslog.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -99,8 +100,11 @@ struct OutputRouter::Impl {
   void write_lines(ProcessId process, Child& owner, Stream& stream, const std::string& label, OutputStream which,
                    const OutputTargets& targets, std::string_view text);
   void observe(ProcessId process, OutputStream which, std::string_view text);
-  // False: the lines are not shown. `logged`: they are in launch.log.
-  bool to_screen(std::string_view text, bool logged);
+  // False: the lines are not shown. `logged`: they are in launch.log. `prefix` is what all of them begin with.
+  bool to_screen(std::string_view text, bool logged, ProcessId process = 0, std::string_view prefix = {});
+  // Returns the lines that the journal did not take.
+  std::string to_journal(std::string_view lines, ProcessId process, std::string_view prefix,
+                         std::optional<int> known_priority = {});
   void finish_screens();
   // Takes whole lines as they would stand on the screen.
   void to_launch_log(std::string_view lines);
@@ -108,6 +112,7 @@ struct OutputRouter::Impl {
 
   Options options;
   LineObserver line_observer;
+  std::function<Journal::Origin(ProcessId process)> origin_of;
   LogFile launch_log;
   std::vector<std::unique_ptr<Child>> children;  // by ProcessId
   Screen screen;
@@ -192,6 +197,10 @@ void OutputRouter::close_stream(ProcessId process, const std::string& label, Out
   }
 }
 
+void OutputRouter::describe_processes(std::function<Journal::Origin(ProcessId process)> origin_of) {
+  impl_->origin_of = std::move(origin_of);
+}
+
 void OutputRouter::observe_lines(LineObserver observer) {
   impl_->line_observer = std::move(observer);
 }
@@ -226,6 +235,14 @@ bool OutputRouter::can_show_status() const {
 
 void OutputRouter::error(std::string_view text) {
   Screen& screen = impl_->error_screen ? *impl_->error_screen : impl_->screen;
+  std::string rest;
+  if (impl_->options.journal) {
+    rest = impl_->to_journal(text, 0, {}, LOG_ERR);
+    if (rest.empty()) {
+      return;
+    }
+    text = rest;
+  }
   if (!screen.print(text, false)) {
     impl_->to_launch_log(text);
   }
@@ -268,7 +285,8 @@ void OutputRouter::Impl::write_lines(ProcessId process, Child& owner, Stream& st
     }
     text.remove_prefix(more ? end + 1 : text.size());
   }
-  const bool shown = !targets.screen || to_screen(stamps_screen ? stamped_lines : plain_lines, stamped);
+  const bool shown =
+      !targets.screen || to_screen(stamps_screen ? stamped_lines : plain_lines, stamped, process, stream.prefix);
   if (stamped) {
     to_file(launch_log, stamped_lines);
   } else if (!shown) {
@@ -298,7 +316,32 @@ void OutputRouter::Impl::observe(ProcessId process, OutputStream which, std::str
   }
 }
 
-bool OutputRouter::Impl::to_screen(std::string_view text, bool logged) {
+std::string OutputRouter::Impl::to_journal(std::string_view lines, ProcessId process, std::string_view prefix,
+                                           std::optional<int> known_priority) {
+  const Journal::Origin origin = process != 0 && origin_of ? origin_of(process) : Journal::Origin();
+  std::string rest;
+  while (!lines.empty()) {
+    const std::size_t end = lines.find('\n');
+    const std::string_view line = lines.substr(0, end);
+    const std::size_t begin = line.starts_with(prefix) ? prefix.size() : 0;
+    const int priority = known_priority.value_or(journal_priority(line.substr(begin)));
+    if (!options.journal->write(line, priority, origin)) {
+      rest += fmt::format("<{}>{}\n", priority, line);  // sd-daemon(3)
+    }
+    lines.remove_prefix(end == std::string_view::npos ? lines.size() : end + 1);
+  }
+  return rest;
+}
+
+bool OutputRouter::Impl::to_screen(std::string_view text, bool logged, ProcessId process, std::string_view prefix) {
+  std::string rest;
+  if (options.journal) {
+    rest = to_journal(text, process, prefix);
+    if (rest.empty()) {
+      return true;
+    }
+    text = rest;
+  }
   const bool was_gone = screen.is_gone();
   const bool shown = screen.print(text, logged);
   if (!was_gone && screen.is_gone()) {

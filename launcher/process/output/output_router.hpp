@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 
+#include "launcher/process/output/journal.hpp"
 #include "launcher/process/output/message_format.hpp"
 #include "launcher/process/output/screen.hpp"
 #include "launcher/process/process_spec.hpp"
@@ -51,8 +52,9 @@ class OutputRouter {
     std::optional<MessageFormat> log_format{};     // none: the same behind a time stamp
     std::string log_name = "launch.log";
     Rotation rotation{};
-    int error_fd = -1;          // for error(); negative: the screen
-    EventLoop* loop = nullptr;  // writes what a screen has not taken at once; must outlive the router
+    std::shared_ptr<const Journal> journal{};  // in place of the screen
+    int error_fd = -1;                 // for error(); negative: the screen
+    EventLoop* loop = nullptr;         // writes what a screen has not taken at once; must outlive the router
     Screen::Limits screen_limits{};
   };
 
@@ -65,6 +67,9 @@ class OutputRouter {
              std::string_view bytes);
   // The stream has ended: writes the rest as a line.
   void close_stream(ProcessId process, const std::string& label, OutputStream stream, const OutputTargets& targets);
+
+  // Tells the journal where processes come from. Without a journal it is not called.
+  void describe_processes(std::function<Journal::Origin(ProcessId process)> origin_of);
 
   // Called for each line before it is written, whatever its targets. Invalid UTF-8 is U+FFFD here, too. A very long
   // line comes in parts. Null: no observer.

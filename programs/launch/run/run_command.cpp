@@ -33,6 +33,7 @@
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/isolation/namespaces.hpp"
 #include "launcher/process/process_messages.hpp"
+#include "launcher/process/service_manager.hpp"
 #include "launcher/python/interpreter/python_module.hpp"
 #include "launcher/ros/ros_client_process.hpp"
 #include "launcher/run/launch_service.hpp"
@@ -75,6 +76,7 @@ OutputRouter::Options output_options(const CommandLine& command, const Environme
   options.log_format = message_format(environment, "OVERRIDE_LAUNCH_LOG_FORMAT");
   options.rotation = {command.log_size, command.log_files};
   options.error_fd = STDERR_FILENO;
+  options.journal = Journal::behind(STDOUT_FILENO, environment);
   options.loop = &loop;
   return options;
 }
@@ -150,10 +152,27 @@ void tell_isolation(const Isolation& isolation, OutputRouter& output) {
   }
 }
 
+Journal::Origin origin_of(const ProcessView& process) {
+  const SourceRange& where = process.spec.origin;
+  Journal::Origin origin{.process = process.label,
+                         .node = process.spec.other_names.empty() ? "" : process.spec.other_names.front()};
+  if (where) {
+    origin.file = where.file->path();
+    origin.line_number = static_cast<unsigned>(where.file->position(where.begin).line);
+  }
+  return origin;
+}
+
+std::string running_processes(const ProcessSupervisor& supervisor) {
+  const std::size_t count = supervisor.alive().size();
+  return fmt::format("{} {}", count, count == 1 ? "process runs" : "processes run");
+}
+
 // Makes everything that a run needs. The order is that of destruction, backwards.
 int run(const CommandLine& command, const Registry& registry, const Environment& environment,
         const std::shared_ptr<const LaunchDescription>& description, const std::vector<std::string>& files,
-        Guardian& guardian, const Isolation& isolation, TimedStep load, LaunchRecord load_record) {
+        Guardian& guardian, const Isolation& isolation, const std::optional<ServiceAddress>& service_manager,
+        TimedStep load, LaunchRecord load_record) {
   // A signal that was ignored when we started would never arrive. Shells ignore some for programs in the background.
   // nohup(1) ignores SIGHUP, which stays so.
   for (const int signal : {SIGINT, SIGQUIT, SIGTERM}) {
@@ -185,6 +204,9 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   ProcessSupervisor supervisor(*loop, *runner, output);
   supervisor.use_guardian(guardian);
   supervisor.observe(process_messages(output));
+  if (options.journal) {
+    output.describe_processes([&supervisor](ProcessId id) { return origin_of(supervisor.view(id)); });
+  }
   if (const UniqueFd terminal(::open("/dev/tty", O_RDONLY | O_NOCTTY | O_CLOEXEC)); terminal) {
     supervisor.watch_terminal();
   }
@@ -223,10 +245,31 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
     output.message(LogLevel::kWarning, "launch",
                    fmt::format("'launch ps' and other commands can't reach this launch: {}", error.what()));
   }
+  std::optional<ServiceManager> manager;
+  std::string progress;  // the status line
+  const auto tell_status = [&] {
+    if (manager) {
+      manager->status(progress.empty() ? running_processes(supervisor) : progress);
+    }
+  };
+  if (service_manager) {
+    manager.emplace(*service_manager, *loop);
+    service.observe_started([&manager] { manager->ready(); });
+    supervisor.observe([&](const ProcessEvent&) {
+      if (service.steering().is_ending()) {
+        manager->stopping();
+      } else if (progress.empty()) {
+        tell_status();
+      }
+    });
+  }
   std::optional<StatusLine> status;
-  if (output.can_show_status()) {
-    status.emplace(*loop, supervisor, service.steering(),
-                   [&output](const std::string& line) { output.show_status(line); });
+  if (manager || output.can_show_status()) {
+    status.emplace(*loop, supervisor, service.steering(), [&](const std::string& line) {
+      output.show_status(line);
+      progress = line;
+      tell_status();
+    });
     service.observe_suspension([&status](bool stops) { status->suspend(stops); });
   }
   guardian.wait_until_ready();
@@ -286,6 +329,10 @@ int run_command(const CommandLine& command, Environment environment,
   }
   Isolation isolation;
   std::optional<Guardian> guardian;
+  std::optional<ServiceAddress> service_manager;
+  if (command.mode == CommandMode::kRun) {
+    service_manager = ServiceAddress::take(environment);
+  }
   if (command.mode == CommandMode::kRun) {
     try {
       Containment containment;
@@ -346,7 +393,7 @@ int run_command(const CommandLine& command, Environment environment,
         result->print(dry_run(command, context, *description, environment));
         return result->finish() ? 0 : 1;
       case CommandMode::kRun:
-        return run(command, registry, environment, description, files, *guardian, isolation, load,
+        return run(command, registry, environment, description, files, *guardian, isolation, service_manager, load,
                    {.kind = LaunchRecord::Kind::kLoad,
                     .name = description->file == nullptr ? "several files" : description->file->path(),
                     .where = {description->file, 0, 0},

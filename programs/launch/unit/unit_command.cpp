@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: Apache-2.0
+// `launch unit install`, `remove` and `status`: a launch that systemd starts with the machine.
+#include <fmt/format.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "actions/builtin_actions.hpp"
+#include "base/diagnostics/command_error.hpp"
+#include "base/environment/home_directory.hpp"
+#include "base/environment/own_environment.hpp"
+#include "base/environment/own_prefix.hpp"
+#include "base/files/pipe.hpp"
+#include "base/processes/spawn.hpp"
+#include "launcher/invocation/find_launch_file.hpp"
+#include "launcher/visit/launch_plan.hpp"
+#include "programs/command_line/result_output.hpp"
+#include "programs/command_line/subcommand.hpp"
+#include "programs/launch/command_functions.hpp"
+#include "programs/launch/unit/unit_file.hpp"
+
+namespace launch {
+namespace {
+
+namespace fs = std::filesystem;
+
+// For what a launch does beside waiting for its processes: it ends its traces.
+constexpr std::chrono::seconds kForTraces{30};
+constexpr int kNotActive = 3;  // as systemctl(1)
+constexpr int kNoSuchUnit = 4;
+
+// Where units are, and how systemctl(1) is told whose they are.
+struct Manager {
+  explicit Manager(bool user) : of_user(user || ::geteuid() != 0) {}
+
+  fs::path directory() const {
+    if (!of_user) {
+      return "/etc/systemd/system";
+    }
+    const char* const config = ::getenv("XDG_CONFIG_HOME");
+    return (config != nullptr && *config == '/' ? fs::path(config) : fs::path(home_directory()) / ".config") /
+           "systemd/user";
+  }
+  fs::path path_of(const std::string& unit) const { return directory() / (unit + ".service"); }
+  bool runs() const { return of_user || fs::exists("/run/systemd/system"); }
+
+  std::vector<std::string> words(std::vector<std::string> more) const {
+    if (of_user) {
+      more.insert(more.begin(), "--user");
+    }
+    more.insert(more.begin(), "systemctl");
+    return more;
+  }
+
+  bool of_user;
+};
+
+// Throws std::runtime_error when systemctl(1) fails, which has said why.
+void tell_systemd(const Manager& manager, const std::vector<std::string>& words) {
+  const int status =
+      wait_for(spawn({.program = "systemctl", .argv = manager.words(words), .search_path = true}));
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+    throw std::runtime_error(fmt::format("'systemctl {}' has failed", words.front()));
+  }
+}
+
+// The properties of a unit, by name.
+std::map<std::string, std::string> properties_of(const Manager& manager, const std::string& unit) {
+  Pipe pipe = make_pipe();
+  const pid_t pid = spawn({.program = "systemctl",
+                           .argv = manager.words({"show", "--property=LoadState,ActiveState,SubState,StatusText,MainPID,"
+                                                  "NRestarts,Result,ExecMainStatus",
+                                                  unit + ".service"}),
+                           .search_path = true,
+                           .descriptors = {{STDOUT_FILENO, pipe.write.get()}}});
+  pipe.write.reset();
+  std::istringstream lines(read_to_end(pipe.read));
+  wait_for(pid);
+  std::map<std::string, std::string> found;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t sign = line.find('=');
+    if (sign != std::string::npos) {
+      found[line.substr(0, sign)] = line.substr(sign + 1);
+    }
+  }
+  return found;
+}
+
+// Loads the file as a launch does, and looks how long its processes may take to end. Throws LaunchError.
+std::chrono::seconds stop_timeout_of(const LaunchTarget& target, std::vector<std::string>& files) {
+  const Registry registry = builtin_actions();
+  LaunchContext context(registry, own_environment(), own_prefix(), [](auto, auto, auto) {});
+  for (const auto& [name, value] : target.arguments) {
+    context.scope().configurations.insert_or_assign(name, value);
+  }
+  files = find_launch_files(target.words, context.scope(), listed_command_names());
+  const LaunchPlan plan = plan_launch(context, *load_launch_files(files, registry, context.scope()));
+  Duration longest{0};
+  const std::function<void(const LaunchPlan&)> look = [&](const LaunchPlan& part) {
+    for (const ProcessSpec& process : part.processes) {
+      longest = std::max(longest, process.sigterm_timeout + process.sigkill_timeout);
+    }
+    std::for_each(part.reactions.begin(), part.reactions.end(), look);
+  };
+  look(plan);
+  return std::chrono::ceil<std::chrono::seconds>(longest) + kForTraces;
+}
+
+void check_name(const std::string& name) {
+  const bool good = !name.empty() && name.size() <= 200 && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.' || c == ':' || c == '@';
+  });
+  if (!good) {
+    throw std::runtime_error(fmt::format("'{}' can't be the name of a unit", name));
+  }
+}
+
+bool is_ours(const fs::path& path) {
+  std::ifstream file(path);
+  std::string line;
+  return std::getline(file, line) && line == kUnitMark;
+}
+
+int install(const Words& words) {
+  LaunchTarget target;
+  std::string name;
+  UnitFile unit;
+  bool user = false;
+  bool print = false;
+  bool no_start = false;
+  std::vector<std::string> also;
+  std::vector<std::string> options;
+  Subcommand command("launch unit install",
+                     "Makes a unit of systemd that runs a launch file, and starts it now and with the machine.");
+  command.take_target(target);
+  command.take_text("--name", name, "name of the unit (default: launch- and the name of the file)");
+  command.take_flag("--user", user, "for the service manager of this user; so it is without root's rights");
+  command.take_text("--as", unit.user, "the user whose processes they are (default: who has called sudo)");
+  command.take_texts("--env", also, "take this variable of the environment along, too");
+  command.take_texts("--option", options, "an option for the launch, such as --option=--trace");
+  command.take_flag("--realtime", unit.realtime, "allow real-time priorities and locked memory");
+  command.take_flag("--no-start", no_start, "start it with the machine only, not now");
+  command.take_flag("--print", print, "print the unit, install nothing");
+  if (const auto exit_code = command.parse(words)) {
+    return *exit_code;
+  }
+  const Manager manager(user);
+  std::vector<std::string> files;
+  unit.stop_timeout = stop_timeout_of(target, files);
+  if (files.empty() || files.front() == "-") {
+    throw std::runtime_error("a unit needs a launch file that is still there when the machine starts, not standard input");
+  }
+  unit.of_user = manager.of_user;
+  unit.description = fmt::format("launch {}", fs::path(files.front()).filename().string());
+  unit.command = {own_prefix() + "/bin/launch"};
+  unit.command.insert(unit.command.end(), options.begin(), options.end());
+  for (const std::string& file : files) {
+    unit.command.push_back(fs::absolute(file).lexically_normal().string());
+  }
+  for (const auto& [argument, value] : target.arguments) {
+    unit.command.push_back(argument + ":=" + value);
+  }
+  unit.directory = fs::current_path().string();
+  const Environment environment = own_environment();
+  unit.variables = variables_for_unit(environment, also);
+  if (const auto caller = environment.find("SUDO_USER");
+      unit.user.empty() && !manager.of_user && caller != environment.end()) {
+    unit.user = caller->second;
+  }
+  if (manager.of_user && !unit.user.empty()) {
+    throw std::runtime_error("--as needs a unit of the system, which root installs");
+  }
+  name = name.empty() ? unit_name_of(files.front()) : name;
+  check_name(name);
+  const std::string text = unit_text(unit);
+  if (print) {
+    ResultOutput result("launch unit install");
+    result.print(text);
+    return result.finish() ? 0 : 1;
+  }
+  const fs::path path = manager.path_of(name);
+  if (fs::exists(path) && !is_ours(path)) {
+    throw std::runtime_error(fmt::format("'{}' was not made by launch; choose another --name", path.string()));
+  }
+  fs::create_directories(path.parent_path());
+  if (std::ofstream file(path); !(file << text).flush()) {
+    throw std::runtime_error(fmt::format("'{}' can't be written", path.string()));
+  }
+  fmt::print("{} is written\n", path.string());
+  std::fflush(stdout);
+  if (!manager.runs()) {
+    tell_systemd(manager, {"enable", name + ".service"});
+    fmt::print("systemd does not run here; it starts the launch with the machine\n");
+    return 0;
+  }
+  tell_systemd(manager, {"daemon-reload"});
+  tell_systemd(manager, {"enable", name + ".service"});
+  if (!no_start) {
+    tell_systemd(manager, {"restart", "--no-block", name + ".service"});
+    fmt::print("{} starts; see 'launch unit status {}' and 'journalctl {}-u {}'\n", name, name,
+               manager.of_user ? "--user " : "", name);
+  }
+  return 0;
+}
+
+int remove(const Words& words) {
+  std::string name;
+  bool user = false;
+  Subcommand command("launch unit remove", "Ends a launch that systemd runs, and takes its unit away.");
+  command.take_text("NAME", name, "name of the unit");
+  command.take_flag("--user", user, "a unit of this user's service manager");
+  if (const auto exit_code = command.parse(words)) {
+    return *exit_code;
+  }
+  check_name(name);
+  const Manager manager(user);
+  const fs::path path = manager.path_of(name);
+  if (!fs::exists(path)) {
+    throw std::runtime_error(fmt::format("there is no '{}'", path.string()));
+  }
+  if (!is_ours(path)) {
+    throw std::runtime_error(fmt::format("'{}' was not made by launch", path.string()));
+  }
+  if (manager.runs()) {
+    tell_systemd(manager, {"disable", "--now", name + ".service"});
+  } else {
+    tell_systemd(manager, {"disable", name + ".service"});
+  }
+  fs::remove(path);
+  if (manager.runs()) {
+    tell_systemd(manager, {"daemon-reload"});
+  }
+  fmt::print("{} is removed\n", path.string());
+  return 0;
+}
+
+int status(const Words& words) {
+  std::string name;
+  bool user = false;
+  Subcommand command("launch unit status", "Says what a launch does that systemd runs.");
+  command.take_text("NAME", name, "name of the unit");
+  command.take_flag("--user", user, "a unit of this user's service manager");
+  if (const auto exit_code = command.parse(words)) {
+    return *exit_code;
+  }
+  check_name(name);
+  const Manager manager(user);
+  std::map<std::string, std::string> properties = properties_of(manager, name);
+  if (properties["LoadState"] != "loaded") {
+    fmt::print(stderr, "{}", command_error("launch unit status", fmt::format("there is no unit '{}'", name)));
+    return kNoSuchUnit;
+  }
+  const bool active = properties["ActiveState"] == "active" || properties["ActiveState"] == "activating" ||
+                      properties["ActiveState"] == "reloading";
+  std::string text = fmt::format("{}: {} ({})", name, properties["ActiveState"], properties["SubState"]);
+  if (active && !properties["StatusText"].empty()) {
+    text += ", " + properties["StatusText"];
+  }
+  if (active && properties["MainPID"] != "0") {
+    text += fmt::format(", launch {}", properties["MainPID"]);
+  }
+  if (!active && properties["Result"] != "success") {
+    text += fmt::format(", {}, exit code {}", properties["Result"], properties["ExecMainStatus"]);
+  }
+  if (properties["NRestarts"] != "0") {
+    text += fmt::format(", restarted {} times", properties["NRestarts"]);
+  }
+  fmt::print("{}\n", text);
+  return active ? 0 : kNotActive;
+}
+
+}  // namespace
+
+// The words begin with "unit".
+Words unit_words(const Words& words) {
+  if (words.size() <= 2) {
+    return {"install", "remove", "status"};
+  }
+  if (words[1] == "install") {
+    return launch_file_words({words.begin() + 2, words.end()});
+  }
+  Words names;
+  for (const bool user : {false, true}) {
+    std::error_code unreadable;
+    for (const fs::directory_entry& entry : fs::directory_iterator(Manager(user).directory(), unreadable)) {
+      if (entry.path().extension() == ".service" && is_ours(entry.path())) {
+        names.push_back(entry.path().stem().string());
+      }
+    }
+  }
+  return names;
+}
+
+int unit_command(const Words& words) {
+  const std::string verb = words.empty() ? "" : words.front();
+  const Words rest(words.empty() ? words.begin() : words.begin() + 1, words.end());
+  if (verb == "install") {
+    return install(rest);
+  }
+  if (verb == "remove") {
+    return remove(rest);
+  }
+  if (verb == "status") {
+    return status(rest);
+  }
+  if (verb == "--help" || verb == "-h") {
+    fmt::print(
+        "Makes systemd start a launch with the machine.\n"
+        "Usage: launch unit VERB …\n\n"
+        "Verbs:\n"
+        "  install FILE [NAME:=VALUE ...]  make a unit, start it now and with the machine\n"
+        "  remove NAME                     end it and take it away\n"
+        "  status NAME                     say what it does\n\n"
+        "Each has a --help of its own.\n");
+    return 0;
+  }
+  fmt::print(stderr, "{}",
+             verb.empty() ? usage_error("launch unit", "a verb is missing: install, remove or status")
+                          : unexpected_word_error("launch unit", {verb}, {{}, {"install", "remove", "status"}},
+                                                  fmt::format("unknown verb '{}'", verb)));
+  return kWrongCommandLine;
+}
+
+}  // namespace launch

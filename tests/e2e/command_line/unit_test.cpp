@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+// launch unit: a launch that a real systemd runs, which boots in namespaces of its own.
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/command.hpp"
+#include "tests/support/sandbox.hpp"
+
+namespace {
+
+using namespace test_support;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::Not;
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr std::chrono::seconds kPatience{60};
+constexpr const char* kSystemd = "/lib/systemd/systemd";
+
+// Units of the machine must not start here: these three pull in nothing. /tmp is that of the test.
+constexpr const char* kBoot = R"sh(
+set -e
+mount --make-rprivate /
+mkdir -p "$1/cgroup" && mount -t cgroup2 none "$1/cgroup"
+mkdir "$1/cgroup/launch-unit-test-$$" && echo 0 > "$1/cgroup/launch-unit-test-$$/cgroup.procs"
+exec unshare --mount --pid --cgroup --ipc --uts --fork --kill-child --mount-proc sh -c '
+set -e
+mount -t tmpfs tmpfs /run && mkdir -p /run/lock /run/lttng
+mount -t tmpfs tmpfs /var/log && mount -t tmpfs tmpfs /etc/systemd/system && mount -t cgroup2 cgroup2 /sys/fs/cgroup
+for name in sysinit basic multi-user; do
+  printf "[Unit]\nDefaultDependencies=no\n" > /etc/systemd/system/$name.target
+done
+printf "[Unit]\nRequires=systemd-journald.service\nWants=multi-user.target\nAfter=multi-user.target\n" > /etc/systemd/system/default.target
+exec env -i container=test PATH="$PATH" /lib/systemd/systemd --system --log-target=null'
+)sh";
+
+std::vector<pid_t> children_of(pid_t pid) {
+  std::ifstream file("/proc/" + std::to_string(pid) + "/task/" + std::to_string(pid) + "/children");
+  return {std::istream_iterator<pid_t>(file), {}};
+}
+
+class Unit : public testing::Test {
+ protected:
+  std::string write(const std::string& actions) const {
+    const fs::path path = sandbox_.directory() / "robot.launch.xml";
+    write_file(path, "<launch>\n" + actions + "\n</launch>\n");
+    return path.string();
+  }
+
+  // Why there can be no systemd here, or "".
+  std::string boot() {
+    if (::geteuid() != 0 || !fs::exists(kSystemd)) {
+      return "this needs root and an installed systemd";
+    }
+    boot_ = std::make_unique<RunningCommand>(
+        Command{.argv = {"sh", "-c", kBoot, "sh", sandbox_.directory().string()}});
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    while (std::chrono::steady_clock::now() < end && ::kill(boot_->pid(), 0) == 0) {
+      const std::vector<pid_t> children = children_of(boot_->pid());
+      systemd_ = children.empty() ? 0 : children.front();
+      const std::string name = systemd_ == 0 ? "" : fs::path("/proc/" + std::to_string(systemd_)).string() + "/comm";
+      std::ifstream file(name);
+      std::string comm;
+      if (std::getline(file, comm) && comm == "systemd" &&
+          inside({"systemctl", "is-system-running", "--wait"}).out.starts_with("running")) {
+        return "";
+      }
+      if (boot_->err().find("denied") != std::string::npos || boot_->err().find("not permitted") != std::string::npos) {
+        break;
+      }
+    }
+    return "no systemd boots in namespaces here: " + boot_->err();
+  }
+
+  // A program beside the services.
+  CommandResult inside(std::vector<std::string> words) const {
+    words.insert(words.begin(), {"nsenter", "--target", std::to_string(systemd_), "--mount", "--pid", "--cgroup",
+                                 "--ipc", "--uts", "--wdns=" + sandbox_.directory().string()});
+    return run_command({.argv = std::move(words)}, kPatience);
+  }
+
+  CommandResult unit(std::vector<std::string> words) const {
+    words.insert(words.begin(), {LAUNCH_PROGRAM, "unit"});
+    return inside(std::move(words));
+  }
+
+  std::string property(const std::string& name) const {
+    std::string value = inside({"systemctl", "show", "--value", "--property=" + name, "launch-robot.service"}).out;
+    return value.substr(0, value.find('\n'));
+  }
+
+  // Waits until systemd has this value.
+  bool becomes(const std::string& name, const std::string& value) const {
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    while (std::chrono::steady_clock::now() < end) {
+      if (property(name) == value) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  // The journal's entries of the launch, by their messages.
+  std::map<std::string, json> entries() const {
+    inside({"journalctl", "--sync"});
+    std::istringstream lines(inside({"journalctl", "--unit=launch-robot", "--output=json"}).out);
+    std::map<std::string, json> found;
+    for (std::string line; std::getline(lines, line);) {
+      json entry = json::parse(line);
+      found[entry.value("MESSAGE", "")] = entry;
+    }
+    return found;
+  }
+
+  Sandbox sandbox_;
+  std::unique_ptr<RunningCommand> boot_;
+  pid_t systemd_ = 0;
+};
+
+TEST_F(Unit, PrintsAUnitOfTheFile) {
+  Command command{.argv = {LAUNCH_PROGRAM, "unit", "install", "--print", "--as", "ada", "--realtime",
+                           write(R"xml(<arg name="word"/><executable cmd="sleep 1" sigterm_timeout="50"/>)xml"),
+                           "word:=a b$c%d\"e"}};
+  command.environment = {{"ROS_DOMAIN_ID", "7"}, {"AMENT_PREFIX_PATH", "/opt/100%"}, {"SECRET", "x"}};
+  command.directory = sandbox_.directory();
+  const std::string text = run_command(command).out;
+  EXPECT_THAT(text, HasSubstr("# Made by 'launch unit install'. 'launch unit remove' takes it away.\n[Unit]\n"
+                              "Description=launch robot.launch.xml\n"));
+  EXPECT_THAT(text, HasSubstr("ExecStart=\"" + std::string(LAUNCH_PROGRAM) + "\" \"" +
+                              (sandbox_.directory() / "robot.launch.xml").string() + "\" \"word:=a b$$c%%d\\\"e\"\n"));
+  EXPECT_THAT(text, HasSubstr("\nUser=ada\n"));
+  EXPECT_THAT(text, HasSubstr("\nEnvironment=\"ROS_DOMAIN_ID=7\"\n"));
+  EXPECT_THAT(text, HasSubstr("\nEnvironment=\"AMENT_PREFIX_PATH=/opt/100%%\"\n"));
+  EXPECT_THAT(text, Not(HasSubstr("SECRET")));
+  EXPECT_THAT(text, HasSubstr("\nTimeoutStopSec=85\n"));  // 50 and 5 of the process, 30 for traces
+  EXPECT_THAT(text, HasSubstr("\nLimitRTPRIO=99\n"));
+}
+
+TEST_F(Unit, AFileWithAnErrorMakesNoUnit) {
+  const std::string file = write("<executable/>");
+  const CommandResult result = run_command({LAUNCH_PROGRAM, "unit", "install", file});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr(file + ":2:2: error: "));
+  const CommandResult unknown = run_command({LAUNCH_PROGRAM, "unit", "instal", file});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_EQ(unknown.err,
+            "launch unit: error: unknown command 'instal'\n      = help: did you mean 'install'?\n"
+            "      = help: see 'launch unit --help'\n");
+}
+
+TEST_F(Unit, SystemdRunsItAndTheJournalKnowsWhereLinesComeFrom) {
+  if (const std::string why = boot(); !why.empty()) {
+    GTEST_SKIP() << why;
+  }
+  const std::string file = write(
+      R"xml(<executable name="first" shell="true" output="screen"
+                cmd="echo [WARN] careful; env | grep -c NOTIFY_SOCKET; touch here; cat &lt; begin; echo up; sleep 1000"/>
+<executable name="second" cmd="sleep 1000"><depends_on process="first" condition="output" pattern="up"/></executable>)xml");
+  ASSERT_EQ(inside({"mkfifo", (sandbox_.directory() / "begin").string()}).exit_code, 0);
+  const CommandResult installed = unit({"install", file});
+  EXPECT_EQ(installed.exit_code, 0) << installed.out << installed.err;
+  EXPECT_THAT(installed.out, HasSubstr("/etc/systemd/system/launch-robot.service is written\n"));
+
+  // It is not active before all has started.
+  EXPECT_TRUE(becomes("StatusText", "starting 1 of 2, waiting: second")) << property("StatusText");
+  EXPECT_EQ(property("ActiveState"), "activating");
+  EXPECT_EQ(inside({"sh", "-c", "echo > begin"}).exit_code, 0);
+  EXPECT_TRUE(becomes("ActiveState", "active"));
+  EXPECT_TRUE(becomes("StatusText", "2 processes run")) << property("StatusText");
+  const CommandResult status = unit({"status", "launch-robot"});
+  EXPECT_EQ(status.exit_code, 0);
+  EXPECT_THAT(status.out, ContainsRegex("^launch-robot: active \\(running\\), 2 processes run, launch [0-9]+\n$"));
+
+  std::map<std::string, json> lines = entries();
+  const json& careful = lines["[first-1] [WARN] careful"];
+  EXPECT_EQ(careful.value("PRIORITY", ""), "4") << careful;
+  EXPECT_EQ(careful.value("LAUNCH_PROCESS", ""), "first-1");
+  EXPECT_EQ(careful.value("CODE_FILE", ""), file);
+  EXPECT_EQ(careful.value("CODE_LINE", ""), "2");
+  EXPECT_EQ(lines.count("[first-1] 0"), 1u) << "processes must not get the socket of the launch";
+
+  EXPECT_EQ(inside({"systemctl", "stop", "launch-robot"}).exit_code, 0);
+  EXPECT_EQ(property("Result"), "success");
+  const CommandResult stopped = unit({"status", "launch-robot"});
+  EXPECT_EQ(stopped.exit_code, 3);
+  EXPECT_EQ(stopped.out, "launch-robot: inactive (dead)\n");
+  EXPECT_EQ(unit({"remove", "launch-robot"}).exit_code, 0);
+  const CommandResult gone = unit({"status", "launch-robot"});
+  EXPECT_EQ(gone.exit_code, 4);
+  EXPECT_EQ(gone.err, "launch unit status: error: there is no unit 'launch-robot'\n");
+}
+
+// The launcher is stopped, so it does not feed the watchdog. systemd ends it and starts it anew.
+TEST_F(Unit, ALaunchThatHangsIsStartedAnew) {
+  if (const std::string why = boot(); !why.empty()) {
+    GTEST_SKIP() << why;
+  }
+  const std::string file = write(R"xml(<executable name="a" cmd="sleep 1000"/>)xml");
+  ASSERT_EQ(unit({"install", "--no-start", file}).exit_code, 0);
+  inside({"sed", "-i", "s/^WatchdogSec=.*/WatchdogSec=1/; s/^RestartSec=.*/RestartSec=0/",
+          "/etc/systemd/system/launch-robot.service"});
+  inside({"systemctl", "daemon-reload"});
+  ASSERT_EQ(inside({"systemctl", "start", "launch-robot"}).exit_code, 0);
+  const std::string first = property("MainPID");
+  // The main process is the guardian; below it are its spare and the launcher.
+  inside({"sh", "-c", "kill -STOP $(pgrep -P $(pgrep -P " + first + "))"});
+  EXPECT_TRUE(becomes("NRestarts", "1"));
+  EXPECT_TRUE(becomes("ActiveState", "active"));
+  EXPECT_NE(property("MainPID"), first);
+  const CommandResult left = inside({"sh", "-c", "pgrep -c -f 'sleep 1000$'"});
+  EXPECT_EQ(left.out, "1\n");
+}
+
+}  // namespace
