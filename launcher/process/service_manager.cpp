@@ -7,8 +7,8 @@
 #include <unistd.h>
 
 #include <charconv>
-#include <cstdint>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <utility>
 
@@ -78,8 +78,8 @@ void ServiceManager::send(std::string_view news) const {
     address.sun_path[0] = '\0';
   }
   const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + socket_.size());
-  static_cast<void>(::sendto(fd_.get(), news.data(), news.size(), MSG_NOSIGNAL,
-                             reinterpret_cast<const sockaddr*>(&address), size));
+  static_cast<void>(
+      ::sendto(fd_.get(), news.data(), news.size(), MSG_NOSIGNAL, reinterpret_cast<const sockaddr*>(&address), size));
 }
 
 void ServiceManager::feed_watchdog() {

@@ -20,8 +20,8 @@ struct ServiceAddress {
   // must be one thread.
   static std::optional<ServiceAddress> take(Environment& environment);
 
-  std::string socket;                        // a path, or an abstract name behind "@"
-  std::chrono::microseconds watchdog{0};     // 0: none
+  std::string socket;                     // a path, or an abstract name behind "@"
+  std::chrono::microseconds watchdog{0};  // 0: none
 };
 
 class ServiceManager {

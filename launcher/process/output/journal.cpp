@@ -26,12 +26,12 @@ void add(std::string& entry, std::string_view name, std::string_view value) {
 
 int journal_priority(std::string_view line) {
   constexpr std::array<std::pair<std::string_view, int>, 7> kLevels = {{{"[DEBUG]", LOG_DEBUG},
-                                                                       {"[INFO]", LOG_INFO},
-                                                                       {"[WARN]", LOG_WARNING},
-                                                                       {"[WARNING]", LOG_WARNING},
-                                                                       {"[ERROR]", LOG_ERR},
-                                                                       {"[FATAL]", LOG_CRIT},
-                                                                       {"[CRITICAL]", LOG_CRIT}}};
+                                                                        {"[INFO]", LOG_INFO},
+                                                                        {"[WARN]", LOG_WARNING},
+                                                                        {"[WARNING]", LOG_WARNING},
+                                                                        {"[ERROR]", LOG_ERR},
+                                                                        {"[FATAL]", LOG_CRIT},
+                                                                        {"[CRITICAL]", LOG_CRIT}}};
   for (const auto& [level, priority] : kLevels) {
     if (line.starts_with(level)) {
       return priority;

@@ -24,9 +24,9 @@ class Journal {
 
   // Where a line comes from. All may be empty.
   struct Origin {
-    std::string process;   // LAUNCH_PROCESS: "talker-1"
-    std::string node;      // LAUNCH_NODE: "/left/talker"
-    std::string file;      // CODE_FILE, the launch file
+    std::string process;       // LAUNCH_PROCESS: "talker-1"
+    std::string node;          // LAUNCH_NODE: "/left/talker"
+    std::string file;          // CODE_FILE, the launch file
     unsigned line_number = 0;  // CODE_LINE
   };
 

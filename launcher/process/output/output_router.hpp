@@ -53,8 +53,8 @@ class OutputRouter {
     std::string log_name = "launch.log";
     Rotation rotation{};
     std::shared_ptr<const Journal> journal{};  // in place of the screen
-    int error_fd = -1;                 // for error(); negative: the screen
-    EventLoop* loop = nullptr;         // writes what a screen has not taken at once; must outlive the router
+    int error_fd = -1;                         // for error(); negative: the screen
+    EventLoop* loop = nullptr;                 // writes what a screen has not taken at once; must outlive the router
     Screen::Limits screen_limits{};
   };
 

@@ -68,8 +68,7 @@ struct Manager {
 
 // Throws std::runtime_error when systemctl(1) fails, which has said why.
 void tell_systemd(const Manager& manager, const std::vector<std::string>& words) {
-  const int status =
-      wait_for(spawn({.program = "systemctl", .argv = manager.words(words), .search_path = true}));
+  const int status = wait_for(spawn({.program = "systemctl", .argv = manager.words(words), .search_path = true}));
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
     throw std::runtime_error(fmt::format("'systemctl {}' has failed", words.front()));
   }
@@ -79,7 +78,8 @@ void tell_systemd(const Manager& manager, const std::vector<std::string>& words)
 std::map<std::string, std::string> properties_of(const Manager& manager, const std::string& unit) {
   Pipe pipe = make_pipe();
   const pid_t pid = spawn({.program = "systemctl",
-                           .argv = manager.words({"show", "--property=LoadState,ActiveState,SubState,StatusText,MainPID,"
+                           .argv = manager.words({"show",
+                                                  "--property=LoadState,ActiveState,SubState,StatusText,MainPID,"
                                                   "NRestarts,Result,ExecMainStatus",
                                                   unit + ".service"}),
                            .search_path = true,
@@ -159,7 +159,8 @@ int install(const Words& words) {
   std::vector<std::string> files;
   unit.stop_timeout = stop_timeout_of(target, files);
   if (files.empty() || files.front() == "-") {
-    throw std::runtime_error("a unit needs a launch file that is still there when the machine starts, not standard input");
+    throw std::runtime_error(
+        "a unit needs a launch file that is still there when the machine starts, not standard input");
   }
   unit.of_user = manager.of_user;
   unit.description = fmt::format("launch {}", fs::path(files.front()).filename().string());

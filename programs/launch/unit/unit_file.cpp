@@ -12,8 +12,8 @@ namespace launch {
 namespace {
 
 constexpr std::array<std::string_view, 16> kPrefixes = {
-    "ROS_",    "RMW_",        "AMENT_",  "COLCON_", "RCUTILS_", "RCL_",       "FASTRTPS_", "FASTDDS_",
-    "CYCLONE", "CYCLONEDDS_", "ZENOH_",  "LTTNG_",  "TRACE_",   "OVERRIDE_LAUNCH_", "IGNITION_", "GZ_"};
+    "ROS_",        "RMW_",   "AMENT_", "COLCON_", "RCUTILS_",         "RCL_",      "FASTRTPS_", "FASTDDS_", "CYCLONE",
+    "CYCLONEDDS_", "ZENOH_", "LTTNG_", "TRACE_",  "OVERRIDE_LAUNCH_", "IGNITION_", "GZ_"};
 constexpr std::array<std::string_view, 7> kNames = {
     "PATH", "LD_LIBRARY_PATH", "PYTHONPATH", "CMAKE_PREFIX_PATH", "PKG_CONFIG_PATH", "PYTHONUNBUFFERED", "LANG"};
 
@@ -37,8 +37,8 @@ std::string quoted(std::string_view text, bool in_command) {
 }  // namespace
 
 std::string unit_text(const UnitFile& unit) {
-  std::string text = fmt::format("{}\n[Unit]\nDescription={}\nDocumentation=man:launch(1)\n", kUnitMark,
-                                 unit.description);
+  std::string text =
+      fmt::format("{}\n[Unit]\nDescription={}\nDocumentation=man:launch(1)\n", kUnitMark, unit.description);
   // A robot without a network starts, too.
   text += unit.of_user ? "" : "After=network.target\n";
   text += "\n[Service]\n";
@@ -91,8 +91,8 @@ std::string unit_name_of(const std::string& launch_file) {
     }
   }
   for (char& c : name) {
-    const bool allowed = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-                         c == '.' || c == ':';
+    const bool allowed =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.' || c == ':';
     c = allowed ? c : '-';
   }
   return "launch-" + name;

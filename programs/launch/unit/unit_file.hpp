@@ -27,8 +27,8 @@ inline constexpr const char* kUnitMark = "# Made by 'launch unit install'. 'laun
 
 std::string unit_text(const UnitFile& unit);
 
-// What a launch needs of the environment of a shell in which the set-up files have been sourced: the variables of ROS 2,
-// of its middlewares and of LTTng, paths of programs, libraries and Python modules, and those of the names `also`.
+// What a launch needs of the environment of a shell in which the set-up files have been sourced: the variables of ROS
+// 2, of its middlewares and of LTTng, paths of programs, libraries and Python modules, and those of the names `also`.
 std::vector<std::pair<std::string, std::string>> variables_for_unit(const Environment& environment,
                                                                     const std::vector<std::string>& also);
 

@@ -20,16 +20,17 @@
 namespace {
 
 using namespace test_support;
+using nlohmann::json;
 using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
-using nlohmann::json;
 namespace fs = std::filesystem;
 
 constexpr std::chrono::seconds kPatience{60};
 constexpr const char* kSystemd = "/lib/systemd/systemd";
 
-// Units of the machine must not start here: these three pull in nothing. /tmp is that of the test.
+// Units of the machine must not start here: they would clean its /tmp, among other things. This systemd knows no more
+// than those of the journal and what the test installs.
 constexpr const char* kBoot = R"sh(
 set -e
 mount --make-rprivate /
@@ -39,11 +40,13 @@ exec unshare --mount --pid --cgroup --ipc --uts --fork --kill-child --mount-proc
 set -e
 mount -t tmpfs tmpfs /run && mkdir -p /run/lock /run/lttng
 mount -t tmpfs tmpfs /var/log && mount -t tmpfs tmpfs /etc/systemd/system && mount -t cgroup2 cgroup2 /sys/fs/cgroup
+cp /lib/systemd/system/systemd-journald.service /lib/systemd/system/systemd-journald*.socket /etc/systemd/system
 for name in sysinit basic multi-user; do
   printf "[Unit]\nDefaultDependencies=no\n" > /etc/systemd/system/$name.target
 done
 printf "[Unit]\nRequires=systemd-journald.service\nWants=multi-user.target\nAfter=multi-user.target\n" > /etc/systemd/system/default.target
-exec env -i container=test PATH="$PATH" /lib/systemd/systemd --system --log-target=null'
+mount --bind /bin/true "$(command -v systemd-tmpfiles)"
+exec env -i container=test PATH="$PATH" SYSTEMD_UNIT_PATH=/etc/systemd/system /lib/systemd/systemd --system --log-target=null'
 )sh";
 
 std::vector<pid_t> children_of(pid_t pid) {
@@ -64,8 +67,7 @@ class Unit : public testing::Test {
     if (::geteuid() != 0 || !fs::exists(kSystemd)) {
       return "this needs root and an installed systemd";
     }
-    boot_ = std::make_unique<RunningCommand>(
-        Command{.argv = {"sh", "-c", kBoot, "sh", sandbox_.directory().string()}});
+    boot_ = std::make_unique<RunningCommand>(Command{.argv = {"sh", "-c", kBoot, "sh", sandbox_.directory().string()}});
     const auto end = std::chrono::steady_clock::now() + kPatience;
     while (std::chrono::steady_clock::now() < end && ::kill(boot_->pid(), 0) == 0) {
       const std::vector<pid_t> children = children_of(boot_->pid());
