@@ -76,6 +76,9 @@ void GuardianProcess::pass_on(const signalfd_siginfo& signal) {
   if (signal.ssi_code != SI_KERNEL || number == SIGHUP) {
     send_signal(launcher_, number);
   }
+  if (number == SIGABRT) {
+    send_signal(launcher_, SIGCONT);  // a service manager ends a launcher so that hangs, or that somebody has stopped
+  }
   if (asks_to_end(number)) {
     // One that somebody has stopped would not see it. With Ctrl-Z this process is stopped, too, and comes here when it
     // goes on.

@@ -89,7 +89,7 @@ std::string launcher_ended(int status) {
 UniqueFd watch_signals() {
   sigset_t watched;
   sigfillset(&watched);
-  for (const int signal : {SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGPIPE, SIGSEGV, SIGSYS, SIGTRAP, SIGTTIN, SIGTTOU}) {
+  for (const int signal : {SIGBUS, SIGFPE, SIGILL, SIGPIPE, SIGSEGV, SIGSYS, SIGTRAP, SIGTTIN, SIGTTOU}) {
     sigdelset(&watched, signal);
   }
   struct sigaction action {};

@@ -62,6 +62,13 @@ class Unit : public testing::Test {
     return path.string();
   }
 
+  void TearDown() override {
+    if (systemd_ > 0) {
+      ::kill(systemd_, SIGKILL);  // the kernel ends everything in its namespace
+      boot_->wait(kPatience);
+    }
+  }
+
   // Why there can be no systemd here, or "".
   std::string boot() {
     if (::geteuid() != 0 || !fs::exists(kSystemd)) {

@@ -122,6 +122,23 @@ TEST_F(Supervision, AStoppedProcessGoesOnToEnd) {
   EXPECT_THAT(result.out, HasSubstr("[stopped-1] interrupted"));
 }
 
+// A service manager sends it when a launch does not feed its watchdog.
+TEST_F(Supervision, SigabrtEndsALauncherThatIsStoppedAndItsProcessesEndGently) {
+  const std::string file = write(R"xml(
+    <executable name="worker" shell="true" output="screen"
+                cmd="end() { echo cleaned up; exit; }; trap end INT; echo ready; while :; do read x; done"/>)xml");
+  RunningCommand run({.argv = {LAUNCH_PROGRAM, file}});
+  ASSERT_TRUE(run.wait_for_output("[worker-1] ready"));
+  const CommandResult launcher =
+      run_command({"sh", "-c", "kill -STOP $(pgrep -P $(pgrep -P " + std::to_string(run.pid()) + "))"});
+  ASSERT_EQ(launcher.exit_code, 0);
+  run.send_signal(SIGABRT);
+  const CommandResult result = run.wait();
+  EXPECT_EQ(result.signal, SIGABRT);
+  EXPECT_THAT(result.out, HasSubstr("the launcher was ended by SIGABRT"));
+  EXPECT_THAT(result.out, HasSubstr("[worker-1] cleaned up"));
+}
+
 TEST_F(Supervision, CtrlZStopsTheSystemAndSigcontContinuesIt) {
   const std::string file = write(R"xml(
     <executable name="worker" shell="true" output="screen"
