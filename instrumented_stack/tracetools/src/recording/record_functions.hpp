@@ -60,7 +60,7 @@ template <typename... Parameters>
 class Payload {
  public:
   explicit Payload(Parameters... values) {
-    std::size_t at = 0;
+    [[maybe_unused]] std::size_t at = 0;  // some events have no fields
     (..., (std::memcpy(bytes_ + at, &values, sizeof values), at += sizeof values));
   }
 
