@@ -8,8 +8,10 @@
 #include <fastcdr/Cdr.h>
 #include <fastcdr/FastBuffer.h>
 #include <fastcdr/config.h>
+#include <fastcdr/exceptions/Exception.h>
 
 #include <cstddef>
+#include <exception>
 
 namespace fastcdr_versions {
 
@@ -64,6 +66,19 @@ inline bool has_left(eprosima::fastcdr::Cdr& cdr, std::size_t count) {
   cdr.setState(here);
 #endif
   return enough;
+}
+
+// Whether `act` ends without an exception. Later releases throw some that are none of std.
+template <typename Act>
+bool succeeds(Act act) {
+  try {
+    act();
+    return true;
+  } catch (const eprosima::fastcdr::exception::Exception&) {
+    return false;
+  } catch (const std::exception&) {
+    return false;
+  }
 }
 
 }  // namespace fastcdr_versions

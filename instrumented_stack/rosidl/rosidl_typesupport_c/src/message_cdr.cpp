@@ -227,21 +227,11 @@ void add_message(const Layout& layout, MaxSize& size) {
 }  // namespace
 
 bool write(const Layout& layout, const void* message, Cdr& cdr) {
-  try {
-    write_message(layout, message, cdr);
-    return true;
-  } catch (const std::exception&) {
-    return false;
-  }
+  return fastcdr_versions::succeeds([&] { write_message(layout, message, cdr); });
 }
 
 bool read(const Layout& layout, Cdr& cdr, void* message) {
-  try {
-    read_message(layout, cdr, message);
-    return true;
-  } catch (const std::exception&) {
-    return false;
-  }
+  return fastcdr_versions::succeeds([&] { read_message(layout, cdr, message); });
 }
 
 std::uint32_t serialized_size(const Layout& layout, const void* message) {

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cstring>
-#include <exception>
 #include <iterator>
 #include <memory>
 #include <new>
 
+#include "fastcdr_versions/cdr.hpp"
 #include "rosidl_typesupport_cpp/message_type_support.hpp"
 #include "rosidl_typesupport_fastrtps_cpp/cdr_members.hpp"
 #include "rosidl_typesupport_fastrtps_cpp/identifier.hpp"
@@ -21,20 +21,10 @@ namespace rosidl_typesupport_fastrtps_cpp {
 template <typename Message>
 struct Callbacks {
   static bool write(const void* message, eprosima::fastcdr::Cdr& cdr) {
-    try {
-      CdrCodec<Message>::write(cdr, *static_cast<const Message*>(message));
-      return true;
-    } catch (const std::exception&) {
-      return false;
-    }
+    return fastcdr_versions::succeeds([&] { CdrCodec<Message>::write(cdr, *static_cast<const Message*>(message)); });
   }
   static bool read(eprosima::fastcdr::Cdr& cdr, void* message) {
-    try {
-      CdrCodec<Message>::read(cdr, *static_cast<Message*>(message));
-      return true;
-    } catch (const std::exception&) {
-      return false;
-    }
+    return fastcdr_versions::succeeds([&] { CdrCodec<Message>::read(cdr, *static_cast<Message*>(message)); });
   }
   static uint32_t size(const void* message) {
     return static_cast<uint32_t>(CdrCodec<Message>::end_after(*static_cast<const Message*>(message), 0));
