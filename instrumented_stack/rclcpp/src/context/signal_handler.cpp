@@ -17,6 +17,7 @@
 #include "rclcpp/context.hpp"
 #include "rclcpp/logging.hpp"
 #include "rclcpp/utilities.hpp"
+#include "rcutils/joined_thread.hpp"
 
 namespace rclcpp {
 
@@ -89,7 +90,7 @@ class SignalHandler {
   SignalHandlerOptions options_ = SignalHandlerOptions::None;
   struct sigaction previous_sigint_ {};
   struct sigaction previous_sigterm_ {};
-  std::thread thread_;
+  rcutils::JoinedThread thread_;
 };
 
 }  // namespace
@@ -122,7 +123,7 @@ bool SignalHandler::install(SignalHandlerOptions options) {
   }
   stop_thread = false;
   options_ = options;
-  thread_ = std::thread(&SignalHandler::run, this);
+  thread_ = rcutils::JoinedThread([this] { run(); });
 
   struct sigaction action {};
   action.sa_sigaction = &SignalHandler::handle;
@@ -155,7 +156,9 @@ bool SignalHandler::uninstall() {
   installed_ = false;
   options_ = SignalHandlerOptions::None;
   stop_thread = true;
-  wake_thread();
+  if (thread_.is_of_this_process()) {
+    wake_thread();
+  }
   if (std::this_thread::get_id() != thread_.get_id()) {
     thread_.join();
   }

@@ -17,6 +17,7 @@
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/executors/single_threaded_executor.hpp"
 #include "rclcpp/node_interfaces/node_time_source.hpp"
+#include "rcutils/joined_thread.hpp"
 
 namespace rclcpp {
 
@@ -51,7 +52,7 @@ class ClockThread {
 
   const CallbackGroup::SharedPtr& group() const { return group_; }
   void start() {
-    thread_ = std::thread(
+    thread_ = rcutils::JoinedThread(
         [executor = executor_, end = end_.get_future().share()] { executor->spin_until_future_complete(end); });
   }
 
@@ -65,7 +66,7 @@ class ClockThread {
   CallbackGroup::SharedPtr group_;
   std::shared_ptr<executors::SingleThreadedExecutor> executor_;
   std::promise<void> end_;
-  std::thread thread_;
+  rcutils::JoinedThread thread_;
 };
 
 }  // namespace detail

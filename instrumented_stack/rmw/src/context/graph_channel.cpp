@@ -66,7 +66,7 @@ GraphChannel::GraphChannel(rmw_context_t& context, Participant& participant, Gra
   sigset_t before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
-  thread_ = std::thread([this] { listen(); });
+  thread_ = rcutils::JoinedThread([this] { listen(); });
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
   ended_with_process_.emplace([this] { stop(); });
 }

@@ -8,12 +8,12 @@
 
 #include <mutex>
 #include <optional>
-#include <thread>
 
 #include "context/introduction.hpp"
 #include "graph/graph_cache.hpp"
 #include "participant/participant.hpp"
 #include "process/end_of_process.hpp"
+#include "rcutils/joined_thread.hpp"
 #include "rmw/rmw.h"
 #include "wait/waitable.hpp"
 
@@ -55,7 +55,7 @@ class GraphChannel {
   std::optional<Introduction> introduction_;  // while the participant is not introduced
   std::optional<GraphCache::EntitiesInfo> unpublished_;
   bool ended_ = false;
-  std::thread thread_;
+  rcutils::JoinedThread thread_;
   std::optional<EndedWithProcess> ended_with_process_;
 };
 

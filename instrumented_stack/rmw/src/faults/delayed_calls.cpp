@@ -23,7 +23,7 @@ void DelayedCalls::add(const void* owner, Clock::time_point due, std::function<v
     const std::lock_guard lock(mutex_);
     calls_.emplace(due, Call{owner, std::move(call)});
     if (!thread_.joinable() && !is_over_) {
-      thread_ = std::thread([this] { run(); });
+      thread_ = rcutils::JoinedThread([this] { run(); });
     }
   }
   changed_.notify_all();

@@ -8,7 +8,8 @@
 #include <functional>
 #include <map>
 #include <mutex>
-#include <thread>
+
+#include "rcutils/joined_thread.hpp"
 
 namespace rmw_fastrtps {
 
@@ -41,7 +42,7 @@ class DelayedCalls {
   std::multimap<Clock::time_point, Call> calls_;
   const void* running_ = nullptr;  // the owner of the call that runs
   bool is_over_ = false;
-  std::thread thread_;
+  rcutils::JoinedThread thread_;
 };
 
 // Those of this process. They stop when it exits.
