@@ -15,7 +15,7 @@ SOURCE = Path(os.environ['SOURCE_DIRECTORY'])
 TABLE = SOURCE / 'packages/table.txt'
 FUNCTIONS = SOURCE / 'packages/systems.sh'
 
-GROUPS = {'build', 'test', 'bench', 'format', 'lint', 'fuzz', 'docs', 'guest', 'package', 'abi', 'root', 'emulator'}
+GROUPS = {'build', 'test', 'bench', 'format', 'lint', 'fuzz', 'docs', 'guest', 'guest-arm64', 'package', 'abi', 'root', 'emulator'}
 ABOUT_THE_SYSTEM = {'suite', 'also', 'verified'}
 
 
