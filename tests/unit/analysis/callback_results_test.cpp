@@ -11,7 +11,7 @@ using CallbackResults = testing::SummaryObjects;
 TEST_F(CallbackResults, NameTheOwnerAndComeByOwner) {
   CallbackTracker callbacks(nobody);
   CallbackTiming timing(model);
-  std::vector<ActiveCallback> active;
+  ActiveCallbacks active;
   callbacks.start({1, 1}, active, {0xee, 1, 100, false});
   callbacks.end({1, 1}, active, 0xee, 130);
   callbacks.start({1, 1}, active, {0xcb, 0, 140, false});
@@ -35,7 +35,7 @@ TEST_F(CallbackResults, NameTheOwnerAndComeByOwner) {
 
 TEST_F(CallbackResults, LeaveOutACallbackThatNeverRan) {
   CallbackTracker callbacks(nobody);
-  std::vector<ActiveCallback> active;
+  ActiveCallbacks active;
   callbacks.start({1, 1}, active, {0xee, 1, 100, false});
   callbacks.end({1, 1}, active, 0xee, 130);
   EXPECT_EQ(callback_results(subjects, callbacks, CallbackTiming(model), HoldUps(model)).size(), 1u);

@@ -14,7 +14,7 @@ struct CallbackTrackerTest : ::testing::Test, ExecutionSink {
 
   std::vector<CallbackInstance> begins;
   std::vector<CallbackInstance> ends;
-  std::vector<ActiveCallback> active;  // of kOneThread
+  ActiveCallbacks active;  // of kOneThread
   CallbackTracker tracker{*this};
 };
 

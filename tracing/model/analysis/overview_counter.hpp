@@ -36,7 +36,7 @@ class OverviewCounter : public TraceSink {
     count(event, process);
     return process;
   }
-  ProcessId count_after_search(const Event& event) {
+  [[gnu::noinline]] ProcessId count_after_search(const Event& event) {
     const ProcessId process = processes_.of(event);
     if (processes_.is_copy(event, process)) {
       return kNoProcess;

@@ -56,9 +56,7 @@ class Ros2Analysis {
   void on_execution(const Origin& origin, const ros2::ExecutionEvent& event) { join_.on_execution(origin, event); }
   void on_caret_event(const Origin& origin, const ros2::CaretEvent& event);
   void on_write(const Origin& origin, std::int64_t source_timestamp) { join_.on_write(origin, source_timestamp); }
-  void on_allocation(const Origin& origin, std::uint64_t bytes) {
-    sinks_.on_allocation({{origin.process, origin.vtid}, origin.time_ns, bytes});
-  }
+  void on_allocation(const Origin& origin, std::uint64_t bytes) { join_.on_allocation(origin, bytes); }
   void on_process_end(ProcessId process, std::int64_t time_ns) { join_.on_process_end(process, time_ns); }
   // Returns whether it is an event of the kernel's scheduler.
   bool on_kernel_event(const Event& event, ProcessId process) { return scheduler_.on_event(event, process); }
@@ -91,7 +89,7 @@ class Ros2Analysis {
   SinkList<CallbackTiming, HoldUps, DeliveryStatistics, ExecutorLoad, ChainTracker, AllocationCounter, FirstActivity>
       sinks_;
   EventJoin join_{model_, allocations_, sinks_};
-  SchedulerTracker scheduler_{sinks_};
+  SchedulerTracker scheduler_{[this](const ThreadInterval& interval) { join_.on_thread_state(interval); }};
 };
 
 }  // namespace tracing

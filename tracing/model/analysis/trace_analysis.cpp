@@ -12,9 +12,8 @@ void TraceAnalysis::on_event(const Event& event) {
   if (process == kNoProcess) {
     return;
   }
-  if (process >= learned_) {
-    ros2_.learn(overview_.processes());
-    learned_ = overview_.processes().processes().size();
+  if (process >= learned_) [[unlikely]] {
+    learn();
   }
   starts_.on_event(event, process);
   const Origin origin{event.timestamp_ns, process, event.vtid.value_or(0)};
@@ -28,6 +27,11 @@ void TraceAnalysis::on_event(const Event& event) {
   } else {
     on_other_event(event, origin);
   }
+}
+
+void TraceAnalysis::learn() {
+  ros2_.learn(overview_.processes());
+  learned_ = overview_.processes().processes().size();
 }
 
 // Not one of ros2_tracing.

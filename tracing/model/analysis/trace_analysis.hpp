@@ -60,7 +60,8 @@ class TraceAnalysis : public TraceSink {
       inits_.release(process, [this](const InitsInOrder::Kept& kept) { tell(kept.origin, kept.event); });
     }
   }
-  void on_other_event(const Event& event, const Origin& origin);
+  [[gnu::noinline]] void learn();
+  [[gnu::noinline]] void on_other_event(const Event& event, const Origin& origin);
   void on_caret_event(const Origin& origin, const ros2::CaretDecoder::Decoded& decoded);
   void tell(const Origin& origin, const ros2::KnownCaretEvent& event);
 

@@ -8,18 +8,11 @@
 
 #include "tracing/model/compare/subject_names.hpp"
 #include "tracing/model/messages/hop_times.hpp"
+#include "tracing/model/objects/record_at.hpp"
 
 namespace tracing::compare {
 
 namespace {
-
-template <class Record>
-Record& at(std::vector<Record>& records, std::size_t id) {
-  if (id >= records.size()) {
-    records.resize(id + 1);
-  }
-  return records[id];
-}
 
 // Adds what was measured to the run, and knows which processes are doubtful.
 class Writer {
@@ -58,13 +51,12 @@ class Writer {
 }  // namespace
 
 void RunRecorder::Chains::on_response(PathId path, std::int64_t response_ns) {
-  at(responses, path).add(response_ns);
+  record_at(responses, path).add(response_ns);
 }
 
 void RunRecorder::on_callback_begin(const CallbackInstance& instance) {
   chains_.on_callback_begin(instance);
-  active_.begin(instance);
-  Callback& callback = at(callbacks_, instance.callback);
+  Callback& callback = record_at(callbacks_, instance.callback);
   if (callback.last_begin_ns != 0) {
     callback.intervals.add(instance.begin_ns - callback.last_begin_ns);
   }
@@ -73,19 +65,15 @@ void RunRecorder::on_callback_begin(const CallbackInstance& instance) {
 
 void RunRecorder::on_callback(const CallbackInstance& instance) {
   chains_.on_callback(instance);
-  Callback& callback = at(callbacks_, instance.callback);
+  Callback& callback = record_at(callbacks_, instance.callback);
   if (instance.finished) {
     callback.durations.add(instance.end_ns - instance.begin_ns);
   }
-  if (const auto parts = active_.end(instance)) {
-    callback.running.add(parts->running_ns);
-    callback.waiting.add(parts->runnable_ns);
-    callback.blocked.add(parts->blocked_ns);
+  if (instance.is_scheduled) {
+    callback.running.add(instance.end_ns - instance.begin_ns - instance.runnable_ns - instance.blocked_ns);
+    callback.waiting.add(instance.runnable_ns);
+    callback.blocked.add(instance.blocked_ns);
   }
-}
-
-void RunRecorder::on_thread_state(const ThreadInterval& interval) {
-  active_.add(interval, [](ObjectId, std::int64_t) {});
 }
 
 void RunRecorder::on_message(const MessageFlow& message) {
@@ -94,7 +82,7 @@ void RunRecorder::on_message(const MessageFlow& message) {
     return;
   }
   const HopTimes times = hop_times(message);
-  Hop& hop = at(hops_, message.subscription);
+  Hop& hop = record_at(hops_, message.subscription);
   hop.latency.add(times.latency_ns);
   if (times.transport_ns) {
     hop.transport.add(*times.transport_ns);

@@ -20,7 +20,7 @@
 #include "tracing/model/analysis/trace_analysis.hpp"
 #include "tracing/model/compare/kept_samples.hpp"
 #include "tracing/model/compare/run_summary.hpp"
-#include "tracing/model/execution/active_callbacks.hpp"
+#include "tracing/model/execution/execution_sink.hpp"
 #include "tracing/model/messages/chain_tracker.hpp"
 
 namespace tracing::compare {
@@ -33,7 +33,6 @@ class RunRecorder : public ExecutionSink {
   void on_message(const MessageFlow& message) override;
   void on_message_link(const MessageLink& link) override { chains_.on_message_link(link); }
   void on_call(const ServiceCall& call) override;
-  void on_thread_state(const ThreadInterval& interval) override;
 
   // To be called once, after the analysis has finished. Directory and remark are left to the caller.
   RunSummary finish(const TraceAnalysis& analysis, const TraceResults& results);
@@ -62,7 +61,6 @@ class RunRecorder : public ExecutionSink {
   std::vector<Hop> hops_;                                       // by ObjectId of the subscription
   std::map<std::pair<ObjectId, ObjectId>, KeptSamples> calls_;  // by client and service
   Chains chains_;
-  ActiveCallbacks active_;
 };
 
 }  // namespace tracing::compare

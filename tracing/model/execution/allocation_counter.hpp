@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "tracing/model/execution/execution_sink.hpp"
-#include "tracing/model/execution/thread_map.hpp"
 
 namespace tracing {
 
@@ -24,8 +23,6 @@ class AllocationCounter : public ExecutionSink {
   // The model must outlive this object.
   explicit AllocationCounter(const ObjectModel& model) : model_(model) {}
 
-  void on_callback_begin(const CallbackInstance& instance) override;
-  void on_callback(const CallbackInstance& instance) override;
   void on_allocation(const Allocation& allocation) override;
 
   // So far, since the begin of the trace.
@@ -40,7 +37,6 @@ class AllocationCounter : public ExecutionSink {
   static void add(std::vector<AllocationCount>& counts, std::size_t id, std::uint64_t bytes);
 
   const ObjectModel& model_;
-  ThreadMap<std::vector<ObjectId>> active_;  // callbacks, innermost last
   std::vector<AllocationCount> processes_;
   std::vector<AllocationCount> nodes_;
 };

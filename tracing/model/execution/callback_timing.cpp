@@ -6,13 +6,6 @@
 
 namespace tracing {
 
-CallbackTimingRecord& CallbackTiming::record(ObjectId callback) {
-  if (callback >= records_.size()) {
-    records_.resize(callback + 1);
-  }
-  return records_[callback];
-}
-
 std::int64_t CallbackTiming::period_of(ObjectId id) const {
   const CallbackObject& callback = model_.callbacks()[id];
   const bool is_of_timer = callback.owner == CallbackObject::Owner::kTimer && callback.owner_id != kNoObject;
@@ -20,7 +13,6 @@ std::int64_t CallbackTiming::period_of(ObjectId id) const {
 }
 
 void CallbackTiming::on_callback_begin(const CallbackInstance& instance) {
-  active_.begin(instance);
   CallbackTimingRecord& timing = record(instance.callback);
   if (timing.begins++ == 0) {
     timing.first_begin_ns = timing.last_begin_ns = instance.begin_ns;
@@ -45,34 +37,31 @@ void CallbackTiming::on_callback(const CallbackInstance& instance) {
       period > 0 && instance.finished && instance.end_ns - instance.begin_ns > period) {
     ++record(instance.callback).overruns;
   }
-  if (const auto parts = active_.end(instance)) {
+  if (instance.is_scheduled) {
     CallbackTimingRecord& timing = record(instance.callback);
-    timing.running.add(parts->running_ns);
-    timing.runnable.add(parts->runnable_ns);
-    timing.blocked.add(parts->blocked_ns);
+    timing.running.add(instance.end_ns - instance.begin_ns - instance.runnable_ns - instance.blocked_ns);
+    timing.runnable.add(instance.runnable_ns);
+    timing.blocked.add(instance.blocked_ns);
   }
 }
 
 void CallbackTiming::on_allocation(const Allocation& allocation) {
   has_allocations_ = true;
-  const ObjectId callback = active_.innermost(allocation.thread);
-  if (callback == kNoObject) {
+  if (allocation.callback == kNoObject) {
     return;
   }
-  CallbackTimingRecord& timing = record(callback);
+  CallbackTimingRecord& timing = record(allocation.callback);
   ++timing.allocations;
   timing.allocated_bytes += allocation.bytes;
 }
 
-void CallbackTiming::on_thread_state(const ThreadInterval& interval) {
-  active_.add(interval, [&](ObjectId callback, std::int64_t took) {
-    CallbackTimingRecord& timing = record(callback);
-    if (took > timing.longest_runnable_ns) {
-      timing.longest_runnable_ns = took;
-      timing.ran_instead = interval.other_name;
-      timing.ran_instead_ns = std::min(interval.other_ns, took);
-    }
-  });
+void CallbackTiming::on_callback_wait(const CallbackWait& wait) {
+  CallbackTimingRecord& timing = record(wait.callback);
+  if (wait.took_ns > timing.longest_runnable_ns) {
+    timing.longest_runnable_ns = wait.took_ns;
+    timing.ran_instead = wait.other_name;
+    timing.ran_instead_ns = std::min(wait.other_ns, wait.took_ns);
+  }
 }
 
 }  // namespace tracing

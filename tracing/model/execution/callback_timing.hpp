@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "tracing/model/execution/active_callbacks.hpp"
 #include "tracing/model/execution/duration_statistics.hpp"
 #include "tracing/model/execution/execution_sink.hpp"
+#include "tracing/model/objects/record_at.hpp"
 
 namespace tracing {
 
@@ -40,20 +40,19 @@ class CallbackTiming : public ExecutionSink {
   void on_callback_begin(const CallbackInstance& instance) override;
   void on_callback(const CallbackInstance& instance) override;
   void on_allocation(const Allocation& allocation) override;
-  void on_thread_state(const ThreadInterval& interval) override;
+  void on_callback_wait(const CallbackWait& wait) override;
 
   // Indexed by the callback's ObjectId; may be shorter than the model's list.
   const std::vector<CallbackTimingRecord>& records() const { return records_; }
   bool has_allocations() const { return has_allocations_; }
 
  private:
-  CallbackTimingRecord& record(ObjectId callback);
+  CallbackTimingRecord& record(ObjectId callback) { return record_at(records_, callback); }
   // Of a timer; 0 for any other callback.
   std::int64_t period_of(ObjectId callback) const;
 
   const ObjectModel& model_;
   std::vector<CallbackTimingRecord> records_;
-  ActiveCallbacks active_;
   bool has_allocations_ = false;
 };
 

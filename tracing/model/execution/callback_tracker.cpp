@@ -8,27 +8,27 @@ namespace tracing {
 
 namespace {
 
-auto find_active(std::vector<ActiveCallback>& active, ros2::Handle address) {
-  return std::find_if(active.begin(), active.end(),
+auto find_active(std::vector<ActiveCallback>& running, ros2::Handle address) {
+  return std::find_if(running.begin(), running.end(),
                       [address](const ActiveCallback& callback) { return callback.address == address; });
 }
 
 }  // namespace
 
-void CallbackTracker::start(const ThreadId& thread, std::vector<ActiveCallback>& active,
-                            const ActiveCallback& callback) {
+void CallbackTracker::start(const ThreadId& thread, ActiveCallbacks& active, const ActiveCallback& callback) {
+  std::vector<ActiveCallback>& running = active.running;
   // An exception has left an earlier instance without an end. A callback that spins, and so runs itself in its own
   // thread, looks the same; its outer instance is lost.
   std::optional<ActiveCallback> lost;
-  if (const auto earlier = find_active(active, callback.address); earlier != active.end()) {
+  if (const auto earlier = find_active(running, callback.address); earlier != running.end()) {
     ++record(earlier->callback).unfinished;
     lost = *earlier;
-    active.erase(earlier);
+    running.erase(earlier);
   }
-  active.push_back(callback);
-  const bool nested = active.size() > 1;
+  running.push_back(callback);
+  const bool nested = running.size() > 1;
   if (lost) {
-    tell(thread, *lost, callback.start_ns, nested, false);
+    tell_unfinished(thread, *lost, callback.start_ns, nested);
   }
   sink_.on_callback_begin({.thread = thread,
                            .callback = callback.callback,
@@ -39,10 +39,11 @@ void CallbackTracker::start(const ThreadId& thread, std::vector<ActiveCallback>&
                            .finished = false});
 }
 
-std::optional<ObjectId> CallbackTracker::end(const ThreadId& thread, std::vector<ActiveCallback>& active,
-                                             ros2::Handle address, std::int64_t time_ns) {
-  const auto found = find_active(active, address);
-  if (found == active.end()) {
+std::optional<ObjectId> CallbackTracker::end(const ThreadId& thread, ActiveCallbacks& active, ros2::Handle address,
+                                             std::int64_t time_ns) {
+  std::vector<ActiveCallback>& running = active.running;
+  const auto found = find_active(running, address);
+  if (found == running.end()) {
     ++ends_without_begin_;
     return std::nullopt;
   }
@@ -52,34 +53,53 @@ std::optional<ObjectId> CallbackTracker::end(const ThreadId& thread, std::vector
   if (instance.intra_process) {
     ++ended.intra_process;
   }
-  active.erase(found);
-  tell(thread, instance, time_ns, !active.empty(), true);
+  running.erase(found);
+  sink_.on_callback({.thread = thread,
+                     .callback = instance.callback,
+                     .begin_ns = instance.start_ns,
+                     .end_ns = time_ns,
+                     .intra_process = instance.intra_process,
+                     .nested = !running.empty(),
+                     .finished = true,
+                     .is_scheduled = active.is_scheduled,
+                     .runnable_ns = instance.runnable_ns,
+                     .blocked_ns = instance.blocked_ns});
   return instance.callback;
 }
 
-void CallbackTracker::abandon(const ThreadId& thread, const std::vector<ActiveCallback>& active, std::int64_t time_ns) {
-  for (const ActiveCallback& callback : active) {
+// The thread runs whenever a callback begins or ends, so that other intervals lie within callbacks as a whole.
+void CallbackTracker::add(const ThreadInterval& interval, ActiveCallbacks& active) {
+  active.is_scheduled = true;
+  if (interval.state == ThreadInterval::State::kRunning) {
+    return;
+  }
+  for (ActiveCallback& callback : active.running) {
+    const std::int64_t took = interval.end_ns - std::max(interval.begin_ns, callback.start_ns);
+    if (interval.state == ThreadInterval::State::kBlocked) {
+      callback.blocked_ns += took;
+      continue;
+    }
+    callback.runnable_ns += took;
+    sink_.on_callback_wait({callback.callback, took, interval.other_name, interval.other_ns});
+  }
+}
+
+void CallbackTracker::abandon(const ThreadId& thread, const ActiveCallbacks& active, std::int64_t time_ns) {
+  for (const ActiveCallback& callback : active.running) {
     ++record(callback.callback).unfinished;
-    tell(thread, callback, time_ns, false, false);
+    tell_unfinished(thread, callback, time_ns, false);
   }
 }
 
-CallbackRecord& CallbackTracker::record(ObjectId callback) {
-  if (callback >= records_.size()) {
-    records_.resize(callback + 1);
-  }
-  return records_[callback];
-}
-
-void CallbackTracker::tell(const ThreadId& thread, const ActiveCallback& callback, std::int64_t end_ns, bool nested,
-                           bool finished) {
+void CallbackTracker::tell_unfinished(const ThreadId& thread, const ActiveCallback& callback, std::int64_t end_ns,
+                                      bool nested) {
   sink_.on_callback({.thread = thread,
                      .callback = callback.callback,
                      .begin_ns = callback.start_ns,
                      .end_ns = end_ns,
                      .intra_process = callback.intra_process,
                      .nested = nested,
-                     .finished = finished});
+                     .finished = false});
 }
 
 }  // namespace tracing

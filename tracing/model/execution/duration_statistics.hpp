@@ -37,8 +37,12 @@ class DurationStatistics {
     const auto value = static_cast<Wide>(duration_ns);
     sum_ += value;
     squares_ += static_cast<UnsignedWide>(value * value);
-    min_ = std::min(min_, duration_ns);
-    max_ = std::max(max_, duration_ns);
+    if (duration_ns < min_) [[unlikely]] {
+      min_ = duration_ns;
+    }
+    if (duration_ns > max_) [[unlikely]] {
+      max_ = duration_ns;
+    }
     const std::size_t bucket = bucket_of(duration_ns);
     if (bucket < histogram_.size()) {
       ++histogram_[bucket];
@@ -55,12 +59,14 @@ class DurationStatistics {
   static constexpr unsigned kBits = 8;
   static constexpr std::uint64_t kBucketsOfADoubling = std::uint64_t{1} << kBits;
   static std::size_t bucket_of(std::int64_t duration_ns) {
-    const auto value = static_cast<std::uint64_t>(std::max<std::int64_t>(duration_ns, 0));
-    if (value < kBucketsOfADoubling) {
-      return value;
+    if (duration_ns < static_cast<std::int64_t>(kBucketsOfADoubling)) {
+      return static_cast<std::size_t>(std::max<std::int64_t>(duration_ns, 0));
     }
-    const unsigned shift = static_cast<unsigned>(std::bit_width(value)) - kBits - 1;
-    return shift * kBucketsOfADoubling + (value >> shift);
+    // A floating-point number has the number of the doubling, and behind it the first bits of the place within.
+    constexpr unsigned kBitsOfPlace = std::numeric_limits<double>::digits - 1;
+    constexpr std::size_t kFirst = (std::numeric_limits<double>::max_exponent - 2 + kBits) << kBits;
+    const auto number = std::bit_cast<std::uint64_t>(static_cast<double>(duration_ns));
+    return (number >> (kBitsOfPlace - kBits)) - kFirst;
   }
   // The value in the middle of a bucket.
   static std::int64_t middle_of(std::size_t bucket);

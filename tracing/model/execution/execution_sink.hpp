@@ -46,6 +46,11 @@ struct CallbackInstance {
   // False when the trace does not hold the end: an exception, a killed process, or the trace ended before. `end_ns` is
   // then the latest time at which it may have ended.
   bool finished = true;
+  // With events of the kernel's scheduler about its thread: for how long the thread waited for a processor, and was
+  // blocked, in this time.
+  bool is_scheduled = false;
+  std::int64_t runnable_ns = 0;
+  std::int64_t blocked_ns = 0;
 };
 
 // A message that a publisher handed to the middleware, or to the subscriptions of its own process.
@@ -138,11 +143,21 @@ struct ThreadInterval {
   std::int64_t other_ns = 0;  // how long
 };
 
+// A thread waited for a processor while it ran a callback. Told beside the ThreadInterval.
+struct CallbackWait {
+  ObjectId callback = kNoObject;
+  std::int64_t took_ns = 0;
+  // As those of the ThreadInterval.
+  std::string_view other_name;
+  std::int64_t other_ns = 0;
+};
+
 // Memory that a thread asked the C library for.
 struct Allocation {
   ThreadId thread;
   std::int64_t time_ns = 0;
   std::uint64_t bytes = 0;
+  ObjectId callback = kNoObject;  // the innermost one that the thread runs; kNoObject: none
 };
 
 // Overrides what it wants to know. An exception thrown here ends the reading.
@@ -163,6 +178,7 @@ class ExecutionSink {
   virtual void on_executor_look(const ExecutorLook&) {}
   virtual void on_lifecycle_state(const LifecycleInterval&) {}
   virtual void on_thread_state(const ThreadInterval&) {}
+  virtual void on_callback_wait(const CallbackWait&) {}
   virtual void on_allocation(const Allocation&) {}
 };
 

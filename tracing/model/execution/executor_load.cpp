@@ -52,13 +52,6 @@ void add_callback(ExecutorRecord& record, const CallbackInstance& instance) {
 
 }  // namespace
 
-ExecutorLoad::ProcessWaits& ExecutorLoad::waits_of(ProcessId process) {
-  if (process >= waits_.size()) {
-    waits_.resize(process + 1);
-  }
-  return waits_[process];
-}
-
 void ExecutorLoad::on_callback(const CallbackInstance& instance) {
   ExecutorRecord& record = records_[instance.thread];
   if (!instance.finished) {

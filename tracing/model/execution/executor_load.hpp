@@ -8,6 +8,7 @@
 
 #include "tracing/model/execution/execution_sink.hpp"
 #include "tracing/model/execution/thread_map.hpp"
+#include "tracing/model/objects/record_at.hpp"
 
 namespace tracing {
 
@@ -51,7 +52,7 @@ class ExecutorLoad : public ExecutionSink {
     std::int64_t last_end_ns = 0;
     bool has_several_executors = false;  // waits of two threads of one executor do not overlap
   };
-  ProcessWaits& waits_of(ProcessId process);
+  ProcessWaits& waits_of(ProcessId process) { return record_at(waits_, process); }
 
   ThreadMap<ExecutorRecord> records_;
   std::vector<ProcessWaits> waits_;  // by ProcessId

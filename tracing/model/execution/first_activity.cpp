@@ -3,13 +3,6 @@
 
 namespace tracing {
 
-FirstActivityRecord& FirstActivity::record(ProcessId process) {
-  if (process >= records_.size()) {
-    records_.resize(process + 1);
-  }
-  return records_[process];
-}
-
 void FirstActivity::on_callback_begin(const CallbackInstance& instance) {
   FirstActivityRecord& first = record(instance.thread.process);
   if (!first.callback_ns) {

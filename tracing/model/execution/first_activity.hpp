@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tracing/model/execution/execution_sink.hpp"
+#include "tracing/model/objects/record_at.hpp"
 
 namespace tracing {
 
@@ -28,7 +29,7 @@ class FirstActivity : public ExecutionSink {
   }
 
  private:
-  FirstActivityRecord& record(ProcessId process);
+  FirstActivityRecord& record(ProcessId process) { return record_at(records_, process); }
 
   const ObjectModel& model_;
   std::vector<FirstActivityRecord> records_;

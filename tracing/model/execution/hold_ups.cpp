@@ -3,20 +3,14 @@
 
 #include <algorithm>
 
+#include "tracing/model/objects/record_at.hpp"
+
 namespace tracing {
 
 namespace {
 
 // A callback that waits for more than these of its thread is held up by others than one.
 constexpr std::size_t kRuns = 16;
-
-template <class Record>
-Record& at(std::vector<Record>& records, ObjectId id) {
-  if (id >= records.size()) {
-    records.resize(id + 1);
-  }
-  return records[id];
-}
 
 }  // namespace
 
@@ -30,7 +24,7 @@ void HoldUps::on_callback_begin(const CallbackInstance& instance) {
   if (callback.owner != CallbackObject::Owner::kTimer || callback.owner_id == kNoObject) {
     return;
   }
-  std::int64_t& last_begin_ns = at(last_begins_ns_, instance.callback);
+  std::int64_t& last_begin_ns = record_at(last_begins_ns_, instance.callback);
   const std::int64_t due_ns = last_begin_ns + model_.timers()[callback.owner_id].period_ns;
   if (last_begin_ns != 0) {
     add(instance.callback, instance.thread, due_ns, instance.begin_ns);
@@ -63,7 +57,7 @@ void HoldUps::add(ObjectId callback, const ThreadId& thread, std::int64_t due_ns
   if (runs == nullptr) {
     return;
   }
-  std::vector<HoldUpRecord::By>& by = at(records_, callback).by;
+  std::vector<HoldUpRecord::By>& by = record_at(records_, callback).by;
   for (auto run = runs->rbegin(); run != runs->rend() && run->end_ns > due_ns; ++run) {
     if (run->callback == callback || run->begin_ns >= begin_ns) {
       continue;

@@ -83,14 +83,14 @@ void SchedulerTracker::change(KernelThread& thread, ThreadInterval::State state,
                               const Other& other) {
   if (thread.id && thread.since_ns != 0 && time_ns > thread.since_ns) {
     const auto name = names_.find(other.tid);
-    sink_.on_thread_state({.state = thread.state,
-                           .thread = *thread.id,
-                           .begin_ns = thread.since_ns,
-                           .end_ns = time_ns,
-                           .cpu = thread.cpu,
-                           .other_name = name == names_.end() ? std::string_view() : name->second,
-                           .other_tid = other.tid,
-                           .other_ns = other.ns});
+    tell_({.state = thread.state,
+           .thread = *thread.id,
+           .begin_ns = thread.since_ns,
+           .end_ns = time_ns,
+           .cpu = thread.cpu,
+           .other_name = name == names_.end() ? std::string_view() : name->second,
+           .other_tid = other.tid,
+           .other_ns = other.ns});
   }
   thread.state = state;
   thread.since_ns = time_ns;

@@ -6,9 +6,11 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "tracing/decode/reader/event.hpp"
@@ -18,7 +20,8 @@ namespace tracing {
 
 class SchedulerTracker {
  public:
-  explicit SchedulerTracker(ExecutionSink& sink) : sink_(sink) {}
+  using Tell = std::function<void(const ThreadInterval&)>;
+  explicit SchedulerTracker(Tell tell) : tell_(std::move(tell)) {}
 
   // Returns whether it is one of these events. `process`: that of the event.
   bool on_event(const Event& event, ProcessId process);
@@ -64,7 +67,7 @@ class SchedulerTracker {
   Other longest_on(std::int64_t cpu, std::int64_t begin_ns, std::int64_t end_ns) const;
   void on_switch(const Event& event, const Plan& plan, ProcessId process);
 
-  ExecutionSink& sink_;
+  Tell tell_;
   std::vector<std::optional<Plan>> plans_;                  // by EventClass::id
   std::unordered_map<std::int64_t, KernelThread> threads_;  // by the kernel's number
   std::unordered_map<std::int64_t, std::string> names_;     // likewise

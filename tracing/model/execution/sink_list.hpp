@@ -82,6 +82,12 @@ class SinkList final : public ExecutionSink {
       other_->on_thread_state(interval);
     }
   }
+  void on_callback_wait(const CallbackWait& wait) override {
+    each([&]<class Sink>(Sink& sink) { sink.Sink::on_callback_wait(wait); });
+    if (other_ != nullptr) {
+      other_->on_callback_wait(wait);
+    }
+  }
   void on_allocation(const Allocation& allocation) override {
     each([&]<class Sink>(Sink& sink) { sink.Sink::on_allocation(allocation); });
     if (other_ != nullptr) {

@@ -5,6 +5,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <unordered_map>
 
 #include "tracing/model/execution/execution_sink.hpp"
@@ -14,25 +16,14 @@ namespace tracing {
 template <class State>
 class ThreadMap {
  public:
-  State& operator[](const ThreadId& thread) {
-    Recent& recent = recent_of(thread);
-    if (recent.state == nullptr || !(recent.id == thread)) {
-      recent = {thread, &states_[thread]};
-    }
-    return *recent.state;
+  [[gnu::always_inline]] State& operator[](const ThreadId& thread) {
+    const Recent& recent = recent_of(thread);
+    return recent.id == thread ? *recent.state : search(thread);
   }
   // Null when nothing is known.
-  State* find(const ThreadId& thread) {
-    Recent& recent = recent_of(thread);
-    if (recent.state != nullptr && recent.id == thread) {
-      return recent.state;
-    }
-    const auto found = states_.find(thread);
-    if (found == states_.end()) {
-      return nullptr;
-    }
-    recent = {thread, &found->second};
-    return recent.state;
+  [[gnu::always_inline]] State* find(const ThreadId& thread) {
+    const Recent& recent = recent_of(thread);
+    return recent.id == thread ? recent.state : search_known(thread);
   }
   void clear() {
     states_.clear();
@@ -45,15 +36,31 @@ class ThreadMap {
   auto end() const { return states_.end(); }
 
  private:
-  static constexpr std::size_t kBits = 5;
+  static constexpr std::size_t kRecent = 32;
   struct Recent {
-    ThreadId id;
+    ThreadId id = {kNoProcess, std::numeric_limits<std::int64_t>::min()};  // of no thread
     State* state = nullptr;
   };
-  Recent& recent_of(const ThreadId& thread) { return recent_[HashThreadId()(thread) >> (64 - kBits)]; }
+  // Threads that are made one after the other have ids one after the other.
+  Recent& recent_of(const ThreadId& thread) {
+    return recent_[(static_cast<std::size_t>(thread.vtid) + thread.process) % kRecent];
+  }
+  [[gnu::noinline]] State& search(const ThreadId& thread) {
+    State& state = states_[thread];
+    recent_of(thread) = {thread, &state};
+    return state;
+  }
+  [[gnu::noinline]] State* search_known(const ThreadId& thread) {
+    const auto found = states_.find(thread);
+    if (found == states_.end()) {
+      return nullptr;
+    }
+    recent_of(thread) = {thread, &found->second};
+    return &found->second;
+  }
 
   std::unordered_map<ThreadId, State, HashThreadId> states_;  // does not move what it holds
-  std::array<Recent, std::size_t{1} << kBits> recent_;        // by the upper bits of their hashes
+  std::array<Recent, kRecent> recent_;
 };
 
 }  // namespace tracing

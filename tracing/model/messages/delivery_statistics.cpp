@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "tracing/model/messages/hop_times.hpp"
+#include "tracing/model/objects/record_at.hpp"
 
 namespace tracing {
 
@@ -13,14 +14,6 @@ namespace {
 
 // More than any history holds, so that what became of a message is known.
 constexpr std::size_t kRemembered = 4'096;
-
-template <class Record>
-Record& at(std::vector<Record>& records, ObjectId id) {
-  if (id >= records.size()) {
-    records.resize(id + 1);
-  }
-  return records[id];
-}
 
 // How many messages the history of the reader holds.
 std::uint64_t queue_depth(const EndpointObject& subscription) {
@@ -34,7 +27,7 @@ std::uint64_t queue_depth(const EndpointObject& subscription) {
 }  // namespace
 
 void DeliveryStatistics::on_publication(const Publication& publication) {
-  PublisherRecord& record = at(publishers_, publication.publisher);
+  PublisherRecord& record = record_at(publishers_, publication.publisher);
   // A message goes through the middleware, too, if there are subscriptions elsewhere; it counts once here.
   if (publication.intra_process || record.intra_process == 0) {
     if (record.published + record.intra_process > 0) {
@@ -49,9 +42,9 @@ void DeliveryStatistics::on_publication(const Publication& publication) {
     return;
   }
   ++record.published;
-  Publisher& publisher = at(sent_, publication.publisher);
+  Publisher& publisher = record_at(sent_, publication.publisher);
   ++publisher.count;
-  publisher.newest.push_back({publication.number, ++at(topic_counts_, publication.topic)});
+  publisher.newest.push_back({publication.number, ++record_at(topic_counts_, publication.topic)});
   if (publisher.newest.size() > kRemembered) {
     publisher.newest.pop_front();
   }
@@ -59,7 +52,7 @@ void DeliveryStatistics::on_publication(const Publication& publication) {
 
 // Messages of one publisher arrive in their order: those between the last one and this one will not come.
 void DeliveryStatistics::find_gaps(const MessageFlow& message) {
-  Publisher& publisher = at(sent_, message.publication.publisher);
+  Publisher& publisher = record_at(sent_, message.publication.publisher);
   // Usually it is the last one or one of the last.
   constexpr int kLast = 8;
   const std::uint64_t number = message.publication.number;
@@ -76,7 +69,7 @@ void DeliveryStatistics::find_gaps(const MessageFlow& message) {
   }
   const auto index = static_cast<std::uint64_t>(sent - publisher.newest.begin());
   const std::uint64_t place = publisher.count - publisher.newest.size() + 1 + index;
-  DeliveryRecord& record = at(subscriptions_, message.subscription);
+  DeliveryRecord& record = record_at(subscriptions_, message.subscription);
   const auto [last, is_first] = last_place_.try_emplace({message.subscription, message.publication.publisher}, place);
   if (is_first) {
     record.before_first += place - 1;
@@ -92,7 +85,7 @@ void DeliveryStatistics::find_gaps(const MessageFlow& message) {
     return;
   }
   const std::uint64_t depth = queue_depth(subscription);
-  const std::uint64_t topic_count = at(topic_counts_, message.publication.topic);
+  const std::uint64_t topic_count = record_at(topic_counts_, message.publication.topic);
   std::uint64_t lost = 0;
   for (std::uint64_t missing = last->second + 1; missing < place; ++missing) {
     const std::uint64_t back = place - missing;
@@ -132,7 +125,7 @@ bool DeliveryStatistics::is_second_copy(const MessageFlow& message) const {
 void DeliveryStatistics::on_message(const MessageFlow& message) {
   const Publication& publication = message.publication;
   const bool is_known = publication.number != 0;
-  DeliveryRecord& record = at(subscriptions_, message.subscription);
+  DeliveryRecord& record = record_at(subscriptions_, message.subscription);
   if (is_second_copy(message)) {
     return;  // if others of these are pushed out of the queue, nobody misses them
   }

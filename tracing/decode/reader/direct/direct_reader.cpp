@@ -93,6 +93,7 @@ struct DirectReader::OpenStream {
  private:
   Event event_;                     // its records always have the same addresses
   std::size_t packet_ = kNoPacket;  // of the last event
+  StreamClass::LastName last_name_;
   Loss loss_;
 };
 
@@ -105,7 +106,7 @@ struct DirectReader::OpenStream {
       event_.cpu_id = cursor.packet().cpu_id;
     }
     const ctf::Record& contexts = cursor.stream_context();
-    stream_class.read_contexts(contexts, event_);
+    stream_class.read_contexts(contexts, event_, last_name_);
     event_.record = &cursor.payload();
     event_.stream_context = &contexts;
     event_.event_context = &cursor.event_context();

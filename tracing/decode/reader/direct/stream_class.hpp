@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -30,13 +31,19 @@ class StreamClass {
 
   const ctf::StreamLayout& layout() const { return layout_; }
 
+  // The name in the last event of a stream, which the next one mostly has, too.
+  struct LastName {
+    std::array<std::uint64_t, 2> words{};
+    std::size_t length = 0;
+  };
+
   // Leaves members alone whose contexts the stream does not have.
-  [[gnu::always_inline]] void read_contexts(const ctf::Record& contexts, Event& event) const {
+  [[gnu::always_inline]] void read_contexts(const ctf::Record& contexts, Event& event, LastName& last_name) const {
     if (has_usual_contexts_ && contexts.base != nullptr) [[likely]] {
       event.vpid.emplace(number_at(contexts.base + usual_.vpid));
       event.vtid.emplace(number_at(contexts.base + usual_.vtid));
       const auto* const name = reinterpret_cast<const char*>(contexts.base + usual_.procname);
-      event.procname.emplace(name, text_length(name, usual_.procname_length));
+      event.procname.emplace(name, length_of_name(name, last_name));
       return;
     }
     if (vpid_) {
@@ -93,6 +100,17 @@ class StreamClass {
     }
     const auto* const bytes = reinterpret_cast<const char*>(contexts.base + *context.offset);
     value.emplace(bytes, text_length(bytes, contexts.places[context.index].length));
+  }
+  [[gnu::always_inline]] std::size_t length_of_name(const char* name, LastName& last) const {
+    if (usual_.procname_length < sizeof last.words) [[unlikely]] {
+      return text_length(name, usual_.procname_length);
+    }
+    std::array<std::uint64_t, 2> words;
+    std::memcpy(words.data(), name, sizeof words);
+    if (words != last.words || last.length >= sizeof words) [[unlikely]] {
+      last = {words, text_length(name, usual_.procname_length)};
+    }
+    return last.length;
   }
   // As strnlen(), for short texts behind which there are eight bytes to read.
   [[gnu::always_inline]] static std::size_t text_length(const char* bytes, std::size_t most) {

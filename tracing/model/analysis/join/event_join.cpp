@@ -6,7 +6,7 @@ namespace tracing {
 void EventJoin::on(const Origin& origin, const ros2::CallbackStart& event) {
   ThreadState& running = thread(origin);
   const ObjectId id = model_.callback(origin.process, event.callback);
-  callbacks_.start({origin.process, origin.vtid}, running.active_callbacks,
+  callbacks_.start({origin.process, origin.vtid}, running.callbacks,
                    {event.callback, id, origin.time_ns, event.is_intra_process});
   messages_.on_callback(origin, running, id, event.is_intra_process);
   running.executed = 0;  // what it takes from now on is not taken by the executor
@@ -18,7 +18,7 @@ void EventJoin::on(const Origin& origin, const ros2::CallbackStart& event) {
 
 void EventJoin::on(const Origin& origin, const ros2::CallbackEnd& event) {
   const std::optional<ObjectId> ended =
-      callbacks_.end({origin.process, origin.vtid}, thread(origin).active_callbacks, event.callback, origin.time_ns);
+      callbacks_.end({origin.process, origin.vtid}, thread(origin).callbacks, event.callback, origin.time_ns);
   if (ended) {
     waits_.end_callback(origin, *ended);
     if (model_.callbacks()[*ended].owner == CallbackObject::Owner::kService) {
@@ -64,13 +64,24 @@ void EventJoin::on_execution(const Origin& origin, const ros2::ExecutionEvent& e
   const ThreadId thread{origin.process, origin.vtid};
   if (event.kind == Kind::kClientCallbackStart) {
     const ObjectId callback = model_.client_callback(origin.process, event.handle);
-    callbacks_.start(thread, running.active_callbacks, {event.handle, callback, origin.time_ns, false});
+    callbacks_.start(thread, running.callbacks, {event.handle, callback, origin.time_ns, false});
   } else if (event.kind == Kind::kClientCallbackEnd) {
-    callbacks_.end(thread, running.active_callbacks, event.handle, origin.time_ns);
+    callbacks_.end(thread, running.callbacks, event.handle, origin.time_ns);
     executions_.end(running.execution, Kind::kClient, origin.time_ns);
   } else {
     executions_.start(running.execution, origin, event);
   }
+}
+
+void EventJoin::on_thread_state(const ThreadInterval& interval) {
+  callbacks_.add(interval, threads_[interval.thread].callbacks);
+  sink_.on_thread_state(interval);
+}
+
+void EventJoin::on_allocation(const Origin& origin, std::uint64_t bytes) {
+  const std::vector<ActiveCallback>& running = thread(origin).callbacks.running;
+  sink_.on_allocation(
+      {{origin.process, origin.vtid}, origin.time_ns, bytes, running.empty() ? kNoObject : running.back().callback});
 }
 
 void EventJoin::on_end(const Origin& origin, const ros2::ObjectEnd& end) {
@@ -85,7 +96,7 @@ void EventJoin::on_end(const Origin& origin, const ros2::ObjectEnd& end) {
 
 void EventJoin::finish() {
   for (auto& [id, state] : threads_) {
-    callbacks_.abandon(id, state.active_callbacks, last_ns_);
+    callbacks_.abandon(id, state.callbacks, last_ns_);
     messages_.give_to_none({last_ns_, id.process, id.vtid}, state);
   }
   threads_.clear();

@@ -48,6 +48,8 @@ class EventJoin {
     messages_.on_write(origin, thread(origin), source_timestamp);
   }
   void on_execution(const Origin& origin, const ros2::ExecutionEvent& event);
+  void on_thread_state(const ThreadInterval& interval);
+  void on_allocation(const Origin& origin, std::uint64_t bytes);
   // The process was told to end, or has ended.
   void on_process_end(ProcessId process, std::int64_t time_ns) { calls_.end_process(process, time_ns); }
   // At the end of the trace. Tells what has no end.
@@ -84,7 +86,7 @@ class EventJoin {
   void on(const Origin& origin, const ros2::RclcppExecutorGetNextReady& event);
   void on(const Origin& origin, const ros2::RclcppExecutorWaitForWork& event);
   void on(const Origin& origin, const ros2::RclcppExecutorExecute& event);
-  ThreadState& thread(const Origin& origin) { return threads_[{origin.process, origin.vtid}]; }
+  [[gnu::always_inline]] ThreadState& thread(const Origin& origin) { return threads_[{origin.process, origin.vtid}]; }
 
   ObjectModel& model_;
   ExecutionSink& sink_;

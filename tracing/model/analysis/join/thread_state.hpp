@@ -16,7 +16,7 @@
 namespace tracing {
 
 struct ThreadState {
-  std::vector<ActiveCallback> active_callbacks;  // innermost last
+  ActiveCallbacks callbacks;
   std::optional<ActiveExecution> execution;
 
   // Of the executor that spins in this thread.
