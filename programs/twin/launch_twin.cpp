@@ -17,6 +17,7 @@
 #include "programs/twin/twin_table.hpp"
 #include "tracing/decode/reader/trace_read_error.hpp"
 #include "tracing/model/twin/build_twin.hpp"
+#include "tracing/model/twin/contention.hpp"
 #include "tracing/model/twin/description/description_file.hpp"
 #include "tracing/model/twin/launch_file.hpp"
 #include "tracing/model/twin/overhead.hpp"
@@ -39,6 +40,13 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
   if (!stream) {
     throw std::runtime_error(fmt::format("'{}' cannot be written", path.string()));
   }
+}
+
+// Of few runs, one more or less makes another one the 99th of a hundred, so a short recording is simulated for longer.
+std::int64_t simulated_duration_ns(std::int64_t recorded_ns) {
+  constexpr std::int64_t kTimes = 10;
+  constexpr std::int64_t kLongest = 100'000'000'000;
+  return std::max(recorded_ns, std::min(kTimes * recorded_ns, kLongest));
 }
 
 std::size_t processors_here() {
@@ -97,10 +105,13 @@ int twin(const Arguments& arguments) {
     throw std::runtime_error(
         fmt::format("the trace in '{}' has no callbacks of nodes to make a twin of", arguments.directory.string()));
   }
+  const auto apply_what_ifs = [&](System& changed) {
+    for (const std::string& what_if : arguments.what_ifs) {
+      apply_what_if(what_if, changed);
+    }
+  };
   System changed = system;
-  for (const std::string& what_if : arguments.what_ifs) {
-    apply_what_if(what_if, changed);
-  }
+  apply_what_ifs(changed);
   const Figures recorded = figures_of(recording, system);
   if (arguments.run && arguments.calibration_s > 0) {
     calibrate(arguments, recorded, arguments.calibration_s, recording.has_ext_events, system);
@@ -111,13 +122,16 @@ int twin(const Arguments& arguments) {
   if (!arguments.folder.empty()) {
     write_twin(arguments, changed, recording.has_ext_events, changed.cpus != system.cpus);
   }
-  const auto duration_ns =
-      arguments.duration_s > 0 ? static_cast<std::int64_t>(arguments.duration_s * 1e9) : system.duration_ns;
+  const std::int64_t duration_ns = arguments.duration_s > 0 ? static_cast<std::int64_t>(arguments.duration_s * 1e9)
+                                                            : simulated_duration_ns(system.active_ns);
   twin_program::Comparison comparison;
   comparison.recorded = recorded;
-  comparison.simulated = Simulation(system).run(duration_ns);
+  System simulated = system;
+  take_off_simulated_waits(simulated);
+  comparison.simulated = Simulation(simulated).run(duration_ns);
   if (!arguments.what_ifs.empty()) {
-    comparison.changed = Simulation(changed).run(duration_ns);
+    apply_what_ifs(simulated);
+    comparison.changed = Simulation(simulated).run(duration_ns);
   }
   if (arguments.run) {
     if (changed.cpus != system.cpus && changed.cpus > processors_here()) {

@@ -77,6 +77,9 @@ std::string errors(const std::optional<FigureSummary>& of, const FigureSummary& 
             : fmt::format("{:>7} {:>7}", "-", "-");
 }
 
+// Of fewer runs, the median and the p99 are those of single runs.
+constexpr std::uint64_t kEnoughRuns = 10;
+
 // How well a twin fits: of the rows that both have, the median of the errors, and how many are near enough.
 struct Fit {
   std::size_t rows = 0;
@@ -91,7 +94,7 @@ Fit fit_of(const std::vector<Row>& rows, std::optional<FigureSummary> Row::*colu
   std::vector<double> medians;
   std::vector<double> p99s;
   for (const Row& row : rows) {
-    if (const auto& of = row.*column) {
+    if (const auto& of = row.*column; of && row.recorded.count >= kEnoughRuns) {
       medians.push_back(std::abs(error_of(of->median_ns, row.recorded.median_ns)));
       p99s.push_back(std::abs(error_of(of->p99_ns, row.recorded.p99_ns)));
       fit.near_medians += medians.back() <= 0.10 ? 1 : 0;
@@ -111,8 +114,9 @@ Fit fit_of(const std::vector<Row>& rows, std::optional<FigureSummary> Row::*colu
 std::string fit_line(const std::string& what, const Fit& fit) {
   return fmt::format(
       "{}: error of the medians {:.0f} %, of the p99 {:.0f} %; {} of {} medians within 10 %, {} of {} p99 within 25 "
-      "%\n",
-      what, 100 * fit.median_error, 100 * fit.p99_error, fit.near_medians, fit.rows, fit.near_p99s, fit.rows);
+      "%, of those with {} runs or more\n",
+      what, 100 * fit.median_error, 100 * fit.p99_error, fit.near_medians, fit.rows, fit.near_p99s, fit.rows,
+      kEnoughRuns);
 }
 
 nlohmann::ordered_json times_json(const FigureSummary& of) {

@@ -65,6 +65,22 @@ class Twin(unittest.TestCase):
                     factor = 3 if one['name'] == '/pong, subscription /ping' else 1
                     self.assertAlmostEqual(one['what_if']['p50_ns'] / one['simulated']['p50_ns'], factor, delta=0.1 * factor)
 
+    def test_a_simulation_of_many_processes_has_their_figures(self):
+        file = self.directory / 'for_a_while.launch.xml'
+        file.write_text(f'<launch><include file="{EXAMPLES}/12_reference_system.launch.xml"><arg name="messages" value="0"/></include>'
+                        '<timer period="6"><shutdown/></timer></launch>')
+        self.launch('--isolate', file)
+        trace = next((self.directory / 'traces').glob('reference_system-*'))
+        folder = self.directory / 'many'
+        result = json.loads(self.launch('twin', trace, '-o', folder, '--json').stdout)
+        description = json.loads((folder / 'twin.json').read_text())
+        self.assertEqual([len(description[part]) for part in ('processes', 'nodes', 'executors', 'callbacks')], [24, 24, 24, 36])
+        fit = result['simulated_error']
+        self.assertGreaterEqual(fit['rows'], 60)
+        # A stall of the whole machine is nothing that callbacks cause: it may be in some of the tails.
+        self.assertGreaterEqual(fit['p50_within_10_percent'], 0.9 * fit['rows'], result)
+        self.assertGreaterEqual(fit['p99_within_25_percent'], 0.8 * fit['rows'], result)
+
     def test_writes_what_the_launcher_takes(self):
         folder = self.directory / 'written'
         text = self.launch('twin', self.trace, '-o', folder, '--what-if', 'executor=/pong:multi:3,priority=/ping:10').stdout

@@ -99,9 +99,11 @@ TEST(BuildTwin, TimersKeepTheirDistanceAlthoughTheirFirstCallsAreLate) {
   ASSERT_EQ(twin.callbacks.size(), 2u);
   EXPECT_EQ(twin.callbacks[0].phase_ns, 0);
   EXPECT_EQ(twin.callbacks[1].phase_ns, 40);
+  EXPECT_EQ(twin.active_ns, 661 - 20);  // without what the process does before
 }
 
-TEST(BuildTwin, ATimerStandsForWhatWasSentOutsideOfCallbacks) {
+// A node that publishes at these times, outside of callbacks.
+testing::HandRecording loop_of(const std::vector<std::int64_t>& times, std::int64_t end_ns) {
   testing::HandRecording hand;
   hand.add_process();
   const timeline::Index node = hand.add_node("/loop");
@@ -109,7 +111,7 @@ TEST(BuildTwin, ATimerStandsForWhatWasSentOutsideOfCallbacks) {
   hand.recording.timeline.topics.push_back("/a");
   hand.recording.timeline.publishers.push_back({node, 0});
   hand.recording.publishers.push_back({3, true, false});
-  for (std::int64_t time = 0; time < 100 * kMs; time += 10 * kMs) {
+  for (const std::int64_t time : times) {
     timeline::Message message;
     message.called_ns = message.published_ns = time;
     message.topic = 0;
@@ -117,13 +119,26 @@ TEST(BuildTwin, ATimerStandsForWhatWasSentOutsideOfCallbacks) {
     message.publishing_thread = 0;
     hand.recording.timeline.messages.push_back(message);
   }
-  hand.recording.timeline.end_ns = 100 * kMs;
-  const System twin = build_twin(hand.recording, {});
+  hand.recording.timeline.end_ns = end_ns;
+  return hand;
+}
+
+TEST(BuildTwin, ATimerStandsForWhatWasSentOutsideOfCallbacks) {
+  const System twin = build_twin(loop_of({0, 10 * kMs, 20 * kMs, 30 * kMs, 40 * kMs}, 50 * kMs).recording, {});
   ASSERT_EQ(twin.callbacks.size(), 1u);
   EXPECT_TRUE(twin.callbacks[0].replaces_loop);
   EXPECT_EQ(twin.callbacks[0].period_ns, 10 * kMs);
   EXPECT_EQ(twin.publishers[0].qos.depth, 3u);
   EXPECT_NE(twin.missing.front().find("a timer of 10 ms stands for that"), std::string::npos) << twin.missing.front();
+}
+
+// Four messages in 20 us are no timer of 6.67 us.
+TEST(BuildTwin, NoTimerStandsForABurst) {
+  const System twin = build_twin(loop_of({0, 5'000, 12'000, 20'000}, 1'000 * kMs).recording, {});
+  EXPECT_TRUE(twin.callbacks.empty());
+  EXPECT_NE(twin.missing.front().find("sent 4 messages on /a outside of its callbacks; the twin does not"),
+            std::string::npos)
+      << twin.missing.front();
 }
 
 TEST(BuildTwin, ASubscriptionKeepsItsQualityOfService) {

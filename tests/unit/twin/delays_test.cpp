@@ -8,22 +8,22 @@
 namespace tracing::twin {
 namespace {
 
+using Times = std::vector<std::int64_t>;
+
+std::vector<WayTimes> ways_in(const testing::HandRecording& hand) {
+  return way_times(hand.recording, find_executors(hand.recording), RunTimes(hand.recording));
+}
+
 TEST(Delays, TellsWhatWaitedForTheExecutorFromWhatDidNot) {
   testing::HandRecording hand;
   hand.add_process();
   const timeline::Index node = hand.add_node("/node");
   const timeline::Index thread = hand.add_thread(1);
   const timeline::Index subscription = hand.add_subscription(node, "/a");
-  const auto message = [&](std::int64_t sent_ns, timeline::Index instance) {
-    timeline::Message sent;
-    sent.published_ns = sent_ns;
-    sent.receiving_instance = instance;
-    hand.recording.timeline.messages.push_back(sent);
-  };
-  message(100, hand.run(subscription, thread, 130, 200));  // nothing before
-  message(150, hand.run(subscription, thread, 207, 300));  // while the first one ran
-  message(400, hand.run(subscription, thread, 440, 500));
-  const std::vector<WayTimes> times = way_times(hand.recording, find_executors(hand.recording), 2);
+  hand.send(100, hand.run(subscription, thread, 130, 200));  // nothing before
+  hand.send(150, hand.run(subscription, thread, 207, 300));  // while the first one ran
+  hand.send(400, hand.run(subscription, thread, 440, 500));
+  const std::vector<WayTimes> times = ways_in(hand);
   EXPECT_EQ(times[subscription].delays.values, (std::vector<std::int64_t>{30, 40}));
   EXPECT_EQ(times[subscription].gaps.values, std::vector<std::int64_t>{7});
 }
@@ -36,20 +36,70 @@ TEST(Delays, FewGapsOfSeveralThreadsAreNotThoseOfOne) {
   const timeline::Index first = hand.add_thread(1);
   const timeline::Index second = hand.add_thread(2);
   const timeline::Index subscription = hand.add_subscription(node, "/a");
-  const auto message = [&](std::int64_t sent_ns, timeline::Index instance) {
-    timeline::Message sent;
-    sent.published_ns = sent_ns;
-    sent.receiving_instance = instance;
-    hand.recording.timeline.messages.push_back(sent);
-  };
   for (int i = 0; i < 20; ++i) {
-    message(1000 * i + 100, hand.run(subscription, i % 2 == 0 ? first : second, 1000 * i + 130, 1000 * i + 200));
+    hand.send(1000 * i + 100, hand.run(subscription, i % 2 == 0 ? first : second, 1000 * i + 130, 1000 * i + 200));
   }
   hand.run(subscription, first, 20'100, 20'400);
   hand.run(subscription, second, 20'120, 20'400);
-  message(20'300, hand.run(subscription, first, 29'000, 29'100));
-  const std::vector<WayTimes> times = way_times(hand.recording, find_executors(hand.recording), 2);
+  hand.send(20'300, hand.run(subscription, first, 29'000, 29'100));
+  const std::vector<WayTimes> times = ways_in(hand);
   EXPECT_EQ(times[subscription].gaps.quantile(0.99), 30);
+  EXPECT_EQ(times[subscription].delays.quantile(1), 8'700);
+}
+
+TEST(Delays, OfSeveralRunsBeforeItTheGapIsBehindTheLastOne) {
+  testing::HandRecording hand;
+  hand.add_process();
+  const timeline::Index node = hand.add_node("/node");
+  const timeline::Index thread = hand.add_thread(1);
+  const timeline::Index timer = hand.add_timer(node);
+  const timeline::Index subscription = hand.add_subscription(node, "/a");
+  hand.run(timer, thread, 1'000, 1'100);
+  hand.run(timer, thread, 1'110, 1'200);
+  hand.send(1'050, hand.run(subscription, thread, 1'207, 1'300));
+  EXPECT_EQ(ways_in(hand)[subscription].gaps.values, Times{7});
+}
+
+// The executor was free again before the message could be there.
+TEST(Delays, AnExecutorThatIsBusyForAMomentDoesNotKeepAMessage) {
+  testing::HandRecording hand;
+  hand.add_process();
+  const timeline::Index node = hand.add_node("/node");
+  const timeline::Index thread = hand.add_thread(1);
+  const timeline::Index timer = hand.add_timer(node);
+  const timeline::Index subscription = hand.add_subscription(node, "/a");
+  hand.send(500, hand.run(subscription, thread, 540, 550));
+  hand.run(timer, thread, 990, 1'010);
+  hand.send(1'000, hand.run(subscription, thread, 1'050, 1'060));
+  EXPECT_EQ(ways_in(hand)[subscription].delays.values, (Times{40, 50}));
+}
+
+TEST(Delays, MessagesOfTheSameProcessHaveTimesOfTheirOwn) {
+  testing::HandRecording hand;
+  hand.add_process();
+  hand.add_process();
+  const timeline::Index here = hand.add_node("/here", 1);
+  const timeline::Index there = hand.add_node("/there", 0);
+  const timeline::Index subscription = hand.add_subscription(here, "/a");
+  const timeline::Index thread = hand.add_thread(2, 1);
+  hand.recording.timeline.publishers = {{here, 0}, {there, 0}};
+  hand.send(100, hand.run(subscription, thread, 105, 110), 0);
+  hand.send(200, hand.run(subscription, thread, 260, 270), 1);
+  const WayTimes ways = ways_in(hand)[subscription];
+  EXPECT_EQ(ways.near_delays.values, Times{5});
+  EXPECT_EQ(ways.delays.values, Times{60});
+}
+
+TEST(Delays, ATimerIsCalledALittleLate) {
+  testing::HandRecording hand;
+  hand.add_process();
+  const timeline::Index node = hand.add_node("/node");
+  const timeline::Index thread = hand.add_thread(1);
+  const timeline::Index timer = hand.add_timer(node, 1'000);
+  for (const std::int64_t start : {2'700, 3'000, 4'001, 5'020, 6'000, 7'001, 8'002}) {  // the first one in its own time
+    hand.run(timer, thread, start, start + 10);
+  }
+  EXPECT_EQ(ways_in(hand)[timer].delays.values, (Times{0, 0, 1, 1, 2, 20}));
 }
 
 }  // namespace

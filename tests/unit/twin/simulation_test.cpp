@@ -129,6 +129,42 @@ TEST(Simulation, ATimerThatIsLateLeavesOutPeriods) {
   EXPECT_EQ(callback(Simulation(small.system).run(80 * kMs), "timer").size(), 3u);
 }
 
+TEST(Simulation, ATimerIsLateIfItsThreadHasToWakeUp) {
+  SmallSystem small;
+  const Index timer = small.add_timer("timer", 100 * kMs, kMs);
+  small.system.callbacks[timer].delays.values = {4 * kMs};
+  const auto ends_until = [&](std::int64_t time_ns) {
+    return callback(Simulation(small.system).run(time_ns), "timer").size();
+  };
+  EXPECT_EQ(ends_until(5 * kMs - 1), 0u);
+  EXPECT_EQ(ends_until(5 * kMs), 1u);
+  // A thread that is busy until 5 ms finds at 5 ms what is due at 3 ms.
+  const Index other = small.add_timer("other", 100 * kMs, 5 * kMs);
+  small.system.callbacks[timer].phase_ns = 3 * kMs;
+  EXPECT_EQ(ends_until(6 * kMs - 1), 0u);
+  EXPECT_EQ(ends_until(6 * kMs), 1u);
+  small.system.callbacks[other].run_times.values = {0};
+  EXPECT_EQ(ends_until(8 * kMs - 1), 0u);
+  EXPECT_EQ(ends_until(8 * kMs), 1u);
+}
+
+TEST(Simulation, MessagesOfTheSameProcessTakeTheirOwnTime) {
+  SmallSystem small;
+  const Index near = small.add_timer("near", 10 * kMs, 0);
+  const Index topic = small.publish(near, "/a", 0);
+  const Index far = small.add_timer("far", 10 * kMs, 0, small.add_process("/two"));
+  small.system.callbacks[far].phase_ns = 5 * kMs;
+  small.system.publishers.push_back({1, topic, {}});
+  small.system.callbacks[far].outputs.push_back(small.system.callbacks[near].outputs[0]);
+  small.system.callbacks[far].outputs[0].publisher = 1;
+  const Index sub = small.add_subscription("sub", topic, 0, 3 * kMs);
+  small.system.callbacks[sub].near_delays.values = {kMs};
+  small.system.cpus = 2;
+  const Figures figures = Simulation(small.system).run(9 * kMs);
+  EXPECT_EQ(hop(figures, "/one", "sub"), Times{kMs});
+  EXPECT_EQ(hop(figures, "/two", "sub"), Times{3 * kMs});
+}
+
 TEST(Simulation, AnEventsExecutorTakesWhatComesInItsOrder) {
   SmallSystem small;
   const Index sender = small.add_timer("sender", 100 * kMs, 2 * kMs, small.add_process("/two"));

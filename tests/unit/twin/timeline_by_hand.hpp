@@ -53,6 +53,14 @@ struct HandRecording {
     recording.timeline.end_ns = std::max(recording.timeline.end_ns, end_ns);
     return static_cast<timeline::Index>(recording.timeline.instances.size() - 1);
   }
+  // A message that led to the run.
+  void send(std::int64_t published_ns, timeline::Index instance, timeline::Index publisher = timeline::kNone) {
+    timeline::Message message;
+    message.published_ns = published_ns;
+    message.publisher = publisher;
+    message.receiving_instance = instance;
+    recording.timeline.messages.push_back(message);
+  }
   void wait(std::int64_t vtid, std::int64_t begin_ns, std::int64_t end_ns, ProcessId process = 0) {
     recording.waits.push_back({{process, vtid}, begin_ns, end_ns});
     recording.looks.push_back({{process, vtid}, 1});

@@ -227,8 +227,8 @@ class Builder {
   }
 
   void add_callbacks() {
-    const std::vector<WayTimes> ways = way_times(recording_, found_, system_.cpus);
     const RunTimes runs(recording_);
+    const std::vector<WayTimes> ways = way_times(recording_, found_, runs);
     callback_of_.assign(timeline_.callbacks.size(), kNone);
     for (std::size_t index = 0; index < timeline_.callbacks.size(); ++index) {
       const timeline::Callback& recorded = timeline_.callbacks[index];
@@ -250,6 +250,7 @@ class Builder {
       callback.silent_run_times = runs.silent(index);
       callback.blocked = runs.blocked(index);
       callback.delays = ways[index].delays;
+      callback.near_delays = ways[index].near_delays;
       callback.gaps = ways[index].gaps;
       if (callback.kind == Callback::Kind::kTimer) {
         callback.phase_ns = runs.first_due_ns(index, recorded.period_ns) - timeline_.begin_ns;
@@ -302,7 +303,9 @@ class Builder {
                                  ? "messages on " + system_.topics[system_.publishers[publisher].topic].name
                                  : "requests to " + system_.clients[client].service;
     const std::string name = system_.nodes[node].name;
-    if (times.size() < 3 || times.back() == times.front()) {
+    // A burst has no rate: what a report says of rates holds here, too.
+    const bool is_burst = 10 * (times.back() - times.front()) < timeline_.end_ns - times.front();
+    if (times.size() < 3 || is_burst) {
       miss(fmt::format("{} sent {} {} outside of its callbacks; the twin does not", name, times.size(), what));
       return;
     }
@@ -334,6 +337,11 @@ class Builder {
     for (Callback& callback : system_.callbacks) {
       callback.phase_ns = callback.kind == Callback::Kind::kTimer && callback.runs > 0 ? callback.phase_ns - first : 0;
     }
+    std::int64_t last = 0;
+    for (const timeline::Instance& instance : timeline_.instances) {
+      last = std::max(last, instance.end_ns - timeline_.begin_ns);
+    }
+    system_.active_ns = first < last ? last - first : system_.duration_ns;
   }
 
   void name_assumptions() {

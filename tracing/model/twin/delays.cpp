@@ -13,42 +13,6 @@ namespace {
 
 constexpr std::size_t kEnough = 20;
 
-// The most callbacks that ran at the same time, between two times.
-class Load {
- public:
-  explicit Load(const std::vector<timeline::Instance>& instances) {
-    for (const timeline::Instance& instance : instances) {
-      changes_.push_back({instance.start_ns, 1});
-      changes_.push_back({instance.end_ns, -1});
-    }
-    std::sort(changes_.begin(), changes_.end(), [](const Change& left, const Change& right) {
-      return left.time_ns != right.time_ns ? left.time_ns < right.time_ns : left.running < right.running;
-    });
-    int running = 0;
-    for (Change& change : changes_) {
-      running += change.running;
-      change.running = running;
-    }
-  }
-
-  int most(std::int64_t begin_ns, std::int64_t end_ns) const {
-    auto change = std::upper_bound(changes_.begin(), changes_.end(), begin_ns,
-                                   [](std::int64_t time, const Change& other) { return time < other.time_ns; });
-    int most = change == changes_.begin() ? 0 : (change - 1)->running;
-    for (; change != changes_.end() && change->time_ns < end_ns; ++change) {
-      most = std::max(most, change->running);
-    }
-    return most;
-  }
-
- private:
-  struct Change {
-    std::int64_t time_ns = 0;
-    int running = 0;  // the difference, then the number from this time on
-  };
-  std::vector<Change> changes_;
-};
-
 // When each executor had a free thread, and each group nothing that ran.
 class Busy {
  public:
@@ -99,11 +63,11 @@ class Busy {
   }
 
  private:
-  // When the one of these instances ends that runs at this time; the time itself if none does.
+  // When the one of these instances ends that has begun before this time and runs then; the time itself if none does.
   std::int64_t end_of_running(const std::vector<timeline::Index>& instances, std::int64_t time_ns) const {
-    const auto behind = std::upper_bound(
+    const auto behind = std::lower_bound(
         instances.begin(), instances.end(), time_ns,
-        [&](std::int64_t time, timeline::Index index) { return time < timeline_.instances[index].start_ns; });
+        [&](timeline::Index index, std::int64_t time) { return timeline_.instances[index].start_ns < time; });
     return behind == instances.begin() ? time_ns : std::max(time_ns, timeline_.instances[*(behind - 1)].end_ns);
   }
 
@@ -114,65 +78,131 @@ class Busy {
   std::vector<std::vector<timeline::Index>> by_group_;
 };
 
-struct Samples {
-  std::vector<std::int64_t> quiet;
-  std::vector<std::int64_t> loaded;
-  std::vector<std::int64_t> gaps;
+// What was ready when, and the run that it led to.
+struct Way {
+  timeline::Index instance = timeline::kNone;
+  std::int64_t ready_ns = 0;
+  bool is_near = false;  // a message of the same process
 };
 
-}  // namespace
-
-std::vector<WayTimes> way_times(const Recording& recording, const FoundExecutors& executors, std::size_t cpus) {
-  const timeline::Timeline& timeline = recording.timeline;
-  const Load load(timeline.instances);
-  const int quiet_load = std::max(1, static_cast<int>(cpus) - 1);
-  const Busy busy(timeline, executors);
-  std::vector<Samples> samples(timeline.callbacks.size());
-  // Of each executor: gaps of runs that a thread found ready when it had ended another one.
-  std::vector<std::vector<std::int64_t>> of_executor(executors.executors.size());
+std::vector<Way> ways_of(const timeline::Timeline& timeline, const RunTimes& runs) {
+  std::vector<Way> ways;
   for (const timeline::Message& message : timeline.messages) {
     if (message.receiving_instance == timeline::kNone) {
       continue;
     }
     const timeline::Instance& instance = timeline.instances[message.receiving_instance];
-    Samples& of = samples[instance.callback];
-    const std::int64_t before = busy.until(instance.callback, message.published_ns);
-    const std::int64_t delay = instance.start_ns - message.published_ns;
-    if (delay < 0) {
+    if (instance.start_ns < message.published_ns) {
       continue;  // clocks of two machines
     }
+    const timeline::Index publisher = message.publisher;
+    const timeline::Index node = publisher == timeline::kNone ? timeline::kNone : timeline.publishers[publisher].node;
+    const bool is_near =
+        node != timeline::kNone && timeline.nodes[node].process == timeline.callbacks[instance.callback].process;
+    ways.push_back({message.receiving_instance, message.published_ns, is_near});
+  }
+  std::vector<std::int64_t> due_ns(timeline.callbacks.size());  // of timers that ran: a time when one was due
+  for (timeline::Index index = 0; index < timeline.instances.size(); ++index) {
+    const timeline::Instance& instance = timeline.instances[index];
+    const timeline::Callback& callback = timeline.callbacks[instance.callback];
+    if (callback.owner != CallbackResult::Owner::kTimer || callback.period_ns <= 0) {
+      continue;
+    }
+    // The first call comes when the executor begins, up to a period late.
+    if (due_ns[instance.callback] == 0) {
+      due_ns[instance.callback] = runs.first_due_ns(instance.callback, callback.period_ns);
+      continue;
+    }
+    const std::int64_t late_ns = (instance.start_ns - due_ns[instance.callback]) % callback.period_ns;
+    // What seems to be as late as that is a little before the time that is taken for the one when it is due.
+    ways.push_back({index, instance.start_ns - (late_ns > callback.period_ns / 2 ? 0 : late_ns), false});
+  }
+  return ways;
+}
+
+struct Samples {
+  struct Busy {
+    std::int64_t waited_ns = 0;  // until the executor was free
+    std::int64_t gap_ns = 0;     // then
+  };
+  std::vector<std::int64_t> delays;
+  std::vector<std::int64_t> near_delays;
+  std::vector<Busy> busy;
+
+  // If the executor was busy for a shorter time than a message takes at least, it did not keep the message.
+  std::vector<std::int64_t> take_gaps() {
+    const std::int64_t least_ns = delays.empty() ? 0 : *std::min_element(delays.begin(), delays.end());
+    std::vector<std::int64_t> gaps;
+    for (const Busy& one : busy) {
+      if (one.waited_ns >= least_ns) {
+        gaps.push_back(one.gap_ns);
+      } else {
+        delays.push_back(one.waited_ns + one.gap_ns);
+      }
+    }
+    std::erase_if(busy, [&](const Busy& one) { return one.waited_ns < least_ns; });
+    return gaps;
+  }
+  void add_busy_to_delays() {
+    for (const Busy& one : busy) {
+      delays.push_back(one.waited_ns + one.gap_ns);
+    }
+  }
+};
+
+}  // namespace
+
+std::vector<WayTimes> way_times(const Recording& recording, const FoundExecutors& executors, const RunTimes& runs) {
+  const timeline::Timeline& timeline = recording.timeline;
+  const Busy busy(timeline, executors);
+  std::vector<Samples> samples(timeline.callbacks.size());
+  // Of each executor: gaps of runs that a thread found ready when it had ended another one.
+  std::vector<std::vector<std::int64_t>> of_executor(executors.executors.size());
+  for (const Way& way : ways_of(timeline, runs)) {
+    const timeline::Instance& instance = timeline.instances[way.instance];
+    Samples& of = samples[instance.callback];
+    const std::int64_t before = busy.until(instance.callback, way.ready_ns);
     const std::size_t executor = executors.executor_of[instance.callback];
-    const timeline::Instance* const last = busy.before(message.receiving_instance);
-    if (executor != FoundExecutors::kNone && last != nullptr && last->end_ns > message.published_ns &&
-        last->end_ns <= instance.start_ns) {
+    const timeline::Instance* const last = busy.before(way.instance);
+    const bool follows = last != nullptr && last->end_ns > way.ready_ns && last->end_ns <= instance.start_ns;
+    if (follows && executor != FoundExecutors::kNone) {
       of_executor[executor].push_back(instance.start_ns - last->end_ns);
     }
-    if (before > message.published_ns) {
-      of.gaps.push_back(std::max<std::int64_t>(0, instance.start_ns - before));
+    // One that was sent before the last one got its callback was behind it all the way.
+    const bool is_behind = follows && last->callback == instance.callback;
+    if (before > way.ready_ns || is_behind) {
+      // Of several runs that it had to wait for, the last one.
+      const std::int64_t free_ns = follows ? std::max(before, last->end_ns) : before;
+      of.busy.push_back({free_ns - way.ready_ns, std::max<std::int64_t>(0, instance.start_ns - free_ns)});
     } else {
-      (load.most(message.published_ns, instance.start_ns) <= quiet_load ? of.quiet : of.loaded).push_back(delay);
+      (way.is_near ? of.near_delays : of.delays).push_back(instance.start_ns - way.ready_ns);
     }
   }
   std::vector<WayTimes> times(samples.size());
   for (std::size_t index = 0; index < samples.size(); ++index) {
     Samples& of = samples[index];
-    if (of.quiet.size() < kEnough) {
-      of.quiet.insert(of.quiet.end(), of.loaded.begin(), of.loaded.end());
+    if (of.delays.empty()) {
+      of.delays.swap(of.near_delays);
     }
-    if (of.quiet.empty()) {
+    std::vector<std::int64_t> gaps = of.take_gaps();
+    if (of.delays.empty()) {
       // The executor was never free. What a message needs at least is in the gap.
-      of.quiet = of.gaps;
+      of.delays = gaps;
     }
     const std::size_t executor = executors.executor_of[index];
     const bool has_threads = executor != FoundExecutors::kNone && executors.executors[executor].threads.size() > 1;
-    if (of.gaps.size() < kEnough && (of.gaps.empty() || has_threads)) {
+    if (gaps.size() < kEnough && (gaps.empty() || has_threads)) {
       // An executor with several threads is seldom kept by its own callbacks, so its few gaps are those of a busy
-      // machine. With fewer threads it will have many: such as its threads had with other callbacks, or at most the
-      // time of a message that a thread is woken for.
+      // machine, and its messages were on their way all the time. With fewer threads it will have many: such as its
+      // threads had with other callbacks, or at most the time of a message that a thread is woken for.
       const bool has_others = executor != FoundExecutors::kNone && of_executor[executor].size() >= kEnough;
-      of.gaps = has_others ? of_executor[executor] : of.quiet;
+      const std::vector<std::int64_t> own = std::exchange(gaps, has_others ? of_executor[executor] : of.delays);
+      if (!own.empty()) {
+        of.add_busy_to_delays();
+      }
     }
-    times[index] = {Distribution::of(std::move(of.quiet)), Distribution::of(std::move(of.gaps))};
+    times[index] = {Distribution::of(std::move(of.delays)), Distribution::of(std::move(of.near_delays)),
+                    Distribution::of(std::move(gaps))};
   }
   return times;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long the way of a message takes, apart from what waits for executors and processors: that is for the simulation
-// to find.
+// How long it takes until a message or a timer that is due gets its callback, apart from what waits for the executor:
+// that is for the simulation to find.
 #pragma once
 
 #include <vector>
@@ -9,17 +9,20 @@
 #include "tracing/model/twin/description/twin_system.hpp"
 #include "tracing/model/twin/executors.hpp"
 #include "tracing/model/twin/recording.hpp"
+#include "tracing/model/twin/run_times.hpp"
 
 namespace tracing::twin {
 
 struct WayTimes {
-  Distribution delays;  // from the publication to the begin of the callback, if thread and group had nothing else to do
-  Distribution gaps;    // from the end of the callback before to the begin, if the message was there by then
+  // From the publication, or the time when a timer is due, to the begin of the callback, if thread and group had
+  // nothing else to do.
+  Distribution delays;
+  Distribution near_delays;  // of messages of the same process, if others come, too
+  Distribution gaps;         // from the end of the callback before to the begin, if it was due by then
 };
 
-// By callback of the timeline. `cpus`: of the machine. A delay is taken from messages beside which the callbacks left a
-// processor free, if there are enough of them.
-std::vector<WayTimes> way_times(const Recording& recording, const FoundExecutors& executors, std::size_t cpus);
+// By callback of the timeline.
+std::vector<WayTimes> way_times(const Recording& recording, const FoundExecutors& executors, const RunTimes& runs);
 
 // Sets the delays of services and of the callbacks of clients. `client_of`: the client of the system, by that of the
 // recording, or kNone.

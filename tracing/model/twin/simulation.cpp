@@ -17,12 +17,17 @@ Simulation::Simulation(const System& system) : system_(system), rules_(system), 
     }
   }
   running_.resize(system.groups.size());
+  waits_.resize(system.callbacks.size());
   receivers_.resize(system.topics.size());
   callbacks_.reserve(system.callbacks.size());
   for (Index index = 0; index < system.callbacks.size(); ++index) {
     const Callback& callback = system.callbacks[index];
     const std::uint64_t seed = system.seed * 40'503 + 7 * index;
-    callbacks_.push_back({{}, callback.phase_ns, false, 0, Draw(callback.delays, seed), Draw(callback.gaps, seed + 3)});
+    callbacks_.push_back({.queue = {},
+                          .due_ns = callback.phase_ns,
+                          .delays = Draw(callback.delays, seed),
+                          .near_delays = Draw(callback.near_delays, seed + 2),
+                          .gaps = Draw(callback.gaps, seed + 3)});
     executors_[system.groups[callback.group].executor].callbacks.push_back(index);
     if (callback.kind == Callback::Kind::kSubscription) {
       receivers_[callback.topic].push_back(index);
@@ -45,7 +50,7 @@ void Simulation::push(Event event) {
 }
 
 void Simulation::schedule_timer(Index callback) {
-  push({callbacks_[callback].due_ns, 0, Event::Kind::kTimer, callback, {}});
+  push({callbacks_[callback].due_ns, 0, Event::Kind::kDue, callback, {}});
 }
 
 Figures Simulation::run(std::int64_t duration_ns) {
@@ -74,6 +79,14 @@ Figures Simulation::run(std::int64_t duration_ns) {
     const Event event = queue_.top();
     queue_.pop();
     switch (event.kind) {
+      case Event::Kind::kDue: {
+        // A thread that waits is woken; one that is busy finds the timer when it looks next.
+        const bool is_woken = could_run(event.what);
+        const std::int64_t late_ns = is_woken ? callbacks_[event.what].delays.next() : 0;
+        callbacks_[event.what].arrived_ns = is_woken ? now_ns_ + late_ns : -1;
+        push({now_ns_ + late_ns, 0, Event::Kind::kTimer, event.what, {}});
+        break;
+      }
       case Event::Kind::kTimer: {
         callbacks_[event.what].is_due = true;
         const std::size_t executor = system_.groups[system_.callbacks[event.what].group].executor;
@@ -91,6 +104,16 @@ Figures Simulation::run(std::int64_t duration_ns) {
         break;
     }
   }
+}
+
+bool Simulation::could_run(Index callback) const {
+  const Index group = system_.callbacks[callback].group;
+  if (!system_.groups[group].reentrant && running_[group] > 0) {
+    return false;
+  }
+  const std::vector<std::size_t>& threads = executors_[system_.groups[group].executor].threads;
+  return std::any_of(threads.begin(), threads.end(),
+                     [&](std::size_t thread) { return threads_[thread].callback == kNone; });
 }
 
 void Simulation::arrive(Index index, Message message) {
@@ -160,7 +183,7 @@ void Simulation::take(std::size_t index, Index callback, bool goes_on) {
   ++running_[system_.callbacks[callback].group];
   if (state.is_due) {
     state.is_due = false;
-    thread.message = {state.due_ns, kNone, kNone, 0};
+    thread.message = {state.due_ns, kNone, kNone, 0, state.arrived_ns};
     // As rcl does: periods that have passed altogether are left out.
     const std::int64_t period = system_.callbacks[callback].period_ns;
     state.due_ns += period;
@@ -200,6 +223,9 @@ void Simulation::step_done(std::size_t index) {
     thread.begin_ns = now_ns_;
     thread.run = rules_.next_run(thread.callback);
     const Message& message = thread.message;
+    if (message.arrived_ns >= 0) {
+      waits_[thread.callback].begins.push_back(now_ns_ - message.arrived_ns);
+    }
     if (callback.kind == Callback::Kind::kSubscription) {
       const std::string& node = system_.nodes[system_.publishers[message.publisher].node].name;
       figures_[{FigureKind::kHop, hop_name(node, callback.name)}].push_back(now_ns_ - message.sent_ns);
@@ -231,17 +257,24 @@ void Simulation::step_done(std::size_t index) {
 }
 
 void Simulation::send(const Output& output) {
-  const auto deliver = [&](Index callback, const Message& message) {
+  const auto process_of = [&](Index callback) {
+    return system_.nodes[system_.groups[system_.callbacks[callback].group].node].process;
+  };
+  const auto deliver = [&](Index callback, Message message) {
     CallbackState& state = callbacks_[callback];
-    state.last_ns = std::max(state.last_ns, now_ns_ + state.delays.next());
+    const bool is_near = !system_.callbacks[callback].near_delays.empty() && message.publisher != kNone &&
+                         system_.nodes[system_.publishers[message.publisher].node].process == process_of(callback);
+    const std::int64_t arrival_ns = now_ns_ + (is_near ? state.near_delays : state.delays).next();
+    message.arrived_ns = could_run(callback) && arrival_ns >= state.last_ns ? arrival_ns : -1;
+    state.last_ns = std::max(state.last_ns, arrival_ns);
     push({state.last_ns, 0, Event::Kind::kArrival, callback, message});
   };
   if (output.publisher != kNone) {
     for (const Index callback : receivers_[system_.publishers[output.publisher].topic]) {
-      deliver(callback, {now_ns_, output.publisher, kNone, 0});
+      deliver(callback, {now_ns_, output.publisher, kNone, 0, -1});
     }
   } else if (const auto service = services_.find(system_.clients[output.client].service); service != services_.end()) {
-    deliver(service->second, {now_ns_, kNone, output.client, now_ns_});
+    deliver(service->second, {now_ns_, kNone, output.client, now_ns_, -1});
   }
 }
 
@@ -249,14 +282,15 @@ void Simulation::end(std::size_t index) {
   Thread& thread = threads_[index];
   const Callback& callback = system_.callbacks[thread.callback];
   figures_[{FigureKind::kCallback, callback.name}].push_back(now_ns_ - thread.begin_ns);
+  waits_[thread.callback].runs.push_back(std::max<std::int64_t>(0, now_ns_ - thread.begin_ns - thread.run.time_ns));
   --running_[callback.group];
   if (callback.kind == Callback::Kind::kService) {
     if (const auto answer = answers_.find(thread.message.client); answer != answers_.end()) {
       CallbackState& state = callbacks_[answer->second];
-      state.last_ns = std::max(state.last_ns, now_ns_ + state.delays.next());
       Message response = thread.message;
       response.sent_ns = now_ns_;
-      push({state.last_ns, 0, Event::Kind::kArrival, answer->second, response});
+      response.arrived_ns = -1;
+      push({now_ns_ + state.delays.next(), 0, Event::Kind::kArrival, answer->second, response});
     }
   }
   thread.callback = kNone;

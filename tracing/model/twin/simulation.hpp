@@ -23,12 +23,20 @@
 
 namespace tracing::twin {
 
+// How long threads had to wait for a processor, or for what their executor began meanwhile, by callback.
+struct SimulatedWaits {
+  std::vector<std::int64_t> begins;  // of runs for which the executor was free: after their delay
+  std::vector<std::int64_t> runs;    // within them, all in all
+};
+
 class Simulation {
  public:
   // The system must outlive it.
   explicit Simulation(const System& system);
   // For this long, in virtual time. To be called once.
   Figures run(std::int64_t duration_ns);
+  // After it.
+  const std::vector<SimulatedWaits>& waits() const { return waits_; }
 
  private:
   // What a callback gets.
@@ -37,9 +45,10 @@ class Simulation {
     Index publisher = kNone;
     Index client = kNone;           // of a request or a response
     std::int64_t requested_ns = 0;  // likewise
+    std::int64_t arrived_ns = -1;   // -1: its executor was busy when it was sent
   };
   struct Event {
-    enum class Kind { kTimer, kArrival, kWake };
+    enum class Kind { kDue, kTimer, kArrival, kWake };
     std::int64_t time_ns = 0;
     std::uint64_t number = 0;
     Kind kind = Kind::kTimer;
@@ -51,10 +60,12 @@ class Simulation {
   };
   struct CallbackState {
     std::deque<Message> queue;
-    std::int64_t due_ns = 0;   // of a timer
-    bool is_due = false;       // likewise
-    std::int64_t last_ns = 0;  // the last arrival: messages stay in their order
+    std::int64_t due_ns = 0;       // of a timer
+    std::int64_t arrived_ns = -1;  // likewise, as that of a message
+    bool is_due = false;           // likewise
+    std::int64_t last_ns = 0;      // the last arrival: messages stay in their order
     Draw delays;
+    Draw near_delays;
     Draw gaps;
   };
   struct Thread {
@@ -74,6 +85,8 @@ class Simulation {
   };
 
   void push(Event event);
+  // Whether its executor has a free thread, and its group nothing that runs.
+  bool could_run(Index callback) const;
   void arrive(Index callback, Message message);
   bool is_ready(Index callback) const;
   std::optional<Index> next(ExecutorState& executor);
@@ -101,6 +114,7 @@ class Simulation {
   std::map<std::string, Index> services_;
   std::map<Index, Index> answers_;  // the callback of each client
   Figures figures_;
+  std::vector<SimulatedWaits> waits_;
 };
 
 }  // namespace tracing::twin

@@ -74,6 +74,7 @@ Json callback_json(const Callback& callback) {
   json["run_times_ns"] = callback.run_times.values;
   json["silent_run_times_ns"] = callback.silent_run_times.values;
   json["delays_ns"] = callback.delays.values;
+  json["near_delays_ns"] = callback.near_delays.values;
   json["gaps_ns"] = callback.gaps.values;
   return json;
 }
@@ -170,6 +171,7 @@ Callback read_callback(const Json& json, const System& system, std::size_t callb
   callback.run_times = read_distribution(json.at("run_times_ns"));
   callback.silent_run_times = read_distribution(json.at("silent_run_times_ns"));
   callback.delays = read_distribution(json.at("delays_ns"));
+  callback.near_delays = read_distribution(json.value("near_delays_ns", Json::array()));
   callback.gaps = read_distribution(json.at("gaps_ns"));
   return callback;
 }
@@ -210,11 +212,9 @@ void read_graph(const Json& json, System& system) {
 }  // namespace
 
 std::string description_of(const System& system) {
-  Json json = {{"version", kVersion},
-               {"duration_ns", system.duration_ns},
-               {"cpus", system.cpus},
-               {"seed", system.seed},
-               {"processor_times", system.processor_times}};
+  Json json = {{"version", kVersion},           {"duration_ns", system.duration_ns},
+               {"active_ns", system.active_ns}, {"cpus", system.cpus},
+               {"seed", system.seed},           {"processor_times", system.processor_times}};
   for (const char* list :
        {"missing", "processes", "executors", "nodes", "groups", "topics", "publishers", "clients", "callbacks"}) {
     json[list] = Json::array();
@@ -259,6 +259,7 @@ System parse_description(std::string_view text, const std::string& name) {
     }
     System system;
     system.duration_ns = json.at("duration_ns").get<std::int64_t>();
+    system.active_ns = json.value("active_ns", system.duration_ns);
     system.cpus = std::max<std::size_t>(1, json.at("cpus").get<std::size_t>());
     system.seed = json.at("seed").get<std::uint64_t>();
     system.processor_times = json.value("processor_times", true);

@@ -106,7 +106,8 @@ struct Callback {
   Distribution silent_run_times;
   std::int64_t overhead_ns = 0;  // that a stand-in needs beside its work, as a run of the twin has shown
   double blocked = 0;            // the part of a run in which it needs no processor
-  Distribution delays;           // from sending to the begin, if the executor waits for it
+  Distribution delays;           // from sending, or when a timer is due, to the begin, if the executor waits for it
+  Distribution near_delays;      // likewise, of messages of the same process; empty: as the others
   Distribution gaps;             // from the end of the callback before to the begin, if the executor was busy
   std::vector<Output> outputs;
 };
@@ -116,6 +117,7 @@ inline constexpr const char* kCallbackKinds[] = {"timer", "subscription", "servi
 
 struct System {
   std::int64_t duration_ns = 0;  // of the recording
+  std::int64_t active_ns = 0;    // from the time when the first timer was due to the end of the last callback
   std::size_t cpus = 1;
   std::uint64_t seed = 1;
   // Whether the times of runs are those that they had a processor. Otherwise they may have waited for one in them, and
