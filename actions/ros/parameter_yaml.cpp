@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <iterator>
+#include <string_view>
 
 #include "launcher/language/parameter_value.hpp"
 
@@ -30,6 +31,13 @@ bool reads_as_string(const std::string& text) {
   return begins_as_text && std::find(std::begin(kOtherTypes), std::end(kOtherTypes), lower) == std::end(kOtherTypes);
 }
 
+// A single byte in base64.
+std::string base64_of(std::byte byte) {
+  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const auto value = std::to_integer<std::size_t>(byte);
+  return {kDigits[value >> 2], kDigits[(value & 3) << 4], '=', '='};
+}
+
 std::string scalar_to_yaml(const ParameterScalar& scalar) {
   if (const bool* const boolean = std::get_if<bool>(&scalar)) {
     return *boolean ? "true" : "false";
@@ -46,6 +54,9 @@ std::string scalar_to_yaml(const ParameterScalar& scalar) {
     }
     std::string digits = fmt::format("{}", *number);
     return digits.find_first_of(".e") == std::string::npos ? digits + ".0" : digits;
+  }
+  if (const std::byte* const byte = std::get_if<std::byte>(&scalar)) {
+    return fmt::format("!!binary {}", base64_of(*byte));
   }
   std::string quoted = "\"";
   for (const char character : std::get<std::string>(scalar)) {

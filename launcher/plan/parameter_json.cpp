@@ -24,6 +24,9 @@ Json scalar_as_json(const ParameterScalar& scalar) {
   if (const double* const number = std::get_if<double>(&scalar)) {
     return number_as_json(*number);
   }
+  if (const std::byte* const byte = std::get_if<std::byte>(&scalar)) {
+    return std::to_integer<int>(*byte);
+  }
   return std::visit([](const auto& value) { return Json(value); }, scalar);
 }
 
@@ -96,7 +99,7 @@ nlohmann::ordered_json parameter_as_json(const ParameterValue& value) {
 }
 
 std::string parameter_type_name(const ParameterValue& value) {
-  static constexpr const char* kNames[] = {"bool", "integer", "double", "string"};
+  static constexpr const char* kNames[] = {"bool", "integer", "double", "string", "byte"};
   if (const auto* const scalar = std::get_if<ParameterScalar>(&value)) {
     return kNames[scalar->index()];
   }

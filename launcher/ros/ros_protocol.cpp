@@ -14,10 +14,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // A double keeps its type: JSON writers drop neither the point nor the exponent. Infinity and not-a-number are written
-// as text.
+// as text, and a byte as an object with its number.
 Json scalar_to_json(const ParameterScalar& scalar) {
   if (const double* const number = std::get_if<double>(&scalar); number != nullptr && !std::isfinite(*number)) {
     return {{"float", std::isnan(*number) ? "nan" : *number > 0 ? "inf" : "-inf"}};
+  }
+  if (const std::byte* const byte = std::get_if<std::byte>(&scalar)) {
+    return {{"byte", std::to_integer<int>(*byte)}};
   }
   return std::visit([](const auto& value) { return Json(value); }, scalar);
 }
@@ -34,6 +37,9 @@ ParameterScalar scalar_from_json(const Json& json) {
     case Json::value_t::string:
       return json.get<std::string>();
     default:
+      if (json.contains("byte")) {
+        return std::byte{json.at("byte").get<std::uint8_t>()};
+      }
       return std::stod(json.at("float").get<std::string>());
   }
 }

@@ -31,6 +31,9 @@ std::string python_scalar(const ParameterScalar& scalar, bool quote) {
   if (const double* const number = std::get_if<double>(&scalar)) {
     return python_float(*number);
   }
+  if (const std::byte* const byte = std::get_if<std::byte>(&scalar)) {
+    return fmt::format("b'\\x{:02x}'", std::to_integer<unsigned>(*byte));
+  }
   const std::string& text = std::get<std::string>(scalar);
   return quote ? fmt::format("'{}'", text) : text;
 }

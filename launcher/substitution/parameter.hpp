@@ -2,6 +2,7 @@
 // Values of ROS parameters, and the parameters that a scope gives to every later node.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -11,7 +12,8 @@
 
 namespace launch {
 
-using ParameterScalar = std::variant<bool, std::int64_t, double, std::string>;
+// A byte is the item of a list only.
+using ParameterScalar = std::variant<bool, std::int64_t, double, std::string, std::byte>;
 // All items of a list have one type.
 using ParameterValue = std::variant<ParameterScalar, std::vector<ParameterScalar>>;
 

@@ -47,6 +47,10 @@ struct SetValue {
     message.type = ParameterType::PARAMETER_STRING;
     message.string_value = value;
   }
+  void operator()(std::byte value) const {
+    message.type = ParameterType::PARAMETER_BYTE_ARRAY;
+    message.byte_array_value = {std::to_integer<std::uint8_t>(value)};
+  }
   void operator()(const ParameterScalar& value) const { std::visit(*this, value); }
   // All items have one type. A list without items is sent as ros2 launch sends it.
   void operator()(const std::vector<ParameterScalar>& list) const {
@@ -61,6 +65,11 @@ struct SetValue {
     } else if (std::holds_alternative<double>(list.front())) {
       message.type = ParameterType::PARAMETER_DOUBLE_ARRAY;
       message.double_array_value = items_of<double>(list);
+    } else if (std::holds_alternative<std::byte>(list.front())) {
+      message.type = ParameterType::PARAMETER_BYTE_ARRAY;
+      for (const std::byte byte : items_of<std::byte>(list)) {
+        message.byte_array_value.push_back(std::to_integer<std::uint8_t>(byte));
+      }
     } else {
       message.type = ParameterType::PARAMETER_STRING_ARRAY;
       message.string_array_value = items_of<std::string>(list);

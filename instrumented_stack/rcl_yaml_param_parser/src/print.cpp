@@ -39,6 +39,10 @@ void print(const rcl_variant_t& value) {
     print(*value.double_value);
   } else if (value.string_value != nullptr) {
     print(static_cast<const char*>(value.string_value));
+  } else if (value.byte_array_value != nullptr) {
+    for (size_t i = 0; i < value.byte_array_value->size; ++i) {
+      std::printf("0x%02x, ", static_cast<unsigned>(value.byte_array_value->values[i]));
+    }
   } else if (value.bool_array_value != nullptr) {
     print_list(value.bool_array_value->values, value.bool_array_value->size);
   } else if (value.integer_array_value != nullptr) {

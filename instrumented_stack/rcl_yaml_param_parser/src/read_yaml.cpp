@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "rcl_yaml_param_parser/typed_scalar.hpp"
 #include "words.hpp"
 
 namespace rcl_yaml {
@@ -40,9 +41,13 @@ class Event {
     const auto style = event_.data.scalar.style;
     return style == YAML_SINGLE_QUOTED_SCALAR_STYLE || style == YAML_DOUBLE_QUOTED_SCALAR_STYLE;
   }
-  bool has_string_tag() const {
-    const auto* tag = reinterpret_cast<const char*>(event_.data.scalar.tag);
-    return tag != nullptr && std::strcmp(tag, YAML_STR_TAG) == 0;
+  // Of a scalar, a list or a mapping.
+  std::string_view tag() const {
+    const yaml_char_t* const tag = type() == YAML_SCALAR_EVENT           ? event_.data.scalar.tag
+                                   : type() == YAML_SEQUENCE_START_EVENT ? event_.data.sequence_start.tag
+                                   : type() == YAML_MAPPING_START_EVENT  ? event_.data.mapping_start.tag
+                                                                         : nullptr;
+    return tag == nullptr ? "" : reinterpret_cast<const char*>(tag);
   }
   bool is_empty_scalar() const { return type() == YAML_SCALAR_EVENT && event_.data.scalar.length == 0 && !is_quoted(); }
 
@@ -103,7 +108,19 @@ Scalar read_scalar(Reader& reader, const Event& event, const std::string& name) 
   if (event.is_empty_scalar()) {
     reader.fail(event.line(), "parameter '" + name + "' has no value; an empty string is written \"\"");
   }
-  return event.is_quoted() || event.has_string_tag() ? event.text() : typed_scalar(event.text());
+  try {
+    return typed_scalar(event.text(), {event.is_quoted(), event.tag()});
+  } catch (const std::invalid_argument& error) {
+    reader.fail(event.line(), "parameter '" + name + "': " + error.what());
+  }
+}
+
+// A list or a mapping can only have the tag of its kind.
+void check_tag(Reader& reader, const Event& event, const char* expected) {
+  if (!event.tag().empty() && event.tag() != "!" && event.tag() != expected) {
+    reader.fail(event.line(), "the tag '" + std::string(event.tag()) + "' does not fit " +
+                                  (event.type() == YAML_SEQUENCE_START_EVENT ? "a list" : "a mapping"));
+  }
 }
 
 template <typename T>
@@ -128,8 +145,8 @@ std::optional<ParameterValue> read_list(Reader& reader, const std::string& name)
     }
     items.push_back(read_scalar(reader, event, name));
     if (items.back().index() != items.front().index()) {
-      reader.fail(event.line(), "the list of parameter '" + name + "' must be of one type, but begins with a " +
-                                    type_name(items.front()) + " and has a " + type_name(items.back()));
+      reader.fail(event.line(), "the list of parameter '" + name + "' must be of one type, but begins with " +
+                                    type_name(items.front()) + " and has " + type_name(items.back()));
     }
   }
   if (items.empty()) {
@@ -142,14 +159,24 @@ std::optional<ParameterValue> read_list(Reader& reader, const std::string& name)
       return list_of<std::int64_t>(items);
     case 2:
       return list_of<double>(items);
-    default:
+    case 3:
       return list_of<std::string>(items);
+    default:
+      break;
   }
+  // `param dump` writes bytes one by one.
+  Bytes bytes;
+  for (const Scalar& item : items) {
+    const Bytes& more = std::get<Bytes>(item);
+    bytes.insert(bytes.end(), more.begin(), more.end());
+  }
+  return bytes;
 }
 
 // Reads a scalar or list. `first` is its first event.
 std::optional<ParameterValue> read_any(Reader& reader, const Event& first, const std::string& name) {
   if (first.type() == YAML_SEQUENCE_START_EVENT) {
+    check_tag(reader, first, YAML_SEQ_TAG);
     return read_list(reader, name);
   }
   return std::visit([](auto value) -> ParameterValue { return value; }, read_scalar(reader, first, name));
@@ -180,6 +207,7 @@ void read_parameters_below(Reader& reader, const std::string& prefix, ParameterS
     Event value;
     reader.next(value);
     if (value.type() == YAML_MAPPING_START_EVENT) {
+      check_tag(reader, value, YAML_MAP_TAG);
       read_parameters_below(reader, name + ".", sink);
     } else {
       sink.add_parameter(name, read_any(reader, value, name), reader.place(value.line()));

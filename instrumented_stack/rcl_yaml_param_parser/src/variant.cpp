@@ -72,6 +72,7 @@ struct Fill {
   void operator()(const std::vector<std::string>& list) const {
     make_string_array(variant.string_array_value, list.size(), allocator, [&list](std::size_t i) { return list[i]; });
   }
+  void operator()(const std::vector<std::uint8_t>& list) const { array(variant.byte_array_value, list); }
 
   template <typename ArrayT, typename ListT>
   void array(ArrayT*& target, const ListT& list) const {

@@ -112,8 +112,8 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{{"-p", ":=1"}, "'-p :=1' is no parameter: '' is no valid parameter name"},
         Wrong{{"--param", "x:="}, "'--param x:=' is no parameter: no value stands after ':='"},
         Wrong{{"-p", "x:=[1, a]"},
-              "'-p x:=[1, a]' is no parameter: the list of parameter 'x' must be of one type, but begins with a "
-              "integer and has a string"},
+              "'-p x:=[1, a]' is no parameter: the list of parameter 'x' must be of one type, but begins with "
+              "an integer and has a string"},
         Wrong{{"-p", "x:={a: 1}"}, "'-p x:={a: 1}' is no parameter: a mapping is no parameter value"},
         Wrong{{"-p", "a-b:x:=1"}, "'-p a-b:x:=1' is no parameter: 'a-b' is no valid node name"},
         Wrong{{"--params-file", "/no/such/file"},

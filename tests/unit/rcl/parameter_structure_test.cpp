@@ -190,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"a: {ros__parameters: {x: }}", "1: parameter 'x' has no value; an empty string is written \"\""},
         Refused{"a: {ros__parameters: {x: !!str }}", "1: parameter 'x' has no value; an empty string is written \"\""},
         Refused{"a: {ros__parameters: {x: [1, 2.5]}}",
-                "1: the list of parameter 'x' must be of one type, but begins with a integer and has a "
+                "1: the list of parameter 'x' must be of one type, but begins with an integer and has a "
                 "double"},
         Refused{"a: {ros__parameters: {x: &one 1, y: *one}}", "1: aliases (*name) are not supported"}));
 

@@ -56,6 +56,20 @@ INSTANTIATE_TEST_SUITE_P(String, ParameterText,
                                          Typed{"''", ""}, Typed{"null", "null"}, Typed{"~", "~"}, Typed{"1:30", "1:30"},
                                          Typed{"2024-01-01", "2024-01-01"}, Typed{"!!str 5", "5"},
                                          Typed{"1_000", "1_000"}, Typed{"tRUE", "tRUE"}, Typed{"a b c", "a b c"}));
+INSTANTIATE_TEST_SUITE_P(Tag, ParameterText,
+                         testing::Values(Typed{"!!bool yes", true}, Typed{"!!bool 'off'", false},
+                                         Typed{"!!int 0x10", std::int64_t{16}}, Typed{"!!int '7'", std::int64_t{7}},
+                                         Typed{"!!float 10", 10.0}, Typed{"!!float \"2.5\"", 2.5},
+                                         Typed{"!!float inf", std::numeric_limits<double>::infinity()},
+                                         Typed{"!!str true", "true"}, Typed{"! 5", std::int64_t{5}},
+                                         Typed{"!!binary AQID", std::vector<std::uint8_t>{1, 2, 3}},
+                                         Typed{"!!binary '/+8='", std::vector<std::uint8_t>{0xff, 0xef}},
+                                         Typed{"!!binary ''", std::vector<std::uint8_t>{}}));
+INSTANTIATE_TEST_SUITE_P(TaggedList, ParameterText,
+                         testing::Values(Typed{"[!!float 1, 2.5]", std::vector<double>{1.0, 2.5}},
+                                         Typed{"!!seq [10, 0, -10]", std::vector<std::int64_t>{10, 0, -10}},
+                                         Typed{"[!!str 1, !!str yes]", std::vector<std::string>{"1", "yes"}},
+                                         Typed{"[!!binary AQ==, !!binary Aw==]", std::vector<std::uint8_t>{1, 3}}));
 INSTANTIATE_TEST_SUITE_P(List, ParameterText,
                          testing::Values(Typed{"[1, 2]", std::vector<std::int64_t>{1, 2}},
                                          Typed{"[1.5, .2]", std::vector<double>{1.5, 0.2}},
@@ -214,7 +228,7 @@ TEST_F(ParameterFile, NamesTheLineOfAnError) {
   EXPECT_EQ(load_error(), ":3: parameter 'x' has no value; an empty string is written \"\"");
   write("talker:\n  ros__parameters:\n    x: [1, 2.5]\n");
   EXPECT_EQ(load_error(),
-            ":3: the list of parameter 'x' must be of one type, but begins with a integer and has a double");
+            ":3: the list of parameter 'x' must be of one type, but begins with an integer and has a double");
   write("talker:\n  ros__parameters:\n    x: [[1]]\n");
   EXPECT_EQ(load_error(), ":3: the list of parameter 'x' may only have plain values");
   write("talker:\n  ros__parameters:\n");
@@ -232,6 +246,29 @@ TEST_F(ParameterFile, NamesTheLineOfAnError) {
   EXPECT_EQ(load_error(), ":4: aliases (*name) are not supported");
   write("talker:\n  ros__parameters:\n    x: 'open\n");
   EXPECT_EQ(load_error(), ":4: found unexpected end of stream");
+}
+
+TEST_F(ParameterFile, SaysWhichValueDoesNotFitItsTag) {
+  write("talker:\n  ros__parameters:\n    x: !!int abc\n");
+  EXPECT_EQ(load_error(), ":3: parameter 'x': 'abc' is no integer, as the tag !!int says");
+  write("talker:\n  ros__parameters:\n    x: !!bool 1\n");
+  EXPECT_EQ(load_error(), ":3: parameter 'x': '1' is no bool, as the tag !!bool says");
+  write("talker:\n  ros__parameters:\n    x: [1.5, !!float a]\n");
+  EXPECT_EQ(load_error(), ":3: parameter 'x': 'a' is no double, as the tag !!float says");
+  for (const char* text : {"AQI", "AQ=A", "A===", "A*ID", "="}) {
+    write(std::string("talker:\n  ros__parameters:\n    x: !!binary ") + text + "\n");
+    EXPECT_EQ(load_error(), std::string(":3: parameter 'x': '") + text + "' is no base64, as the tag !!binary says");
+  }
+  write("talker:\n  ros__parameters:\n    x: !!timestamp 2026-01-01\n");
+  EXPECT_EQ(load_error(),
+            ":3: parameter 'x': the tag '!!timestamp' is not one of !!bool, !!int, !!float, !!str, !!binary");
+  write("talker:\n  ros__parameters:\n    x: !degrees 90\n");
+  EXPECT_EQ(load_error(),
+            ":3: parameter 'x': the tag '!degrees' is not one of !!bool, !!int, !!float, !!str, !!binary");
+  write("talker:\n  ros__parameters:\n    x: !!map [1]\n");
+  EXPECT_EQ(load_error(), ":3: the tag 'tag:yaml.org,2002:map' does not fit a list");
+  write("talker:\n  ros__parameters:\n    x: !!seq {a: 1}\n");
+  EXPECT_EQ(load_error(), ":3: the tag 'tag:yaml.org,2002:seq' does not fit a mapping");
 }
 
 TEST_F(ParameterFile, AnEmptyListIsWrongOnlyForANodeThatGetsIt) {

@@ -12,8 +12,9 @@
 
 namespace rcl_yaml {
 
-using ParameterValue = std::variant<bool, std::int64_t, double, std::string, std::vector<bool>,
-                                    std::vector<std::int64_t>, std::vector<double>, std::vector<std::string>>;
+using ParameterValue =
+    std::variant<bool, std::int64_t, double, std::string, std::vector<bool>, std::vector<std::int64_t>,
+                 std::vector<double>, std::vector<std::string>, std::vector<std::uint8_t>>;
 
 // Told what a file has, in its order. What it throws ends the reading.
 class ParameterSink {
