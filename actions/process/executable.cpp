@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // <executable cmd="…"/>: runs any program.
 #include "actions/process/process_settings.hpp"
+#include "actions/ros/parameter_file.hpp"
 #include "actions/row_action.hpp"
 
 namespace launch {
@@ -30,6 +31,7 @@ ActionType executable_action() {
        {.attribute = {"name", AttributeType::kText, false, "base name of the program", "label of the process"},
         .place = place_of(&ProcessSpec::name)}},
       [](const Fields& fields, LaunchContext& context, ProcessSpec& spec) {
+        find_faults_of_named_files(spec.argv, 1, spec.argv.size(), fields.where("cmd"), context);
         request_process(fields, context, std::move(spec));
       },
       check_process);

@@ -142,16 +142,20 @@ ComposableNode ComposableNodes::evaluate(const Description& node, const Environm
   if (!result.name_space.empty() && !result.name.empty()) {
     context.note_node(full_name);
   }
+  const KnownNodeName known{
+      result.name.empty() ? std::nullopt : std::optional(result.name),
+      result.name_space.empty() ? std::nullopt : std::optional(result.name_space),
+  };
   for (const GlobalParameter& parameter : scope.global_parameters) {
     if (const auto* const named = std::get_if<NamedParameter>(&parameter)) {
       result.parameters.push_back(*named);
     } else {
       const auto& file = std::get<ParameterFilePath>(parameter);
-      append_parameter_file(file.path, full_name, file.where, result.parameters);
+      append_parameter_file({file.path, file.where, known, true}, context, result.parameters);
     }
   }
   for (const Parameters& parameters : node.parameters) {
-    parameters.append_to(result.parameters, context, full_name);
+    parameters.append_to(result.parameters, context, known);
   }
   result.remaps = scope.global_remaps;
   for (const Fields* each : fields.items("remap")) {

@@ -19,6 +19,7 @@ namespace {
 
 // Appends the arguments for what the scope sets for every node.
 void append_global_parameters(ProcessSpec& spec, LaunchContext& context) {
+  const KnownNodeName node = known_node_name(spec.argv);
   const Scope& scope = context.scope();
   for (const GlobalParameter& parameter : scope.global_parameters) {
     if (const auto* const named = std::get_if<NamedParameter>(&parameter)) {
@@ -32,7 +33,7 @@ void append_global_parameters(ProcessSpec& spec, LaunchContext& context) {
                         help_for_missing_file(file.path), Finding::kMissingParameterFile);
     }
     spec.argv.insert(spec.argv.end(), {"--params-file", file.path});
-    find_faults_of_parameter_file(file.path, file.where, context);
+    find_faults_of_parameter_file({file.path, file.where, node, true}, context);
   }
 }
 
@@ -125,12 +126,14 @@ std::string NodeProcess::request(LaunchContext& context) const {
   for (const Template& word : arguments) {
     spec.argv.push_back(word.perform(scope));
   }
+  const std::size_t arguments_end = spec.argv.size();
   if (fields_.has("ros_args")) {
     spec.argv.push_back("--ros-args");
     for (const Template& word : fields_.words("ros_args")) {
       spec.argv.push_back(word.perform(scope));
     }
   }
+  const std::size_t ros_arguments_end = spec.argv.size();
   spec.argv.push_back("--ros-args");
 
   NodeDescription node;
@@ -156,6 +159,8 @@ std::string NodeProcess::request(LaunchContext& context) const {
   if (!full_name.empty()) {
     context.note_node(full_name);
   }
+  find_faults_of_named_files(spec.argv, 1, arguments_end, fields_.where("args"), context);
+  find_faults_of_named_files(spec.argv, arguments_end, ros_arguments_end, fields_.where("ros_args"), context);
   append_global_parameters(spec, context);
   for (const Parameters& parameters : parameters_) {
     parameters.append_to(spec, context, full_name);

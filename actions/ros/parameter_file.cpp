@@ -5,195 +5,233 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
-#include <optional>
-#include <span>
+#include <map>
+#include <string_view>
 
+#include "actions/ros/node_pattern.hpp"
+#include "actions/ros/parameter_reader.hpp"
+#include "actions/values/ros_names.hpp"
 #include "base/diagnostics/read_source_file.hpp"
-#include "launcher/frontend/frontend.hpp"
-#include "launcher/frontend/yaml_document.hpp"
-#include "launcher/language/parameter_value.hpp"
+#include "base/text/names.hpp"
+#include "launcher/substitution/unrun_commands.hpp"
 
 namespace launch {
 
 namespace {
 
-constexpr std::string_view kParameters = "ros__parameters";
+LocatedText text_of(const ParameterFileUse& use) {
+  // A text with performed substitutions mostly has the lines of the file, and shows what a node gets.
+  const auto file = use.performed.empty() ? read_source_file(use.path, use.where)
+                                          : std::make_shared<const SourceFile>(use.path, use.performed, use.where);
+  return LocatedText(file->text(), {file, 0, static_cast<std::uint32_t>(file->text().size())});
+}
 
-// "/a/b" and "a/b" have the parts a and b.
-std::vector<std::string> parts_of(const std::string& name) {
-  std::vector<std::string> parts;
-  std::size_t begin = 0;
-  while (begin < name.size()) {
-    const std::size_t end = std::min(name.find('/', begin), name.size());
-    if (end > begin) {
-      parts.push_back(name.substr(begin, end - begin));
+std::string full_name_of(const KnownNodeName& node) {
+  return node.name ? qualified_name(node.name_space.value_or("/"), *node.name) : "";
+}
+
+// Also if it can only be for some node of the namespace, or if nothing is known of the name.
+bool may_be_for(const ParameterSection& section, const KnownNodeName& node) {
+  return node.name         ? is_for_node(section.pattern, full_name_of(node))
+         : node.name_space ? is_for_namespace(section.pattern, *node.name_space)
+                           : true;
+}
+
+std::string line_and_column(const SourceRange& where) {
+  const SourceFile::Position position = where.file->position(where.begin);
+  return fmt::format("line {}, column {}", position.line, position.column);
+}
+
+// A parameter that is given twice for one name of nodes.
+void find_repeated(const ParameterSections& read, const Exploration& exploration) {
+  std::map<std::string, std::map<std::string, SourceRange>> seen;
+  for (const ParameterSection& section : read.sections) {
+    auto& names = seen[section.pattern.starts_with('/') ? section.pattern : "/" + section.pattern];
+    for (const FileParameter& parameter : section.parameters) {
+      const auto [first, is_new] = names.emplace(parameter.name, parameter.name_where);
+      if (!is_new) {
+        exploration.remark({Severity::kWarning, fmt::format("parameter '{}' is given twice", parameter.name),
+                            parameter.name_where,
+                            fmt::format("the last value counts; the first is at {}", line_and_column(first->second)),
+                            Finding::kRepeatedParameter});
+      }
     }
-    begin = end + 1;
   }
-  return parts;
 }
 
-// "*" stands for one part, "**" for any number.
-bool matches(std::span<const std::string> pattern, std::span<const std::string> name) {
-  if (pattern.empty()) {
-    return name.empty();
-  }
-  if (pattern.front() == "**") {
-    return matches(pattern.subspan(1), name) || (!name.empty() && matches(pattern, name.subspan(1)));
-  }
-  return !name.empty() && (pattern.front() == "*" || pattern.front() == name.front()) &&
-         matches(pattern.subspan(1), name.subspan(1));
-}
-
-// Calls `found` with the pattern and the value of each `ros__parameters` section.
-void each_section(const YamlNode& node, const std::string& pattern,
-                  const std::function<void(const std::string&, const YamlNode&)>& found) {
-  for (const YamlEntry& entry : node.entries) {
-    if (entry.key.scalar.text.text() == kParameters) {
-      found(pattern, entry.value);
-    } else if (entry.value.kind == YamlNode::Kind::kMapping) {
-      each_section(entry.value, pattern + "/" + entry.key.scalar.text.text(), found);
+// "sections: a, b; did you mean …"
+std::string help_for_unmatched(const ParameterSections& read, const KnownNodeName& node) {
+  std::vector<std::string> patterns;
+  std::vector<std::string> names;
+  const std::string own = full_name_of(node);
+  bool has_name = false;
+  for (const ParameterSection& section : read.sections) {
+    if (std::find(patterns.begin(), patterns.end(), section.pattern) == patterns.end()) {
+      patterns.push_back(section.pattern);
+      names.push_back(section.pattern.substr(section.pattern.rfind('/') + 1));
+      has_name = has_name || names.back() == node.name;
     }
   }
+  std::string help = "sections: " + list_some(patterns);
+  if (has_name) {
+    help += fmt::format("; did you mean '{}' or '/**/{}'?", own, *node.name);
+  } else if (node.name && !nearest_name(*node.name, names).empty()) {
+    help += fmt::format("; did you mean '{}'?", own);
+  }
+  return help;
 }
 
-Value to_value(const YamlNode& node) {
-  if (node.kind == YamlNode::Kind::kScalar) {
-    return {node.scalar, node.where};
+void find_unmatched(const ParameterSections& read, const ParameterFileUse& use, Exploration& exploration) {
+  const std::string key = fmt::format("{} {}", place_with_path(use.where), use.path);
+  if (read.sections.empty() || std::any_of(read.sections.begin(), read.sections.end(),
+                                           [&](const auto& section) { return may_be_for(section, use.node); })) {
+    exploration.settle(key);
+    return;
   }
-  std::vector<Value> items;
-  for (const YamlNode& item : node.items) {
-    items.push_back(to_value(item));
-  }
-  return {std::move(items), node.where};
-}
-
-void append_node(const YamlNode& node, const std::string& name, std::vector<NamedParameter>& parameters) {
-  if (node.kind == YamlNode::Kind::kMapping) {
-    for (const YamlEntry& entry : node.entries) {
-      append_node(entry.value, name + "." + entry.key.scalar.text.text(), parameters);
-    }
+  const std::string whom = use.node.name ? full_name_of(use.node) : "a node in " + *use.node.name_space;
+  Diagnostic diagnostic{Severity::kWarning, fmt::format("no section of '{}' is for {}", use.path, whom), use.where,
+                        help_for_unmatched(read, use.node), Finding::kUnmatchedParameterFile};
+  if (use.for_many) {
+    exploration.postpone(key, std::move(diagnostic));
   } else {
-    parameters.push_back({name, parameter_of(to_value(node))});
+    exploration.remark(std::move(diagnostic));
   }
 }
 
-// The first fault of a mapping above `ros__parameters`, whose keys are parts of the names of nodes.
-std::optional<Diagnostic> fault_of(const YamlNode& nodes, bool top) {
-  for (const YamlEntry& entry : nodes.entries) {
-    const std::string& key = entry.key.scalar.text.text();
-    const bool is_mapping = entry.value.kind == YamlNode::Kind::kMapping;
-    const auto fault = [&](std::string message, std::string help) {
-      return Diagnostic{Severity::kError, std::move(message), entry.key.where, std::move(help),
-                        Finding::kWrongParameterFile};
-    };
-    if (key == kParameters) {
-      if (top) {
-        return fault("ros__parameters stands below no name of a node", "for all nodes write /**: above it");
-      }
-      continue;
-    }
-    if (std::string help = did_you_mean(key, std::vector<std::string>{std::string(kParameters)}); !help.empty()) {
-      return fault(fmt::format("'{}' stands where ros__parameters is expected", key), std::move(help));
-    }
-    if (!is_mapping && !entry.value.is_null()) {
-      return fault(fmt::format("'{}' stands outside of ros__parameters", key),
-                   "parameters stand below NODE: ros__parameters:");
-    }
-    if (is_mapping) {
-      if (std::optional<Diagnostic> below = fault_of(entry.value, false)) {
-        return below;
+// A list without items has no type, and a node that gets one ends.
+void find_empty_lists(const ParameterSections& read, const ParameterFileUse& use, const Exploration& exploration) {
+  for (const ParameterSection& section : read.sections) {
+    for (const FileParameter& parameter : section.parameters) {
+      if (parameter.is_empty_list() && use.node.name && may_be_for(section, use.node)) {
+        exploration.remark({Severity::kError,
+                            fmt::format("parameter '{}' is an empty list, which has no type", parameter.name),
+                            parameter.where, "leave it out, or give it an item", Finding::kWrongParameterFile});
       }
     }
   }
-  return std::nullopt;
+}
+
+// Whether the file was not judged before.
+bool is_new(const ParameterFileUse& use, Exploration& exploration) {
+  return exploration.sees_first(use.path + (use.performed.empty() ? "" : "\n" + use.performed));
 }
 
 }  // namespace
 
-void append_parameter_text(const LocatedText& text, const std::string& full_name,
-                           std::vector<NamedParameter>& parameters) {
-  std::vector<Diagnostic> duplicate_keys;  // the last one counts
-  const YamlNode root = read_yaml(text, duplicate_keys);
-  if (root.is_null()) {
-    return;
+KnownNodeName known_node_name(const std::vector<std::string>& argv) {
+  if (!argv.empty() && argv.front().find("container", argv.front().rfind('/') + 1) != std::string::npos) {
+    return {};
   }
-  if (root.kind != YamlNode::Kind::kMapping) {
-    throw LaunchError(fmt::format("expected a mapping of parameters, got {}", describe(root)), root.where, {},
-                      Finding::kWrongParameterFile);
-  }
-  // A later section replaces a parameter of an earlier one in its place.
-  std::vector<YamlEntry> chosen;
-  bool any_section = false;
-  const std::vector<std::string> name = parts_of(full_name);
-  each_section(root, "", [&](const std::string& pattern, const YamlNode& section) {
-    any_section = true;
-    if (!matches(parts_of(pattern), name)) {
-      return;
+  KnownNodeName node;
+  bool is_named = false;
+  for (std::size_t i = 1; i < argv.size(); ++i) {
+    if (argv[i - 1] != "-r" && argv[i - 1] != "--remap") {
+      continue;
     }
-    for (const YamlEntry& entry : section.entries) {
-      const auto same = std::find_if(chosen.begin(), chosen.end(), [&](const YamlEntry& other) {
-        return other.key.scalar.text.text() == entry.key.scalar.text.text();
-      });
-      if (same == chosen.end()) {
-        chosen.push_back(entry);
-      } else {
-        same->value = entry.value;
-      }
+    std::string_view rule = argv[i];
+    const auto value_of = [&](std::string_view name) -> std::optional<std::string> {
+      return rule.starts_with(name) ? std::optional(std::string(rule.substr(name.size()))) : std::nullopt;
+    };
+    if (const auto name = value_of("__node:="); name && !is_named) {
+      node.name = name;
+      is_named = true;
+    } else if (const auto other = value_of("__name:="); other && !is_named) {
+      node.name = other;
+      is_named = true;
+    } else if (const auto name_space = value_of("__ns:="); name_space && !node.name_space) {
+      node.name_space = name_space;
+    } else if (rule.find(":__node:=") != std::string_view::npos || rule.find(":__ns:=") != std::string_view::npos ||
+               rule.find(":__name:=") != std::string_view::npos) {
+      return {};  // for one node of several
     }
-  });
-  for (const YamlEntry& entry : any_section ? chosen : root.entries) {
-    append_node(entry.value, entry.key.scalar.text.text(), parameters);
   }
+  return node;
 }
 
-void append_parameter_file(const std::string& path, const std::string& full_name, const SourceRange& where,
+void append_parameter_file(const ParameterFileUse& use, LaunchContext& context,
                            std::vector<NamedParameter>& parameters) {
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) {
-    throw LaunchError(fmt::format("parameter file path is not a file: {}", path), where, help_for_missing_file(path),
-                      Finding::kMissingParameterFile);
+  if (use.performed.empty() && !std::filesystem::is_regular_file(use.path, ignored)) {
+    throw LaunchError(fmt::format("parameter file path is not a file: {}", use.path), use.where,
+                      help_for_missing_file(use.path), Finding::kMissingParameterFile);
   }
-  const auto file = read_source_file(path, where);
-  try {
-    append_parameter_text(LocatedText(file->text(), {file, 0, static_cast<std::uint32_t>(file->text().size())}),
-                          full_name, parameters);
-  } catch (const LaunchError& error) {
-    std::vector<Diagnostic> diagnostics = error.diagnostics();
-    for (Diagnostic& diagnostic : diagnostics) {
-      diagnostic.finding = Finding::kWrongParameterFile;  // whatever kind it is in a launch file
+  ParameterSections read = read_parameter_sections(text_of(use));
+  if (read.no_yaml) {
+    throw LaunchError(std::vector<Diagnostic>{*read.no_yaml});
+  }
+  Exploration& exploration = context.exploration();
+  if (read.bare) {
+    read.sections.push_back(std::move(*read.bare));
+    read.sections.front().pattern = "/**";
+  } else if (exploration.is_on()) {
+    find_unmatched(read, use, exploration);
+  }
+  if (exploration.is_on() && is_new(use, exploration)) {
+    find_repeated(read, exploration);
+  }
+  // A later section replaces a parameter of an earlier one in its place.
+  const std::size_t begin = parameters.size();
+  for (const ParameterSection& section : read.sections) {
+    if (!is_for_node(section.pattern, full_name_of(use.node))) {
+      continue;
     }
-    throw LaunchError(std::move(diagnostics));
+    if (!section.errors.empty()) {
+      throw LaunchError(section.errors);
+    }
+    for (const FileParameter& parameter : section.parameters) {
+      const auto same = std::find_if(parameters.begin() + static_cast<std::ptrdiff_t>(begin), parameters.end(),
+                                     [&](const NamedParameter& other) { return other.name == parameter.name; });
+      if (same == parameters.end()) {
+        parameters.push_back({parameter.name, parameter.value});
+      } else {
+        same->value = parameter.value;
+      }
+      if (exploration.is_strict() && parameter.ros2_component) {
+        exploration.remark(*parameter.ros2_component);
+      }
+    }
   }
 }
 
-void find_faults_of_parameter_file(const std::string& path, const SourceRange& where, LaunchContext& context) {
-  if (!context.exploration().is_on() || !context.exploration().sees_first(path)) {
+void find_faults_of_parameter_file(const ParameterFileUse& use, LaunchContext& context) {
+  Exploration& exploration = context.exploration();
+  if (!exploration.is_on() || use.performed.find(kUnknownOutput) != std::string::npos) {
     return;
   }
-  try {
-    const auto file = read_source_file(path, where);
-    std::vector<Diagnostic> duplicate_keys;  // the last one counts
-    const YamlNode root = read_yaml(
-        LocatedText(file->text(), {file, 0, static_cast<std::uint32_t>(file->text().size())}), duplicate_keys);
-    if (root.is_null()) {
-      return;
+  const ParameterSections read = [&] {
+    try {
+      return read_parameter_sections(text_of(use));
+    } catch (const LaunchError& error) {
+      exploration.remark(error.diagnostics().front());
+      return ParameterSections();
     }
-    if (root.kind != YamlNode::Kind::kMapping) {
-      context.exploration().remark({Severity::kError,
-                                    fmt::format("expected a mapping of nodes, got {}", describe(root)), root.where,
-                                    "parameters stand below NODE: ros__parameters:", Finding::kWrongParameterFile});
-    } else if (std::optional<Diagnostic> fault = fault_of(root, true)) {
-      context.exploration().remark(std::move(*fault));
+  }();
+  if (is_new(use, exploration)) {
+    for (const std::optional<Diagnostic>& fault : {read.no_yaml, read.node_refuses}) {
+      if (fault) {
+        exploration.remark(*fault);
+      }
     }
-  } catch (YamlSyntaxError& error) {
-    error.classify(Finding::kWrongParameterFile);
-    for (const Diagnostic& diagnostic : error.diagnostics()) {
-      context.exploration().remark(diagnostic);
+    for (const ParameterSection& section : read.sections) {
+      for (const std::vector<Diagnostic>& errors : {section.errors, section.node_errors}) {
+        std::for_each(errors.begin(), errors.end(), [&](const Diagnostic& error) { exploration.remark(error); });
+      }
     }
-  } catch (const LaunchError&) {
-    // What this reader refuses although it is YAML, a node may read.
+    find_repeated(read, exploration);
+  }
+  if (!read.no_yaml && !read.node_refuses) {
+    find_unmatched(read, use, exploration);
+    find_empty_lists(read, use, exploration);
+  }
+}
+
+void find_faults_of_named_files(const std::vector<std::string>& argv, std::size_t first, std::size_t last,
+                                const SourceRange& where, LaunchContext& context) {
+  for (std::size_t i = std::max<std::size_t>(first, 1); i < last && context.exploration().is_on(); ++i) {
+    std::error_code ignored;
+    if (argv[i - 1] == "--params-file" && std::filesystem::is_regular_file(argv[i], ignored)) {
+      find_faults_of_parameter_file({argv[i], where, known_node_name(argv)}, context);
+    }
   }
 }
 

@@ -5,7 +5,6 @@
 
 #include <filesystem>
 
-#include "actions/ros/parameter_file.hpp"
 #include "base/diagnostics/read_source_file.hpp"
 #include "launcher/frontend/yaml_document.hpp"
 #include "launcher/substitution/template_parser.hpp"
@@ -98,7 +97,7 @@ void Parameters::perform_tree(const Tree& tree, const std::string& prefix, Scope
   }
 }
 
-LocatedText Parameters::performed_file(const std::string& path, Scope& scope) const {
+std::string Parameters::performed_file(const std::string& path, Scope& scope) const {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) {
     throw LaunchError(fmt::format("parameter file path is not a file: {}", path), file_->where(),
@@ -119,22 +118,20 @@ LocatedText Parameters::performed_file(const std::string& path, Scope& scope) co
                       file_->where(), "substitutions are replaced by text, and backslashes go: '\\\\' stands for one",
                       Finding::kWrongParameterFile);
   }
-  return performed;
+  return performed.text();
 }
 
 void Parameters::append_to(std::vector<NamedParameter>& parameters, LaunchContext& context,
-                           const std::string& qualified_name) const {
+                           const KnownNodeName& node) const {
   Scope& scope = context.scope();
   if (tree_) {
     perform_tree(*tree_, "", scope, parameters);
     return;
   }
   const std::string path = file_->perform(scope);
-  if (allow_substitutions_) {
-    append_parameter_text(performed_file(path, scope), qualified_name, parameters);
-  } else {
-    append_parameter_file(path, qualified_name, file_->where(), parameters);
-  }
+  append_parameter_file(
+      {path, file_->where(), node, false, allow_substitutions_ ? performed_file(path, scope) : std::string()}, context,
+      parameters);
 }
 
 void Parameters::append_to(ProcessSpec& spec, LaunchContext& context, const std::string& qualified_name) const {
@@ -155,7 +152,7 @@ void Parameters::append_to(ProcessSpec& spec, LaunchContext& context, const std:
       std::error_code ignored;
       if (std::filesystem::is_regular_file(path, ignored)) {
         spec.argv.insert(spec.argv.end(), {"--params-file", path});
-        find_faults_of_parameter_file(path, file_->where(), context);
+        find_faults_of_parameter_file({path, file_->where(), known_node_name(spec.argv)}, context);
       } else {
         context.exploration().remark({Severity::kError, fmt::format("parameter file '{}' does not exist", path),
                                       file_->where(), help_for_missing_file(path), Finding::kMissingParameterFile});
@@ -164,7 +161,8 @@ void Parameters::append_to(ProcessSpec& spec, LaunchContext& context, const std:
       }
       return;
     }
-    content = performed_file(path, scope).text();
+    content = performed_file(path, scope);
+    find_faults_of_parameter_file({path, file_->where(), known_node_name(spec.argv), false, content}, context);
   }
   spec.argv.push_back("--params-file");
   spec.files.push_back({spec.argv.size(), "launch_params.yaml", std::move(content)});

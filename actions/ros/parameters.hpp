@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "actions/ros/parameter_file.hpp"
 #include "launcher/language/fields.hpp"
 #include "launcher/language/parameter_value.hpp"
 #include "launcher/process/process_spec.hpp"
@@ -25,8 +26,7 @@ class Parameters {
   // the name of the node, or empty when it isn't known; the parameters then hold for any name of the node.
   void append_to(ProcessSpec& spec, LaunchContext& context, const std::string& qualified_name) const;
   // Appends typed values, as nodes that are loaded into a container get them; files are read now.
-  void append_to(std::vector<NamedParameter>& parameters, LaunchContext& context,
-                 const std::string& qualified_name) const;
+  void append_to(std::vector<NamedParameter>& parameters, LaunchContext& context, const KnownNodeName& node) const;
 
  private:
   // A name with a value, or a name with nested parameters.
@@ -39,7 +39,7 @@ class Parameters {
   static void perform_tree(const Tree& tree, const std::string& prefix, Scope& scope,
                            std::vector<NamedParameter>& parameters);
   // The text of a file, with its substitutions performed.
-  LocatedText performed_file(const std::string& path, Scope& scope) const;
+  std::string performed_file(const std::string& path, Scope& scope) const;
 
   std::optional<Template> file_;
   bool allow_substitutions_ = false;

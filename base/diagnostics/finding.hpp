@@ -46,6 +46,9 @@ enum class Finding : std::uint16_t {
   kMissingPlugin = 306,
   kMissingDirectory = 307,
   kMissingCpu = 308,
+  kUnmatchedParameterFile = 309,
+  kRepeatedParameter = 310,
+  kOtherInRos2 = 311,
 
   // Nodes and names.
   kInvalidName = 401,

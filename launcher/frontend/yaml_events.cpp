@@ -55,14 +55,14 @@ class Recorder : public YAML::EventHandler {
     }
     event.tag_end = size();
   }
-  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                        YAML::EmitterStyle::value style) override {
-    add(EventKind::kSequence, mark, anchor).is_flow = style == YAML::EmitterStyle::Flow;
+    add_collection(EventKind::kSequence, mark, tag, anchor, style);
   }
   void OnSequenceEnd() override { events_.list.push_back({EventKind::kEnd}); }
-  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                   YAML::EmitterStyle::value style) override {
-    add(EventKind::kMapping, mark, anchor).is_flow = style == YAML::EmitterStyle::Flow;
+    add_collection(EventKind::kMapping, mark, tag, anchor, style);
   }
   void OnMapEnd() override { events_.list.push_back({EventKind::kEnd}); }
 
@@ -75,6 +75,17 @@ class Recorder : public YAML::EventHandler {
     event.at = static_cast<std::uint32_t>(place_of(mark, text_));
     event.anchor = anchor;
     return event;
+  }
+
+  void add_collection(EventKind kind, const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                      YAML::EmitterStyle::value style) {
+    YamlEvent& event = add(kind, mark, anchor);
+    event.is_flow = style == YAML::EmitterStyle::Flow;
+    if (tag.size() > 1) {
+      event.text = event.tag = size();
+      events_.texts += tag;
+      event.tag_end = size();
+    }
   }
 
   const std::string& text_;

@@ -24,7 +24,7 @@ struct YamlEvent {
   bool is_plain = false;   // a scalar without quotes or tag
   std::uint32_t at = 0;    // byte of the source where the node begins
   std::uint32_t text = 0;  // where the text of a scalar begins in YamlEvents::texts
-  std::uint32_t tag = 0;   // where its tag begins in `texts`, which is the end of the text
+  std::uint32_t tag = 0;   // where the tag of a node begins in `texts`, which is the end of its text
   std::uint32_t tag_end = 0;
   std::size_t anchor = 0;  // the anchor of the node, or of the node that an alias refers to; 0: none
 };

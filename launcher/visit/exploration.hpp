@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -25,6 +26,8 @@ class Exploration {
     // False: `report` is not told of what would go wrong only in a run, and no function of a Python launch file that a
     // condition leaves out is called.
     bool judges = true;
+    // Whether what ROS 2 would do in another way is told, too.
+    bool strict_ros2 = false;
   };
 
   // `scope` is that of the visit, and must outlive this object.
@@ -35,6 +38,7 @@ class Exploration {
   bool is_on() const { return observer_.report != nullptr; }
   // Whether it judges what a run would do.
   bool judges() const { return observer_.judges; }
+  bool is_strict() const { return is_on() && observer_.strict_ros2; }
 
   // Tells of an error behind which the visit goes on.
   void report(const LaunchError& error) const { observer_.report(error, in_left_out_); }
@@ -42,6 +46,24 @@ class Exploration {
   void remark(Diagnostic diagnostic) const {
     if (is_on() && observer_.judges && !scope_.incomplete && !scope_.command_was_left_out()) {
       report(LaunchError(std::vector<Diagnostic>{std::move(diagnostic)}));
+    }
+  }
+  // Something that is to be told at the end unless a later action settles it: a parameter file of a scope has a section
+  // for one of the nodes. The key is of the place and the matter.
+  void postpone(const std::string& key, Diagnostic diagnostic) {
+    if (!in_left_out_ && !scope_.incomplete && !scope_.command_was_left_out()) {
+      const auto [first, is_new] = postponed_.emplace(key, std::move(diagnostic));
+      if (!is_new && !first->second.message.ends_with(kOthers)) {
+        first->second.message += kOthers;
+      }
+    }
+  }
+  void settle(const std::string& key) { settled_.insert(key); }
+  void tell_postponed() const {
+    for (const auto& [key, diagnostic] : postponed_) {
+      if (!settled_.contains(key)) {
+        report(LaunchError(std::vector<Diagnostic>{diagnostic}));
+      }
     }
   }
   // Whether a file was not seen before: a file that many nodes read is judged once.
@@ -57,9 +79,13 @@ class Exploration {
   }
 
  private:
+  static constexpr const char* kOthers = ", nor for another node that gets it";
+
   const Scope& scope_;
   Observer observer_;                                  // empty: not exploring
   std::set<std::pair<std::string, bool>> seen_files_;  // path, in what is left out
+  std::map<std::string, Diagnostic> postponed_;
+  std::set<std::string> settled_;
   bool in_left_out_ = false;
 };
 

@@ -110,8 +110,10 @@ class Checker {
     std::vector<Requests> left_out;
     context.exploration().begin(
         {.report = [this](const LaunchError& error, bool is_left_out) { add_of_visit(error, is_left_out); },
-         .left_out = [&](Requests requests) { left_out.push_back(std::move(requests)); }});
+         .left_out = [&](Requests requests) { left_out.push_back(std::move(requests)); },
+         .strict_ros2 = options_.strict_ros2});
     const LaunchPlan plan = plan_launch(context, description);
+    context.exploration().tell_postponed();
     check_unused(description, list, plan);
     const auto report = [this](Diagnostic diagnostic) { add(std::move(diagnostic)); };
     find_faults_of_plan(plan, left_out, report);

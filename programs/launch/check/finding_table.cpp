@@ -181,8 +181,10 @@ def generate_launch_description():
 )x"},
 
     {Finding::kWrongParameterFile, "Wrong parameter file", Severity::kError,
-     "A parameter file is no YAML, or it is not made of names of nodes, each with a mapping ros__parameters. The node "
-     "ends when it reads such a file.",
+     "A parameter file is no YAML, or it is not made of names of nodes, each with a mapping ros__parameters; or a "
+     "value "
+     "in it can't be that of a parameter: a list of several types or of lists, nothing, an alias, a text that does not "
+     "fit its tag. The node ends when it reads such a file.",
      R"x(<launch>
   <node pkg="demo_nodes" exec="talker">
     <param from="$(dirname)/params.yaml"/>
@@ -214,6 +216,53 @@ def generate_launch_description():
      R"x(<launch>
   <executable cmd="true" cpus="1000"/>
 </launch>
+)x"},
+    {Finding::kUnmatchedParameterFile, "Parameter file without a section for the node", Severity::kWarning,
+     "A parameter file is given to a node, and none of its sections is for the full name of the node, after namespaces "
+     "and remaps. The node starts without these parameters, and says nothing. A section is for one full name, /NODE or "
+     "/NAMESPACE/NODE; * stands for one part of a name, ** for any number, so /** is for every node and /**/NODE for a "
+     "node in any namespace. A file that is set for a scope needs a section for one of its nodes. Where the launch "
+     "file "
+     "leaves the namespace to the program, it is taken for /.",
+     R"x(<launch>
+  <push_ros_namespace namespace="robot1"/>
+  <node pkg="demo_nodes" exec="talker" name="mouth">
+    <param from="$(dirname)/params.yaml"/>
+  </node>
+</launch>
+)x",
+     R"x(mouth:
+  ros__parameters:
+    rate: 10.0
+)x"},
+    {Finding::kRepeatedParameter, "Parameter given twice", Severity::kWarning,
+     "A parameter file gives one parameter of a node two values. The last one counts.",
+     R"x(<launch>
+  <node pkg="demo_nodes" exec="talker">
+    <param from="$(dirname)/params.yaml"/>
+  </node>
+</launch>
+)x",
+     R"x(/**:
+  ros__parameters:
+    rate: 10.0
+    rate: 20.0
+)x"},
+    {Finding::kOtherInRos2, "ROS 2 reads this value in another way", Severity::kWarning,
+     "ROS 2 reads the parameter file of a component with another parser than that of a node, so one file gives "
+     "them different types: 5e-06, 1e3, nan, inf, y, 1_000, 1:30, dates. This launcher gives a component what a node "
+     "would get. It is a finding with --strict-ros2 only, for launch files that both must read.",
+     R"x(<launch>
+  <node_container pkg="rclcpp_components" exec="component_container" name="parts" namespace="">
+    <composable_node pkg="composition" plugin="composition::Talker" name="talker">
+      <param from="$(dirname)/params.yaml"/>
+    </composable_node>
+  </node_container>
+</launch>
+)x",
+     R"x(/**:
+  ros__parameters:
+    rate: 5e-06
 )x"},
 
     {Finding::kInvalidName, "Invalid name of a node or namespace", Severity::kError,
