@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // <executable cmd="…"/>: runs any program.
+#include "actions/parameters/parameter_file.hpp"
 #include "actions/process/process_settings.hpp"
-#include "actions/ros/parameter_file.hpp"
 #include "actions/row_action.hpp"
 
 namespace launch {

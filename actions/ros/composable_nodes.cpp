@@ -7,8 +7,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "actions/parameters/parameter_file.hpp"
 #include "actions/ros/node_process.hpp"
-#include "actions/ros/parameter_file.hpp"
 #include "actions/values/ros_names.hpp"
 #include "launcher/substitution/package_index.hpp"
 

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "actions/ros/parameter_file.hpp"
+#include "actions/parameters/parameter_file.hpp"
 #include "actions/values/ros_names.hpp"
 #include "base/text/names.hpp"
 #include "launcher/substitution/package_index.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "actions/ros/parameter_file.hpp"
+#include "actions/parameters/parameter_file.hpp"
 #include "launcher/language/fields.hpp"
 #include "launcher/language/parameter_value.hpp"
 #include "launcher/process/process_spec.hpp"

@@ -9,7 +9,9 @@
 #include "actions/row_action.hpp"
 #include "actions/values/ros_names.hpp"
 #include "base/environment/home_directory.hpp"
+#include "launcher/language/parameter_value.hpp"
 #include "launcher/substitution/boolean.hpp"
+#include "launcher/substitution/template_parser.hpp"
 
 namespace launch {
 
@@ -32,6 +34,30 @@ struct NewLogDirectory {
 struct SimulatedTime {
   bool is_used = false;
 };
+
+// A text is performed and then typed, unlike that of a `param`. YAML may have a number, a boolean or a list, too.
+void perform_parameter(const Fields& fields, Scope& scope, NamedParameter& parameter) {
+  const Value& value = fields.value("value");
+  const Scalar* const scalar = value.scalar();
+  if (scalar != nullptr && (scalar->made != nullptr || scalar->type == Scalar::Type::kUntyped ||
+                            scalar->type == Scalar::Type::kString)) {
+    const Template text = scalar->made != nullptr ? *scalar->made : parse_template(scalar->text);
+    parameter.value = typed_parameter(text.perform(scope), value.where);
+  } else {
+    parameter.value = ParameterValueSource(value, "", std::nullopt, value.where).perform(scope);
+  }
+}
+
+// What can be told of the value before it is performed.
+void check_parameter(const Fields& fields) {
+  const Value& value = fields.value("value");
+  const Scalar* const scalar = value.scalar();
+  if (scalar == nullptr || (scalar->made == nullptr && scalar->type != Scalar::Type::kUntyped)) {
+    ParameterValueSource(value, "", std::nullopt, value.where);
+  } else if (scalar->made == nullptr) {
+    parse_template(scalar->text);
+  }
+}
 
 void perform_simulated_time(const Fields& fields, Scope& scope, SimulatedTime& time) {
   const std::string text = fields.text("value").perform(scope);
@@ -58,15 +84,12 @@ ActionType set_parameter_action() {
       {.tag = "set_parameter", .help = "Gives every later node of the scope a parameter."},
       {{.attribute = {"name", AttributeType::kText, true, "", "name of the parameter"},
         .place = place_of(&NamedParameter::name)},
-       {.attribute = {"value", AttributeType::kText, true, "", "its value, typed by YAML 1.1 rules"},
-        .perform =
-            [](const Fields& fields, Scope& scope, NamedParameter& parameter) {
-              const Template& value = fields.text("value");
-              parameter.value = typed_parameter(value.perform(scope), value.where());
-            }}},
+       {.attribute = {"value", AttributeType::kParameter, true, "", "its value, typed by YAML 1.1 rules"},
+        .perform = perform_parameter}},
       [](const Fields&, LaunchContext& context, NamedParameter& parameter) {
         context.scope().global_parameters.emplace_back(std::move(parameter));
-      });
+      },
+      check_parameter);
 }
 
 ActionType set_parameters_from_file_action() {

@@ -33,7 +33,8 @@ int include_depth(const SourceRange& where) {
 class IncludeLaunchDescription : public Action {
  public:
   explicit IncludeLaunchDescription(const Fields& fields)
-      : Action(fields.where(), fields.condition()), namespace_(fields.optional_text("ns")) {
+      : Action(fields.where(), fields.condition()), namespace_(fields.optional_text("ns")),
+        scoped_(fields.boolean("scoped", false)) {
     declaration_.file = fields.text("file");
     declaration_.where = fields.where();
     // All `arg` come first, then all `let`, whatever their order in the file, as in ros2 launch.
@@ -71,6 +72,10 @@ class IncludeLaunchDescription : public Action {
     }
     ++context.requests().includes;
     // The arguments are performed inside, so that $(dirname) in a value means the included file, as in ros2 launch.
+    std::optional<Scope> outer;
+    if (scoped_.perform(context.scope())) {
+      outer = context.scope();
+    }
     const std::optional<std::string> outer_namespace = pushed_namespace(context.scope());
     if (namespace_) {
       push_namespace(*namespace_, context.scope());
@@ -81,6 +86,9 @@ class IncludeLaunchDescription : public Action {
     context.scope().only_planned = only_planned;
     if (namespace_) {
       restore_namespace(outer_namespace, context.scope());
+    }
+    if (outer) {
+      context.scope() = *std::move(outer);
     }
     context.requests().records.push_back({.kind = LaunchRecord::Kind::kInclude,
                                           .name = path,
@@ -149,6 +157,7 @@ class IncludeLaunchDescription : public Action {
 
   IncludeDeclaration declaration_;
   std::optional<Template> namespace_;
+  BooleanField scoped_;
 };
 
 }  // namespace
@@ -156,11 +165,13 @@ class IncludeLaunchDescription : public Action {
 ActionType include_action() {
   return {
       .tag = "include",
-      .help = "Visits another launch file in place. Not a scope: what the file sets stays set.",
+      .help = "Visits another launch file in place. Not a scope unless it says so: what the file sets stays set.",
       .attributes = {{"file", AttributeType::kText, true, "",
                       "path of the launch file; relative to the launcher's working directory"},
                      {"ns", AttributeType::kText, false, "",
-                      "namespace of every node of the file; ends with the file, unlike other settings", true}},
+                      "namespace of every node of the file; ends with the file, unlike other settings", true},
+                     {"scoped", AttributeType::kBoolean, false, "false",
+                      "true: what the file sets ends with it, as in a group", true}},
       .items = {pair_item("arg", "an argument for the file", "name of the configuration"),
                 pair_item("let", "an argument for the file, set after all arg items", "name of the configuration")},
       .make = [](const Fields& fields) { return std::make_shared<IncludeLaunchDescription>(fields); },

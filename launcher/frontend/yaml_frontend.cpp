@@ -186,11 +186,20 @@ class YamlEntityBuilder {
     const bool is_items =
         value.kind == Kind::kSequence && std::any_of(value.items.begin(), value.items.end(),
                                                      [](const YamlNode& item) { return item.kind == Kind::kMapping; });
-    if (is_items) {
+    if (is_items && std::all_of(value.items.begin(), value.items.end(), is_like_action)) {
+      error(fmt::format("unexpected key '{}' in '{}'", name, entity.type_name), key.where,
+            "did you mean 'children'? Actions stand there");
+    } else if (is_items) {
       structured_items(entity, key, value);
     } else {
       entity.attributes.push_back({name, std::move(key.where), to_value(value)});
     }
+  }
+
+  // Its one key has a mapping. No attribute of an item has one.
+  static bool is_like_action(const YamlNode& item) {
+    return item.kind == Kind::kMapping && item.entries.size() == 1 &&
+           item.entries.front().value.kind == Kind::kMapping;
   }
 
   // Makes a child of each mapping of the list. The children have the name of the key.

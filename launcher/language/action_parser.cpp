@@ -269,6 +269,9 @@ void ActionParser::parse_attributes(const Entity& entity, const std::vector<Attr
       }
       // A YAML list without items looks like the empty value of an attribute.
       const bool is_item = items.find(attribute.name) != nullptr;
+      if (is_item && attribute.value.list() != nullptr && attribute.value.list()->empty()) {
+        continue;
+      }
       errors_.push_back(
           {Severity::kError,
            is_item ? fmt::format("expected '{}' of '{}' to be a list of mappings", attribute.name, entity.type_name)

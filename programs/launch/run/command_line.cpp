@@ -123,7 +123,7 @@ std::variant<CommandLine, ExitNow> parse_command_line(const std::vector<std::str
     const std::size_t separator = word.find(":=");
     if (separator == std::string::npos && command.arguments.empty()) {
       command.target.push_back(word);
-    } else if (separator == std::string::npos || separator == 0 || separator + 2 == word.size()) {
+    } else if (separator == std::string::npos || separator == 0) {
       return wrong_use(fmt::format("malformed launch argument '{}', expected format '<name>:=<value>'", word));
     } else {
       command.arguments.emplace_back(word.substr(0, separator), word.substr(separator + 2));

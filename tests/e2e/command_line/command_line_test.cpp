@@ -55,8 +55,8 @@ TEST_F(CommandLine, ReferencePageOfTheDocumentationIsUpToDate) {
 TEST_F(CommandLine, WrongUseIsExitCodeTwo) {
   EXPECT_EQ(launch({}).err, "launch: error: no launch file given\n      = help: see 'launch --help'\n");
   EXPECT_EQ(launch({}).exit_code, 2);
-  EXPECT_EQ(launch({"file.xml", "x:="}).err,
-            "launch: error: malformed launch argument 'x:=', expected format '<name>:=<value>'\n"
+  EXPECT_EQ(launch({"file.xml", ":=1"}).err,
+            "launch: error: malformed launch argument ':=1', expected format '<name>:=<value>'\n"
             "      = help: see 'launch --help'\n");
   EXPECT_EQ(launch({"--dry-run=xml", "file.xml"}).err,
             "launch: error: --dry-run=xml is unknown, expected text, json or shell\n"

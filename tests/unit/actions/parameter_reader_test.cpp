@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What parameter files hold for nodes and components, and what is wrong in them.
-#include "actions/ros/parameter_reader.hpp"
+#include "actions/parameters/parameter_reader.hpp"
 
 #include <gmock/gmock.h>
 
-#include "actions/ros/node_pattern.hpp"
-#include "actions/ros/parameter_file.hpp"
+#include "actions/parameters/node_pattern.hpp"
+#include "actions/parameters/parameter_file.hpp"
 #include "launcher/language/parameter_value.hpp"
 
 namespace {

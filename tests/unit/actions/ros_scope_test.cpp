@@ -18,6 +18,23 @@ using testing::HasSubstr;
 
 using Words = std::vector<std::string>;
 
+TEST(RosScope, AParameterMayBeAListOrANumberInYaml) {
+  const Planned planned = test_support::plan_text(
+      "launch:\n- let: {name: lat, value: \"48.5\"}\n"
+      "- set_parameter: {name: a, value: [$(var lat), 9.25, 0.0]}\n"
+      "- set_parameter: {name: b, value: [x, y]}\n- set_parameter: {name: c, value: 5}\n"
+      "- set_parameter: {name: d, value: true}\n- set_parameter: {name: e, value: \"[1, 2]\"}\n- node: {exec: n}\n");
+  ASSERT_EQ(planned.error, "");
+  EXPECT_THAT(planned.plan.processes.at(0).argv,
+              testing::ElementsAre("n", "--ros-args", "-p", "a:=[48.5, 9.25, 0.0]", "-p", "b:=[\"x\", \"y\"]", "-p", "c:=5",
+                                   "-p", "d:=True", "-p", "e:=[1, 2]"));
+  EXPECT_EQ(test_support::plan_text("launch:\n- set_parameter: {name: a, value: [1, x]}\n").error,
+            "/test/system.launch.yaml:2:35: error: the result is a non-uniform list\n"
+            "    2 | - set_parameter: {name: a, value: [1, x]}\n"
+            "      |                                   ^\n"
+            "      = help: use a bool, an int, a float, a string, or a list of one of them");
+}
+
 TEST(RosScope, NamespacesCombineAndEndWithTheirGroup) {
   const Planned planned = plan_actions(R"xml(
     <group>

@@ -158,12 +158,25 @@ TEST(Loading, EveryErrorOfAFileIsReported) {
   }
 }
 
-TEST(Loading, AnEmptyYamlListOfItemsIsAnError) {
-  EXPECT_EQ(plan_text("launch:\n- node: {exec: a, param: []}\n").error,
+TEST(Loading, AnEmptyYamlListOfItemsHasNone) {
+  const Planned planned = plan_text(
+      "launch:\n- node: {exec: a, param: [], remap: [], env: []}\n- group: {keep: [], children: []}\n"
+      "- arg: {name: b, default: c, choice: []}\n");
+  EXPECT_EQ(planned.error, "");
+  ASSERT_EQ(planned.plan.processes.size(), 1U);
+  EXPECT_EQ(plan_text("launch:\n- node: {exec: a, param: [1]}\n").error,
             "/test/system.launch.yaml:2:19: error: expected 'param' of 'node' to be a list of mappings\n"
-            "    2 | - node: {exec: a, param: []}\n"
+            "    2 | - node: {exec: a, param: [1]}\n"
             "      |                   ^~~~~\n"
             "      = help: leave it out when there is none");
+}
+
+TEST(Loading, ActionsUnderAnotherKeyThanChildrenAreExplained) {
+  EXPECT_EQ(plan_text("launch:\n- group:\n    if: \"true\"\n    actions:\n    - log_info: {message: inside}\n").error,
+            "/test/system.launch.yaml:4:5: error: unexpected key 'actions' in 'group'\n"
+            "    4 |     actions:\n"
+            "      |     ^~~~~~~\n"
+            "      = help: did you mean 'children'? Actions stand there");
 }
 
 TEST(Loading, ConditionsAreNoAttributesOfItems) {

@@ -6,7 +6,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "actions/ros/parameter_reader.hpp"
+#include "actions/parameters/parameter_reader.hpp"
 #include "launcher/language/parameter_value.hpp"
 #include "rcl_yaml_param_parser/read_yaml.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "actions/ros/parameter_reader.hpp"
+#include "actions/parameters/parameter_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "actions/ros/node_pattern.hpp"
-#include "actions/ros/parameter_tree.hpp"
+#include "actions/parameters/node_pattern.hpp"
+#include "actions/parameters/parameter_tree.hpp"
 #include "launcher/frontend/frontend.hpp"
 #include "launcher/frontend/input_text.hpp"
 #include "launcher/frontend/yaml_events.hpp"

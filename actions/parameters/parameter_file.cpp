@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "actions/ros/parameter_file.hpp"
+#include "actions/parameters/parameter_file.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <map>
 #include <string_view>
 
-#include "actions/ros/node_pattern.hpp"
-#include "actions/ros/parameter_reader.hpp"
+#include "actions/parameters/node_pattern.hpp"
+#include "actions/parameters/parameter_reader.hpp"
 #include "actions/values/ros_names.hpp"
 #include "base/diagnostics/read_source_file.hpp"
 #include "base/text/names.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "actions/ros/parameter_tree.hpp"
+#include "actions/parameters/parameter_tree.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "actions/ros/node_pattern.hpp"
+#include "actions/parameters/node_pattern.hpp"
 
 #include <algorithm>
 #include <span>
