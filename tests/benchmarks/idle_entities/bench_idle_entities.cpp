@@ -2,9 +2,9 @@
 // Usage: bench_idle_entities [FEW MANY...]
 //
 // Measures the time of a message from publish() to the end of its callback in a single-threaded executor: with few idle
-// subscriptions beside the one that gets it, with many, and with as many idle timers. Then in an EventsExecutor, with
-// few subscriptions and with as many timers. The executors are in one process and take turns, batch by batch, so that
-// other work on the machine affects all of them.
+// subscriptions beside the one that gets it, with many, and with as many idle timers. Then in an EventsExecutor and in
+// an EventsCBGExecutor, with few subscriptions and with as many timers. The executors are in one process and take
+// turns, batch by batch, so that other work on the machine affects all of them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,6 +22,7 @@
 
 namespace {
 
+using rclcpp::executors::EventsCBGExecutor;
 using rclcpp::executors::SingleThreadedExecutor;
 using rclcpp::experimental::executors::EventsExecutor;
 using std_msgs::msg::UInt64;
@@ -140,15 +141,20 @@ int main(int argc, char** argv) {
     const std::size_t many_count = counts.back();
     const auto single = [] { return std::make_unique<SingleThreadedExecutor>(); };
     const auto events = [] { return std::make_unique<EventsExecutor>(); };
+    const auto groups = [] { return std::make_unique<EventsCBGExecutor>(rclcpp::ExecutorOptions(), 1); };
     // To find a reader in this process, Fast DDS goes through the readers that were made before it: the few come first.
     Case few(single(), subscriptions(few_count), "few", few_count);
     Case few_of_events(events(), subscriptions(few_count) + ", events", "few_events", few_count);
+    Case few_of_groups(groups(), subscriptions(few_count) + ", events by group", "few_groups", few_count);
     std::vector<std::pair<std::unique_ptr<Case>, const Case*>> others;  // and what they are compared with
     others.emplace_back(
         std::make_unique<Case>(single(), fmt::format("{} timers", many_count), "timers", few_count, many_count), &few);
     others.emplace_back(std::make_unique<Case>(events(), fmt::format("{} timers, events", many_count), "timers_events",
                                                few_count, many_count),
                         &few_of_events);
+    others.emplace_back(std::make_unique<Case>(groups(), fmt::format("{} timers, events by group", many_count),
+                                               "timers_groups", few_count, many_count),
+                        &few_of_groups);
     for (std::size_t i = 1; i < counts.size(); ++i) {
       others.emplace_back(
           std::make_unique<Case>(single(), subscriptions(counts[i]), "many" + std::to_string(i), counts[i]), &few);
@@ -156,6 +162,7 @@ int main(int argc, char** argv) {
     for (int i = 0; i < kBatches; ++i) {
       few.run();
       few_of_events.run();
+      few_of_groups.run();
       for (const auto& [other, floor] : others) {
         other->run();
       }
@@ -163,6 +170,7 @@ int main(int argc, char** argv) {
     fmt::print("{:<32}{:>16}{:>10}{:>16}\n", "idle beside the subscription", "us per message", "of few", "ns for each");
     few.print(few);
     few_of_events.print(few_of_events);
+    few_of_groups.print(few_of_events);
     for (const auto& [other, floor] : others) {
       other->print(*floor);
     }

@@ -2,6 +2,7 @@
 // Actions in the executors of a server and a client: one that is told of events, one with several threads.
 #include <gmock/gmock.h>
 
+#include <memory>
 #include <rclcpp/experimental/executors/events_executor/events_executor.hpp>
 #include <thread>
 
@@ -13,11 +14,27 @@ using rclcpp_action::ResultCode;
 using testing::ElementsAre;
 using testing::SizeIs;
 
-TEST_F(ActionTest, IsServedByTheEventsExecutor) {
+// Executors that are told of events.
+template <typename ExecutorT>
+std::unique_ptr<rclcpp::Executor> make_executor() {
+  return std::make_unique<ExecutorT>();
+}
+using MakeExecutor = std::unique_ptr<rclcpp::Executor> (*)();
+constexpr MakeExecutor kEvents = make_executor<rclcpp::experimental::executors::EventsExecutor>;
+constexpr MakeExecutor kEventsCbg = make_executor<rclcpp::executors::EventsCBGExecutor>;
+
+class ActionInNotifiedExecutorTest : public ActionTest, public testing::WithParamInterface<MakeExecutor> {};
+INSTANTIATE_TEST_SUITE_P(Each, ActionInNotifiedExecutorTest, testing::Values(kEvents, kEventsCbg),
+                         [](const testing::TestParamInfo<MakeExecutor>& made) {
+                           return made.param == kEvents ? "Events" : "EventsCbg";
+                         });
+
+TEST_P(ActionInNotifiedExecutorTest, IsServed) {
   executor_.remove_node(server_node_);
   executor_.remove_node(client_node_);
   start_server();
-  rclcpp::experimental::executors::EventsExecutor executor;
+  const auto owned = GetParam()();
+  rclcpp::Executor& executor = *owned;
   executor.add_node(server_node_);
   executor.add_node(client_node_);
   std::vector<ResultCode> codes;
@@ -40,13 +57,14 @@ TEST_F(ActionTest, IsServedByTheEventsExecutor) {
   EXPECT_THAT(codes, ElementsAre(ResultCode::CANCELED));
 }
 
-TEST_F(ActionTest, ResultExpiresInTheEventsExecutor) {
+TEST_P(ActionInNotifiedExecutorTest, ResultExpires) {
   executor_.remove_node(server_node_);
   executor_.remove_node(client_node_);
   rcl_action_server_options_t options = rcl_action_server_get_default_options();
   options.result_timeout.nanoseconds = 50'000'000;
   start_server(options);
-  rclcpp::experimental::executors::EventsExecutor executor;
+  const auto owned = GetParam()();
+  rclcpp::Executor& executor = *owned;
   executor.add_node(server_node_);
   executor.add_node(client_node_);
   const auto accepted = client_->async_send_goal(Fibonacci::Goal());
@@ -66,8 +84,15 @@ TEST_F(ActionTest, ResultExpiresInTheEventsExecutor) {
   EXPECT_EQ(result.get().code, ResultCode::UNKNOWN);
 }
 
+class ActionInThreadsTest : public ActionTest {
+ protected:
+  template <typename ExecutorT>
+  void expect_that_threads_may_share_server_and_client();
+};
+
 // Goals end in threads of their own while others are sent, canceled and answered by several threads of the executor.
-TEST_F(ActionTest, ThreadsMayShareServerAndClient) {
+template <typename ExecutorT>
+void ActionInThreadsTest::expect_that_threads_may_share_server_and_client() {
   constexpr int32_t kGoals = 9;  // services keep ten requests that were not taken
   executor_.remove_node(server_node_);
   executor_.remove_node(client_node_);
@@ -98,7 +123,7 @@ TEST_F(ActionTest, ThreadsMayShareServerAndClient) {
   const auto client = rclcpp_action::create_client<Fibonacci>(client_node_, "fibonacci", client_group);
   ASSERT_TRUE(client->wait_for_action_server(kPatience));
 
-  rclcpp::executors::MultiThreadedExecutor executor(rclcpp::ExecutorOptions(), 4);
+  ExecutorT executor(rclcpp::ExecutorOptions(), 4);
   executor.add_node(server_node_);
   executor.add_node(client_node_);
   std::thread spinner([&] { executor.spin(); });
@@ -127,6 +152,14 @@ TEST_F(ActionTest, ThreadsMayShareServerAndClient) {
   for (std::thread& worker : workers) {
     worker.join();
   }
+}
+
+TEST_F(ActionInThreadsTest, MayShareServerAndClientInTheMultiThreadedExecutor) {
+  expect_that_threads_may_share_server_and_client<rclcpp::executors::MultiThreadedExecutor>();
+}
+
+TEST_F(ActionInThreadsTest, MayShareServerAndClientInTheEventsCbgExecutor) {
+  expect_that_threads_may_share_server_and_client<rclcpp::executors::EventsCBGExecutor>();
 }
 
 }  // namespace

@@ -100,8 +100,10 @@ class Executor {
                            std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1));
   bool get_next_ready_executable(AnyExecutable& any_executable);
   void wait_for_work(std::chrono::nanoseconds timeout);
-  // Executes it and releases its group. Any thread.
+  // Executes it and releases its group, unless the spinning has been canceled. Any thread.
   void execute_any_executable(AnyExecutable& any_executable);
+  // The same in any case.
+  void execute_chosen(AnyExecutable& any_executable);
   // Ends the wait of the waiting thread; if there is none, the next wait.
   void interrupt();
 

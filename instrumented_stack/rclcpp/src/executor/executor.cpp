@@ -340,9 +340,12 @@ void Executor::erase_unserved() {
 }
 
 [[gnu::hot]] void Executor::execute_any_executable(AnyExecutable& any_executable) {
-  if (!spinning_) {
-    return;
+  if (spinning_) {
+    execute_chosen(any_executable);
   }
+}
+
+[[gnu::hot]] void Executor::execute_chosen(AnyExecutable& any_executable) {
   if (any_executable.timer) {
     TRACETOOLS_TRACEPOINT(rclcpp_executor_execute,
                           static_cast<const void*>(any_executable.timer->get_timer_handle().get()));

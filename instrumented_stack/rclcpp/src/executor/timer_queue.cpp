@@ -27,6 +27,7 @@ rcl_time_point_value_t now_of(rcl_clock_t* clock) {
 
 void TimerQueue::assign(std::vector<Timer> timers) {
   timers_ = std::move(timers);
+  is_left_out_.assign(timers_.size(), false);
   clocks_.clear();
   forget_times();
 }
@@ -82,6 +83,36 @@ void TimerQueue::assign(std::vector<Timer> timers) {
   std::sort(indices.begin() + before, indices.end());
 }
 
+[[gnu::hot]] void TimerQueue::take_due(std::vector<std::size_t>& indices) {
+  read_times();
+  for (OfClock& of_clock : clocks_) {
+    settle_first(of_clock);
+    if (of_clock.heap.empty()) {
+      continue;
+    }
+    const rcl_time_point_value_t now = now_of(of_clock.clock);
+    while (!of_clock.heap.empty() && of_clock.heap.front().due <= now) {
+      const std::size_t index = of_clock.heap.front().index;
+      std::pop_heap(of_clock.heap.begin(), of_clock.heap.end(), kLater);
+      of_clock.heap.pop_back();
+      is_left_out_[index] = true;
+      indices.push_back(index);
+      settle_first(of_clock);
+    }
+  }
+}
+
+[[gnu::hot]] void TimerQueue::put_back(std::size_t index) {
+  is_left_out_[index] = false;
+  Entry entry{0, index};
+  if (!has_times_ || !update(entry)) {
+    return;
+  }
+  std::vector<Entry>& heap = clock_of(timers_[index]).heap;
+  heap.push_back(entry);
+  std::push_heap(heap.begin(), heap.end(), kLater);
+}
+
 void TimerQueue::read_times() {
   if (has_times_) {
     return;
@@ -89,7 +120,7 @@ void TimerQueue::read_times() {
   clocks_.clear();
   for (std::size_t i = 0; i < timers_.size(); ++i) {
     Entry entry{0, i};
-    if (update(entry)) {
+    if (!is_left_out_[i] && update(entry)) {
       clock_of(timers_[i]).heap.push_back(entry);
     }
   }

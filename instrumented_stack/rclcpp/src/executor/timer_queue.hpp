@@ -47,6 +47,13 @@ class TimerQueue {
   // Appends the indices of the timers that are due, in ascending order.
   void append_due(std::vector<std::size_t>& indices);
 
+  // For executors that remember what is due. Appends the indices of the timers that are due, of one clock after the
+  // other, in the order of their times. They are left out until put_back().
+  void take_due(std::vector<std::size_t>& indices);
+  // After assign(), for a timer that is remembered.
+  void leave_out(std::size_t index) { is_left_out_[index] = true; }
+  void put_back(std::size_t index);
+
  private:
   struct Entry {
     std::int64_t due;  // the timer is due at this time or later
@@ -71,6 +78,7 @@ class TimerQueue {
   bool update(Entry& entry) const;
 
   std::vector<Timer> timers_;
+  std::vector<bool> is_left_out_;
   std::vector<OfClock> clocks_;
   std::vector<std::size_t> to_visit_;
   bool has_times_ = false;

@@ -57,6 +57,8 @@ class ExecutorNames {
       return "StaticSingleThreaded";
     } else if constexpr (std::is_same_v<ExecutorT, rclcpp::executors::MultiThreadedExecutor>) {
       return "MultiThreaded";
+    } else if constexpr (std::is_same_v<ExecutorT, rclcpp::executors::EventsCBGExecutor>) {
+      return "EventsCbg";
     } else {
       return "Events";
     }
@@ -65,7 +67,8 @@ class ExecutorNames {
 
 using Executors =
     ::testing::Types<rclcpp::executors::SingleThreadedExecutor, rclcpp::executors::StaticSingleThreadedExecutor,
-                     rclcpp::executors::MultiThreadedExecutor, rclcpp::experimental::executors::EventsExecutor>;
+                     rclcpp::executors::MultiThreadedExecutor, rclcpp::executors::EventsCBGExecutor,
+                     rclcpp::experimental::executors::EventsExecutor>;
 TYPED_TEST_SUITE(ExecutorsTest, Executors, ExecutorNames);
 
 TYPED_TEST(ExecutorsTest, SpinSomeRunsWhatIsReadyOnce) {

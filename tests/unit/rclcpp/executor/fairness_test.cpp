@@ -39,9 +39,10 @@ class FairnessTest : public RosTest {
     }
   }
   // A timer that is always due.
-  void add_timer(const std::string& name) {
+  void add_timer(const std::string& name) { add_timer(name, group_); }
+  void add_timer(const std::string& name, const rclcpp::CallbackGroup::SharedPtr& group) {
     timers_.push_back(node_->create_wall_timer(
-        milliseconds(0), [this, name] { takes_a_turn(name); }, group_));
+        milliseconds(0), [this, name] { takes_a_turn(name); }, group));
     always_ready_.push_back(name);
   }
   // A subscription that gets a message for each one that it takes, and has a hundred to begin with.
@@ -94,6 +95,8 @@ class FairnessTest : public RosTest {
       SCOPED_TRACE(std::to_string(threads) + " threads");
       spin_and_expect_fairness(
           std::make_shared<rclcpp::executors::MultiThreadedExecutor>(rclcpp::ExecutorOptions(), threads));
+      spin_and_expect_fairness(
+          std::make_shared<rclcpp::executors::EventsCBGExecutor>(rclcpp::ExecutorOptions(), threads));
     }
   }
 
@@ -134,6 +137,16 @@ TEST_F(FairnessTest, OfAnExclusiveGroupBesideABusyOne) {
   spin_with_threads_and_expect_fairness();
 }
 
+TEST_F(FairnessTest, OfAGroupWithManyEntitiesBesideOneWithFewInOneThread) {
+  for (const char* name : {"a", "b", "c", "d", "e"}) {
+    add_timer(name);
+  }
+  const auto other = node_->create_callback_group(CallbackGroupType::MutuallyExclusive);
+  add_timer("other", other);
+  spin_and_expect_fairness(std::make_shared<rclcpp::executors::SingleThreadedExecutor>());
+  spin_and_expect_fairness(std::make_shared<rclcpp::executors::EventsCBGExecutor>(rclcpp::ExecutorOptions(), 1));
+}
+
 TEST_F(FairnessTest, OfAnExecutorThatHasNoTimeForAllOfThem) {
   for (const char* name : {"a", "b", "c"}) {
     timers_.push_back(node_->create_wall_timer(
@@ -144,12 +157,20 @@ TEST_F(FairnessTest, OfAnExecutorThatHasNoTimeForAllOfThem) {
         },
         group_));
   }
-  while (turns_.size() < 30) {
-    executor_->spin_some(milliseconds(1));
-  }
-  for (const char* name : {"a", "b", "c"}) {
-    EXPECT_LE(most_overtaken(name), 2u) << name;
-  }
+  const auto spin_and_expect = [this] {
+    while (turns_.size() < 30) {
+      executor_->spin_some(milliseconds(1));
+    }
+    for (const char* name : {"a", "b", "c"}) {
+      EXPECT_LE(most_overtaken(name), 2u) << name;
+    }
+  };
+  spin_and_expect();
+  executor_->remove_node(node_);
+  executor_ = std::make_shared<rclcpp::executors::EventsCBGExecutor>();
+  executor_->add_node(node_);
+  turns_.clear();
+  spin_and_expect();
 }
 
 }  // namespace

@@ -84,6 +84,13 @@ TEST_F(ManyEntitiesTest, AreServedByOneExecutorOfEachKind) {
     publish_everywhere();
     EXPECT_TRUE(spin_until(executor, [this] { return received_ == kNodes * kTopicsPerNode; }));
   }
+  received_ = 0;
+  {
+    rclcpp::executors::EventsCBGExecutor executor;
+    add_all(executor);
+    publish_everywhere();
+    EXPECT_TRUE(spin_until(executor, [this] { return received_ == kNodes * kTopicsPerNode; }));
+  }
   for (const auto& subscription : subscriptions_) {
     EXPECT_EQ(subscription->get_publisher_count(), 1u);
   }

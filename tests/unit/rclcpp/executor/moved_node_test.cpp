@@ -15,6 +15,7 @@
 #include "tests/unit/rclcpp/ros_test.hpp"
 
 using rclcpp::CallbackGroupType;
+using rclcpp::executors::EventsCBGExecutor;
 using rclcpp::executors::MultiThreadedExecutor;
 using rclcpp::executors::SingleThreadedExecutor;
 using rclcpp::executors::StaticSingleThreadedExecutor;
@@ -157,6 +158,74 @@ TEST_F(MovedNodeTest, EachCallbackMayMoveItsNodeBetweenEventsAndWaiting) {
 
 TEST_F(MovedNodeTest, EachCallbackMayMoveItsNodeBetweenEventsExecutors) {
   expect_to_move_to_and_fro<EventsExecutor, EventsExecutor>();
+}
+
+TEST_F(MovedNodeTest, EachCallbackMayMoveItsNodeBetweenQueuesOfGroupsAndOtherExecutors) {
+  expect_to_move_to_and_fro<EventsCBGExecutor, SingleThreadedExecutor>();
+  expect_to_move_to_and_fro<EventsCBGExecutor, MultiThreadedExecutor>();
+  expect_to_move_to_and_fro<EventsCBGExecutor, EventsExecutor>();
+}
+
+TEST_F(MovedNodeTest, EachCallbackMayMoveItsNodeBetweenQueuesOfGroups) {
+  expect_to_move_to_and_fro<EventsCBGExecutor, EventsCBGExecutor>();
+}
+
+// The second executor has work of the group while the callback runs that the first one has begun.
+TEST_F(MovedNodeTest, QueuesOfGroupsWaitForTheCallbackThatAnotherExecutorHasBegun) {
+  SingleThreadedExecutor first;
+  EventsCBGExecutor second;
+  std::promise<void> moved;
+  std::promise<void> release;
+  std::atomic<bool> is_in_callback{false};
+  std::atomic<bool> overlapped{false};
+  std::promise<void> received;
+  auto publisher = node_->create_publisher<UInt64>("topic", 10);
+  rclcpp::SubscriptionOptions options;
+  options.callback_group = group_;
+  auto subscription = node_->create_subscription<UInt64>(
+      "topic", 10,
+      [&](const UInt64&) {
+        overlapped = is_in_callback.load();
+        received.set_value();
+      },
+      options);
+  auto timer = node_->create_wall_timer(
+      milliseconds(0),
+      [&](rclcpp::TimerBase& self) {
+        self.cancel();
+        is_in_callback = true;
+        first.remove_callback_group(group_);
+        second.add_callback_group(group_, node_->get_node_base_interface());
+        moved.set_value();
+        release.get_future().wait();
+        is_in_callback = false;
+      },
+      group_);
+  first.add_callback_group(group_, node_->get_node_base_interface());
+  std::thread first_thread([&first] { first.spin_once(kPatience); });
+  moved.get_future().wait();
+  std::thread second_thread([&second] { second.spin(); });
+  publisher->publish(UInt64());
+  ASSERT_TRUE(publisher->wait_for_all_acked(kPatience));
+  // Another group shows that the executor has looked.
+  std::promise<void> looked;
+  auto other = std::make_shared<rclcpp::Node>("other");
+  auto bystander = other->create_wall_timer(milliseconds(1), [&looked, calls = 0](rclcpp::TimerBase& self) mutable {
+    if (++calls == 5) {
+      self.cancel();
+      looked.set_value();
+    }
+  });
+  second.add_node(other);
+  looked.get_future().wait();
+  auto future = received.get_future();
+  EXPECT_EQ(future.wait_for(std::chrono::seconds(0)), std::future_status::timeout);
+  release.set_value();
+  EXPECT_EQ(future.wait_for(kPatience), std::future_status::ready);
+  EXPECT_FALSE(overlapped);
+  first_thread.join();
+  second.cancel();
+  second_thread.join();
 }
 
 TEST_F(MovedNodeTest, AnEventsExecutorThatLearnsLateOfARemovalLeavesTheNodeToTheNextOne) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Executors with several threads.
 #include <gmock/gmock.h>
 
 #include <atomic>
@@ -36,9 +37,17 @@ class Meeting {
   int arrived_ = 0;
 };
 
-class MultiThreadedExecutorTest : public RosTest {
+template <typename ExecutorT>
+std::unique_ptr<rclcpp::Executor> make_executor() {
+  return std::make_unique<ExecutorT>(rclcpp::ExecutorOptions(), 4);
+}
+using MakeExecutor = std::unique_ptr<rclcpp::Executor> (*)();
+constexpr MakeExecutor kMultiThreaded = make_executor<rclcpp::executors::MultiThreadedExecutor>;
+constexpr MakeExecutor kEventsCbg = make_executor<rclcpp::executors::EventsCBGExecutor>;
+
+class ThreadsTest : public RosTest {
  protected:
-  MultiThreadedExecutorTest() { executor_.add_node(node_); }
+  explicit ThreadsTest(MakeExecutor make) : owned_(make()) { executor_.add_node(node_); }
 
   // A timer that runs once, though a reentrant group lets a second thread in before it is cancelled.
   template <typename CallbackT>
@@ -72,26 +81,46 @@ class MultiThreadedExecutorTest : public RosTest {
   }
 
   rclcpp::Node::SharedPtr node_ = std::make_shared<rclcpp::Node>("node");
-  rclcpp::executors::MultiThreadedExecutor executor_{rclcpp::ExecutorOptions(), 4};
+  const std::unique_ptr<rclcpp::Executor> owned_;
+  rclcpp::Executor& executor_ = *owned_;
 };
 
-TEST_F(MultiThreadedExecutorTest, HasAsManyThreadsAsAskedForElseOnePerProcessor) {
-  EXPECT_EQ(executor_.get_number_of_threads(), 4u);
-  EXPECT_EQ(rclcpp::executors::MultiThreadedExecutor().get_number_of_threads(),
-            std::max(std::thread::hardware_concurrency(), 2u));
+class MultiThreadedExecutorTest : public ThreadsTest {
+ protected:
+  MultiThreadedExecutorTest() : ThreadsTest(kMultiThreaded) {}
+};
+
+class ThreadedExecutorsTest : public ThreadsTest, public testing::WithParamInterface<MakeExecutor> {
+ protected:
+  ThreadedExecutorsTest() : ThreadsTest(GetParam()) {}
+};
+INSTANTIATE_TEST_SUITE_P(Each, ThreadedExecutorsTest, testing::Values(kMultiThreaded, kEventsCbg),
+                         [](const testing::TestParamInfo<MakeExecutor>& made) {
+                           return made.param == kMultiThreaded ? "MultiThreaded" : "EventsCbg";
+                         });
+
+template <typename ExecutorT>
+void expect_threads_as_asked_for() {
+  EXPECT_EQ(ExecutorT(rclcpp::ExecutorOptions(), 4).get_number_of_threads(), 4u);
+  EXPECT_EQ(ExecutorT().get_number_of_threads(), std::max(std::thread::hardware_concurrency(), 2u));
 }
 
-TEST_F(MultiThreadedExecutorTest, CallbacksOfAReentrantGroupRunBesideOneAnother) {
+TEST_F(MultiThreadedExecutorTest, HasAsManyThreadsAsAskedForElseOnePerProcessor) {
+  expect_threads_as_asked_for<rclcpp::executors::MultiThreadedExecutor>();
+  expect_threads_as_asked_for<rclcpp::executors::EventsCBGExecutor>();
+}
+
+TEST_P(ThreadedExecutorsTest, CallbacksOfAReentrantGroupRunBesideOneAnother) {
   const auto group = node_->create_callback_group(CallbackGroupType::Reentrant);
   expect_beside_one_another(group, group);
 }
 
-TEST_F(MultiThreadedExecutorTest, CallbacksOfTwoExclusiveGroupsRunBesideOneAnother) {
+TEST_P(ThreadedExecutorsTest, CallbacksOfTwoExclusiveGroupsRunBesideOneAnother) {
   expect_beside_one_another(node_->create_callback_group(CallbackGroupType::MutuallyExclusive),
                             node_->create_callback_group(CallbackGroupType::MutuallyExclusive));
 }
 
-TEST_F(MultiThreadedExecutorTest, CallbacksOfAnExclusiveGroupRunOneAtATime) {
+TEST_P(ThreadedExecutorsTest, CallbacksOfAnExclusiveGroupRunOneAtATime) {
   std::atomic<int> running{0};
   std::atomic<int> calls{0};
   std::atomic<bool> overlapped{false};
@@ -116,7 +145,7 @@ TEST_F(MultiThreadedExecutorTest, CallbacksOfAnExclusiveGroupRunOneAtATime) {
   EXPECT_FALSE(overlapped);
 }
 
-TEST_F(MultiThreadedExecutorTest, OneReentrantSubscriptionTakesSeveralMessagesAtOnce) {
+TEST_P(ThreadedExecutorsTest, OneReentrantSubscriptionTakesSeveralMessagesAtOnce) {
   rclcpp::SubscriptionOptions options;
   options.callback_group = node_->create_callback_group(CallbackGroupType::Reentrant);
   Meeting meeting;
@@ -137,7 +166,7 @@ TEST_F(MultiThreadedExecutorTest, OneReentrantSubscriptionTakesSeveralMessagesAt
   EXPECT_EQ(met, 2);
 }
 
-TEST_F(MultiThreadedExecutorTest, ACallbackMayWaitForTheResponseOfAClientInAnotherGroup) {
+TEST_P(ThreadedExecutorsTest, ACallbackMayWaitForTheResponseOfAClientInAnotherGroup) {
   // Kept here, because the node has only weak references to groups.
   const auto service_group = node_->create_callback_group(CallbackGroupType::MutuallyExclusive);
   const auto client_group = node_->create_callback_group(CallbackGroupType::MutuallyExclusive);
@@ -164,7 +193,7 @@ TEST_F(MultiThreadedExecutorTest, ACallbackMayWaitForTheResponseOfAClientInAnoth
   EXPECT_EQ(sum, 5);
 }
 
-TEST_F(MultiThreadedExecutorTest, AnExceptionEndsEveryThread) {
+TEST_P(ThreadedExecutorsTest, AnExceptionEndsEveryThread) {
   auto timer = once([] { throw std::logic_error("mine"); });
   EXPECT_THROW(executor_.spin(), std::logic_error);
   EXPECT_FALSE(executor_.is_spinning());
@@ -263,7 +292,7 @@ TEST_F(MultiThreadedExecutorTest, AWaitableThatWasTriggeredWhileItsGroupWasBusyR
   thread.join();
 }
 
-TEST_F(MultiThreadedExecutorTest, SurvivesEntitiesThatComeAndGoBesideItsThreads) {
+TEST_P(ThreadedExecutorsTest, SurvivesEntitiesThatComeAndGoBesideItsThreads) {
   const auto group = node_->create_callback_group(CallbackGroupType::Reentrant);
   auto publisher = node_->create_publisher<UInt64>("topic", 10);
   auto keep_busy = node_->create_wall_timer(milliseconds(1), [&publisher] { publisher->publish(UInt64()); });

@@ -168,4 +168,38 @@ TEST_F(TimerQueueTest, IsDueAtTheEndOfAWaitInWhichItBecameFree) {
   EXPECT_THAT(due, ElementsAre(1));
 }
 
+TEST_F(TimerQueueTest, LeavesOutWhatWasTakenUntilItIsPutBack) {
+  std::vector<std::size_t> due;
+  set_time(130);
+  queue_.take_due(due);
+  EXPECT_THAT(due, ElementsAre(1, 3, 0));  // by their times
+  due.clear();
+  queue_.forget_times();
+  queue_.take_due(due);
+  EXPECT_THAT(due, IsEmpty());
+  queue_.put_back(3);
+  EXPECT_EQ(rcl_timer_call(timer(1)), RCL_RET_OK);
+  queue_.put_back(1);
+  queue_.take_due(due);
+  EXPECT_THAT(due, ElementsAre(3));
+  set_time(140);
+  due.clear();
+  queue_.take_due(due);
+  EXPECT_THAT(due, ElementsAre(1));
+}
+
+TEST_F(TimerQueueTest, LeavesOutWhatIsRememberedFromBefore) {
+  set_time(130);
+  queue_.assign(timers_);
+  queue_.leave_out(1);
+  std::vector<std::size_t> due;
+  queue_.take_due(due);
+  EXPECT_THAT(due, ElementsAre(3, 0));
+  EXPECT_EQ(rcl_timer_cancel(timer(1)), RCL_RET_OK);
+  queue_.put_back(1);
+  due.clear();
+  queue_.take_due(due);
+  EXPECT_THAT(due, IsEmpty());
+}
+
 }  // namespace

@@ -310,9 +310,9 @@ TEST_F(IntraProcessTest, NothingIsDeliveredAfterTheEndOfTheSubscription) {
 template <typename ExecutorT>
 class IntraProcessExecutorTest : public RosTest {};
 
-using Executors =
-    testing::Types<rclcpp::executors::SingleThreadedExecutor, rclcpp::executors::MultiThreadedExecutor,
-                   rclcpp::executors::StaticSingleThreadedExecutor, rclcpp::experimental::executors::EventsExecutor>;
+using Executors = testing::Types<rclcpp::executors::SingleThreadedExecutor, rclcpp::executors::MultiThreadedExecutor,
+                                 rclcpp::executors::StaticSingleThreadedExecutor, rclcpp::executors::EventsCBGExecutor,
+                                 rclcpp::experimental::executors::EventsExecutor>;
 TYPED_TEST_SUITE(IntraProcessExecutorTest, Executors);
 
 TYPED_TEST(IntraProcessExecutorTest, DeliversEveryMessageInItsOrder) {

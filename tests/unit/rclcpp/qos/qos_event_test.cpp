@@ -146,15 +146,22 @@ TEST_F(QosEventTest, MatchesAreToldInTheGroupOfTheOptions) {
   EXPECT_TRUE(spin_until(executor_, [&] { return publisher_matches == 0; }));
 }
 
-TEST_F(QosEventTest, AnEventsExecutorHearsOfThemToo) {
-  executor_.remove_node(node_);
-  rclcpp::experimental::executors::EventsExecutor executor;
-  executor.add_node(node_);
+template <typename ExecutorT>
+class NotifiedExecutorsTest : public QosEventTest {};
+using NotifiedExecutors =
+    testing::Types<rclcpp::experimental::executors::EventsExecutor, rclcpp::executors::EventsCBGExecutor>;
+TYPED_TEST_SUITE(NotifiedExecutorsTest, NotifiedExecutors);
+
+TYPED_TEST(NotifiedExecutorsTest, HearOfThemToo) {
+  this->executor_.remove_node(this->node_);
+  const rclcpp::Node::SharedPtr node = this->node_;
+  TypeParam executor;
+  executor.add_node(node);
   size_t matches = 0;
   rclcpp::PublisherOptions options;
   options.event_callbacks.matched_callback = [&](rclcpp::MatchedInfo& info) { matches = info.current_count; };
-  auto publisher = node_->create_publisher<String>("topic", 1, options);
-  auto subscription = node_->create_subscription<String>("topic", 1, ignore);
+  auto publisher = node->create_publisher<String>("topic", 1, options);
+  auto subscription = node->create_subscription<String>("topic", 1, this->ignore);
   ASSERT_TRUE(spin_until(executor, [&] { return matches == 1; }));
   subscription.reset();
   EXPECT_TRUE(spin_until(executor, [&] { return matches == 0; }));

@@ -14,10 +14,11 @@
 
 namespace rclcpp::detail {
 
+using AnyEntity = std::variant<TimerBase::WeakPtr, SubscriptionBase::WeakPtr, ServiceBase::WeakPtr, ClientBase::WeakPtr,
+                               Waitable::WeakPtr>;
+
 struct ReadyEntity {
-  std::variant<TimerBase::WeakPtr, SubscriptionBase::WeakPtr, ServiceBase::WeakPtr, ClientBase::WeakPtr,
-               Waitable::WeakPtr>
-      entity;
+  AnyEntity entity;
   CallbackGroup::WeakPtr group;
   std::uint64_t turn = 0;  // of several, the lowest one goes first
 };
