@@ -26,8 +26,7 @@ void start(ClientBase& client, const std::shared_ptr<GroupQueues>& queues, const
   client.set_on_new_response_callback([queues, entity](std::size_t count) { queues->add(entity, count); });
 }
 void start(Waitable& waitable, const std::shared_ptr<GroupQueues>& queues, const std::shared_ptr<Entity>& entity) {
-  waitable.set_on_ready_callback(
-      [queues, entity](std::size_t count, int event) { queues->add(entity, count, event); });
+  waitable.set_on_ready_callback([queues, entity](std::size_t count, int event) { queues->add(entity, count, event); });
 }
 void start(TimerBase& timer, const std::shared_ptr<GroupQueues>& queues, const std::shared_ptr<Entity>& entity) {
   entity->timer = timer.get_timer_handle();

@@ -43,15 +43,13 @@ std::shared_ptr<void> take_out(const detail::AnyEntity& entity, AnyExecutable& e
 GroupQueues::Work::~Work() {
   release();
   if (group_) {
-    Waiter* woken = nullptr;
+    SleepingThreads::Thread* woken = nullptr;
     {
       const std::lock_guard lock(queues_.mutex_);
       queues_.finish(*this);
       woken = queues_.wake_if_needed();
     }
-    if (woken != nullptr) {
-      woken->wakes.notify_one();
-    }
+    SleepingThreads::notify(woken);
   }
 }
 
@@ -75,7 +73,7 @@ GroupQueues::Work::~Work() {
 }
 
 [[gnu::hot]] void GroupQueues::add(const std::shared_ptr<Entity>& entity, std::size_t count, int event) {
-  Waiter* woken = nullptr;
+  SleepingThreads::Thread* woken = nullptr;
   {
     const std::lock_guard lock(mutex_);
     if (is_frozen_) {
@@ -85,26 +83,17 @@ GroupQueues::Work::~Work() {
     arrived(*entity, count, event);
     woken = wake_if_needed();
   }
-  if (woken != nullptr) {
-    woken->wakes.notify_one();
-  }
+  SleepingThreads::notify(woken);
 }
 
 void GroupQueues::timers_changed() {
   are_times_changed_ = true;
-  Waiter* woken = nullptr;
+  SleepingThreads::Thread* woken = nullptr;
   {
     const std::lock_guard lock(mutex_);
-    if (for_timers_ != nullptr) {
-      woken = for_timers_;
-      wake(*woken);
-    } else {
-      woken = wake_one();
-    }
+    woken = threads_.wake_for_timers();
   }
-  if (woken != nullptr) {
-    woken->wakes.notify_one();
-  }
+  SleepingThreads::notify(woken);
 }
 
 void GroupQueues::set_timers(std::vector<std::shared_ptr<Entity>> timers) {
@@ -166,7 +155,7 @@ bool GroupQueues::take(Work& work) {
 
 [[gnu::hot]] bool GroupQueues::wait(Work& work, nanoseconds timeout, std::uint64_t seen) {
   Released released;
-  Waiter* woken = nullptr;
+  SleepingThreads::Thread* woken = nullptr;
   bool has_taken = false;
   {
     std::unique_lock lock(mutex_);
@@ -183,27 +172,25 @@ bool GroupQueues::take(Work& work) {
         break;
       }
       TRACETOOLS_TRACEPOINT(rclcpp_executor_wait_for_work, timeout.count());
-      sleep(lock, deadline);
+      threads_.sleep(lock, deadline, timers_);
     }
     woken = wake_if_needed();
   }
-  if (woken != nullptr) {
-    woken->wakes.notify_one();
-  }
+  SleepingThreads::notify(woken);
   return has_taken;
 }
 
 void GroupQueues::interrupt() {
-  std::vector<Waiter*> woken;
+  std::vector<SleepingThreads::Thread*> woken;
   {
     const std::lock_guard lock(mutex_);
     ++interruptions_;
-    while (Waiter* waiter = wake_one()) {
-      woken.push_back(waiter);
+    while (SleepingThreads::Thread* thread = threads_.wake_one()) {
+      woken.push_back(thread);
     }
   }
-  for (Waiter* waiter : woken) {
-    waiter->wakes.notify_one();
+  for (SleepingThreads::Thread* thread : woken) {
+    SleepingThreads::notify(thread);
   }
 }
 
@@ -363,60 +350,8 @@ GroupQueues::OnlyWhatIsReady::~OnlyWhatIsReady() {
   list(group);
 }
 
-GroupQueues::Waiter* GroupQueues::wake_one() {
-  if (idle_.empty()) {
-    return nullptr;
-  }
-  Waiter* const waiter = idle_.size() > 1 && idle_.back() == for_timers_ ? idle_[idle_.size() - 2] : idle_.back();
-  wake(*waiter);
-  return waiter;
-}
-
-[[gnu::hot]] GroupQueues::Waiter* GroupQueues::wake_if_needed() {
-  const bool is_needed = listed_.size() > count_woken_ || (lacks_one_for_timers_ && count_woken_ == 0);
-  return is_needed ? wake_one() : nullptr;
-}
-
-void GroupQueues::wake(Waiter& waiter) {
-  std::erase(idle_, &waiter);
-  waiter.is_woken = true;
-  ++count_woken_;
-}
-
-void GroupQueues::sleep(std::unique_lock<std::mutex>& lock, steady_clock::time_point deadline) {
-  if (unused_.empty()) {
-    unused_.push_back(&waiters_.emplace_back());
-  }
-  Waiter& waiter = *unused_.back();
-  unused_.pop_back();
-  waiter.is_woken = false;
-  idle_.push_back(&waiter);
-  if (for_timers_ == nullptr) {
-    lacks_one_for_timers_ = false;
-    if (const std::int64_t until = timers_.time_until_first(); until != TimerQueue::kNever) {
-      for_timers_ = &waiter;
-      const auto now = steady_clock::now();
-      if (nanoseconds(until) < deadline - now) {
-        deadline = now + nanoseconds(until);
-      }
-    }
-  }
-  const auto is_woken = [&waiter] { return waiter.is_woken; };
-  if (deadline == steady_clock::time_point::max()) {
-    waiter.wakes.wait(lock, is_woken);
-  } else {
-    waiter.wakes.wait_until(lock, deadline, is_woken);
-  }
-  if (waiter.is_woken) {
-    --count_woken_;
-  } else {
-    std::erase(idle_, &waiter);
-  }
-  if (for_timers_ == &waiter) {
-    for_timers_ = nullptr;
-    lacks_one_for_timers_ = true;
-  }
-  unused_.push_back(&waiter);
+[[gnu::hot]] SleepingThreads::Thread* GroupQueues::wake_if_needed() {
+  return threads_.is_one_needed(listed_.size()) ? threads_.wake_one() : nullptr;
 }
 
 }  // namespace rclcpp

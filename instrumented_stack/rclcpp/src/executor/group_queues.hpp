@@ -2,26 +2,25 @@
 // What is ready to be executed, by callback groups: the queues of an EventsCBGExecutor, and the threads that wait for
 // them.
 //
-// A group has a queue of its entities that are ready, in the order in which they became ready. Of the groups that may be
-// taken from, the one whose first entity has been ready longest is next. An entity has one place in its queue, however
-// much has arrived for it, and goes to the end of the queue when it is taken. So each ready entity is overtaken by any
-// other one at most twice, and the queues do not grow with what arrives.
+// A group has a queue of its entities that are ready, in the order in which they became ready. Of the groups that may
+// be taken from, the one whose first entity has been ready longest is next. An entity has one place in its queue,
+// however much has arrived for it, and goes to the end of the queue when it is taken. So each ready entity is overtaken
+// by any other one at most twice, and the queues do not grow with what arrives.
 #pragma once
 
 #include <rcl/timer.h>
 
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <list>
 #include <memory>
 #include <mutex>
 #include <utility>
 #include <vector>
 
+#include "executor/sleeping_threads.hpp"
 #include "executor/timer_queue.hpp"
 #include "rclcpp/any_executable.hpp"
 #include "rclcpp/detail/ready_entity.hpp"
@@ -132,10 +131,6 @@ class GroupQueues {
   };
 
  private:
-  struct Waiter {
-    std::condition_variable wakes;
-    bool is_woken = false;
-  };
   struct Listed {
     std::uint64_t turn;
     Group* group;
@@ -163,11 +158,8 @@ class GroupQueues {
   // there is none.
   bool find_first(Group& group, AnyExecutable& executable, Released& released);
   void take_first(Group& group, Work& work);
-  // The caller notifies the result, if it is not null.
-  Waiter* wake_one();
-  Waiter* wake_if_needed();
-  void wake(Waiter& waiter);
-  void sleep(std::unique_lock<std::mutex>& lock, std::chrono::steady_clock::time_point deadline);
+  // The caller notifies the result.
+  SleepingThreads::Thread* wake_if_needed();
 
   std::mutex mutex_;
   std::vector<Listed> listed_;  // groups that have something to execute: a heap with the oldest one first
@@ -180,13 +172,7 @@ class GroupQueues {
   bool is_frozen_ = false;
   std::vector<Arrival> arrivals_;  // while it is frozen
   std::atomic<std::uint64_t> interruptions_{0};
-
-  std::deque<Waiter> waiters_;  // they live as long as this: a waiter is notified without the lock
-  std::vector<Waiter*> unused_;
-  std::vector<Waiter*> idle_;      // the last one is woken first
-  Waiter* for_timers_ = nullptr;   // of the idle ones, the one that wakes for the next timer
-  bool lacks_one_for_timers_ = false;
-  std::size_t count_woken_ = 0;  // which have not looked yet
+  SleepingThreads threads_;
 };
 
 }  // namespace rclcpp

@@ -363,7 +363,8 @@ TEST_F(EventsCbgExecutorTest, NodesAndGroupsComeAndGoUnderLoad) {
     // A callback may still run. It ends before the next one of its group begins.
     subscription.reset();
     timer->cancel();
-    while (!group->can_be_taken_from() || !node->get_node_base_interface()->get_default_callback_group()->can_be_taken_from()) {
+    while (!group->can_be_taken_from() ||
+           !node->get_node_base_interface()->get_default_callback_group()->can_be_taken_from()) {
       std::this_thread::yield();
     }
     timer.reset();
