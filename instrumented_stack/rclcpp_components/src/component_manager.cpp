@@ -3,10 +3,15 @@
 
 #include <algorithm>
 #include <ament_index_cpp/get_resource.hpp>
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <sstream>
+#include <string_view>
 #include <thread>
+#include <utility>
+
+#include "nearest_name.hpp"
 
 namespace rclcpp_components {
 
@@ -26,6 +31,42 @@ bool boolean(const rclcpp::Parameter& argument) {
     throw ComponentManagerException("Extra component argument '" + argument.get_name() + "' must be a boolean");
   }
   return argument.as_bool();
+}
+
+using SetOption = rclcpp::NodeOptions& (rclcpp::NodeOptions::*)(bool);
+constexpr std::array<std::pair<std::string_view, SetOption>, 8> kExtraArguments = {
+    {{"enable_logger_service", &rclcpp::NodeOptions::enable_logger_service},
+     {"enable_rosout", &rclcpp::NodeOptions::enable_rosout},
+     {"enable_topic_statistics", &rclcpp::NodeOptions::enable_topic_statistics},
+     {"forward_global_arguments", &rclcpp::NodeOptions::use_global_arguments},
+     {"start_parameter_event_publisher", &rclcpp::NodeOptions::start_parameter_event_publisher},
+     {"start_parameter_services", &rclcpp::NodeOptions::start_parameter_services},
+     {"use_clock_thread", &rclcpp::NodeOptions::use_clock_thread},
+     {"use_intra_process_comms", &rclcpp::NodeOptions::use_intra_process_comms}}};
+constexpr std::string_view kTypeDescriptions = "enable_type_description_service";
+
+// Sets an option of a component. Throws ComponentManagerException if there is none of that name, or for a wrong value.
+void apply(const rclcpp::Parameter& argument, rclcpp::NodeOptions& options) {
+  if (argument.get_name() == kTypeDescriptions) {
+    options.append_parameter_override("start_type_description_service", boolean(argument));
+    return;
+  }
+  std::vector<std::string_view> names = {kTypeDescriptions};
+  for (const auto& [name, set] : kExtraArguments) {
+    if (argument.get_name() == name) {
+      (options.*set)(boolean(argument));
+      return;
+    }
+    names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  std::string known = did_you_mean(argument.get_name(), names);
+  if (known.empty()) {
+    for (const std::string_view name : names) {
+      known += (known.empty() ? "; known are " : ", ") + std::string(name);
+    }
+  }
+  throw ComponentManagerException("Unknown extra component argument '" + argument.get_name() + "'" + known);
 }
 
 // The name that ROS 2 uses for a component in its log.
@@ -133,14 +174,7 @@ rclcpp::NodeOptions ComponentManager::create_node_options(const std::shared_ptr<
   auto options = rclcpp::NodeOptions().use_global_arguments(false).parameter_overrides(parameters).arguments(arguments);
 
   for (const rcl_interfaces::msg::Parameter& message : request->extra_arguments) {
-    const auto argument = rclcpp::Parameter::from_parameter_msg(message);
-    if (argument.get_name() == "use_intra_process_comms") {
-      options.use_intra_process_comms(boolean(argument));
-    } else if (argument.get_name() == "forward_global_arguments") {
-      options.use_global_arguments(boolean(argument));
-    } else if (argument.get_name() == "enable_type_description_service") {
-      options.append_parameter_override("start_type_description_service", boolean(argument));
-    }
+    apply(rclcpp::Parameter::from_parameter_msg(message), options);
   }
   return options;
 }

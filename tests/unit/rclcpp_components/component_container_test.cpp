@@ -100,14 +100,62 @@ TEST_P(ComponentContainer, WrongArgumentsEndItWithAMessage) {
   EXPECT_EQ(result.err, GetParam().program + ": found unknown ROS arguments: '-x'\n");
 }
 
+struct WrongArguments {
+  std::vector<std::string> words;
+  std::string message;
+};
+
+TEST(ComponentContainerOptions, WrongOnesAreRefusedByName) {
+  const test_support::Sandbox sandbox;
+  const std::string types = " (one of single-threaded, multi-threaded, events, events-cbg)\n";
+  for (const auto& [words, message] : std::initializer_list<WrongArguments>{
+           {{"--isolate"}, "unknown argument '--isolate'; did you mean '--isolated'?\n"},
+           {{"--executor_type=events"}, "unknown argument '--executor_type=events'; did you mean '--executor-type'?\n"},
+           {{"--threads", "4"}, "unknown argument '--threads'; --help lists the options\n"},
+           {{"--isolated", "loose"}, "unknown argument 'loose'; --help lists the options\n"},
+           {{"--executor-type"}, "--executor-type needs a value" + types},
+           {{"--executor-type", "nonsense"}, "unknown executor 'nonsense' in --executor-type" + types},
+           {{"--executor-type=event-cbg"},
+            "unknown executor 'event-cbg' in --executor-type; did you mean 'events-cbg'?" + types}}) {
+    std::vector<std::string> argv = {PREFIX "/lib/rclcpp_components/component_container"};
+    argv.insert(argv.end(), words.begin(), words.end());
+    argv.insert(argv.end(), {"--ros-args", "-r", "__node:=box"});
+    const CommandResult result = run_command(argv);
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(result.err, "component_container: " + message);
+  }
+}
+
+TEST(ComponentContainerOptions, HelpNamesThem) {
+  const test_support::Sandbox sandbox;
+  const CommandResult result = run_command({PREFIX "/lib/rclcpp_components/component_container_mt", "--help"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, HasSubstr("usage: component_container_mt [--executor-type TYPE]"));
+  EXPECT_THAT(result.out, HasSubstr("single-threaded, multi-threaded, events, events-cbg\n"));
+}
+
+TEST(ComponentContainerOptions, ThreadsThatHaveNoEffectAreAWarning) {
+  const test_support::Sandbox sandbox;
+  const std::string warning = "The parameter 'thread_num' has no effect";
+  RunningCommand single(
+      Command{{PREFIX "/lib/rclcpp_components/component_container", "--ros-args", "-p", "thread_num:=1"}});
+  EXPECT_TRUE(single.wait_for_output(warning)) << single.err();
+  single.end_gently();
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Kinds, ComponentContainer,
-    testing::Values(Container{"single", "component_container", {}, false},
-                    Container{"several", "component_container_mt", {}, false},
-                    Container{"events", "component_container_event", {}, false},
-                    Container{"isolated", "component_container_isolated", {}, true},
-                    Container{
-                        "isolated_several", "component_container_isolated", {"--use_multi_threaded_executor"}, true}),
+    testing::Values(
+        Container{"single", "component_container", {}, false},
+        Container{"several", "component_container_mt", {}, false},
+        Container{"events", "component_container_event", {}, false},
+        Container{"events_cbg", "component_container_events_cbg", {}, false},
+        Container{"events_cbg_by_option", "component_container", {"--executor-type", "events-cbg"}, false},
+        Container{"events_by_option", "component_container", {"--executor-type=events"}, false},
+        Container{"isolated", "component_container_isolated", {}, true},
+        Container{"isolated_by_option", "component_container", {"--isolated"}, true},
+        Container{"isolated_events_cbg", "component_container", {"--isolated", "--executor-type", "events-cbg"}, true},
+        Container{"isolated_several", "component_container_isolated", {"--use_multi_threaded_executor"}, true}),
     [](const auto& test) { return test.param.name; });
 
 TEST(ComponentProgram, RunsItsComponent) {

@@ -105,7 +105,7 @@ TEST_F(ComponentManagerTest, ComponentHasTheNamesRulesAndParametersOfTheRequest)
   plain.package_name = "tested";
   plain.plugin_name = "test_components::Plain";
   plain.parameters = {parameter("speed", 2.5)};
-  plain.extra_arguments = {parameter("use_intra_process_comms", true), parameter("of_the_future", 1)};
+  plain.extra_arguments = {parameter("use_intra_process_comms", true)};
   plain.log_level = 10;
   EXPECT_EQ(client_.load(plain).full_node_name, "/plain");
   EXPECT_EQ(parameter_of("/plain", "speed").as_double(), 2.5);
@@ -124,6 +124,44 @@ TEST_F(ComponentManagerTest, ArgumentsOfTheProcessReachAComponentOnlyIfTheyAreFo
   request.extra_arguments = {parameter("forward_global_arguments", true)};
   EXPECT_TRUE(client_.load(request).success);
   EXPECT_TRUE(parameter_of("/with", "global").as_bool());
+}
+
+TEST_F(ComponentManagerTest, ExtraArgumentsAreOptionsOfTheComponent) {
+  const auto load = [&](const std::string& name, std::vector<rcl_interfaces::msg::Parameter> extra_arguments) {
+    LoadNode::Request request;
+    request.package_name = "tested";
+    request.plugin_name = "test_components::Plain";
+    request.node_name = name;
+    request.extra_arguments = std::move(extra_arguments);
+    EXPECT_EQ(client_.load(request).error_message, "");
+  };
+  const auto services_of = [&](const std::string& name) {
+    std::vector<std::string> services;
+    for (const auto& [service, types] :
+         node_->get_node_graph_interface()->get_service_names_and_types_by_node(name, "/")) {
+      services.push_back(service);
+    }
+    return services;
+  };
+  const auto publishes = [&](const std::string& name, const std::string& topic) {
+    const auto publishers = node_->get_publishers_info_by_topic(topic);
+    return std::any_of(publishers.begin(), publishers.end(),
+                       [&](const auto& publisher) { return publisher.node_name() == name; });
+  };
+  load("plain", {});
+  load("bare", {parameter("start_parameter_services", false), parameter("enable_rosout", false),
+                parameter("start_parameter_event_publisher", false), parameter("use_clock_thread", false),
+                parameter("enable_topic_statistics", false), parameter("enable_type_description_service", false)});
+  load("full", {parameter("enable_logger_service", true)});
+  EXPECT_THAT(services_of("bare"), testing::IsEmpty());
+  EXPECT_THAT(services_of("plain"), testing::AllOf(testing::Contains("/plain/get_parameters"),
+                                                   testing::Contains("/plain/get_type_description"),
+                                                   testing::Not(testing::Contains("/plain/set_logger_levels"))));
+  EXPECT_THAT(services_of("full"), testing::Contains("/full/set_logger_levels"));
+  for (const char* topic : {"/rosout", "/parameter_events"}) {
+    EXPECT_TRUE(publishes("plain", topic)) << topic;
+    EXPECT_FALSE(publishes("bare", topic)) << topic;
+  }
 }
 
 TEST_F(ComponentManagerTest, ErrorsAreInTheResponseAndTheContainerGoesOn) {
@@ -148,6 +186,14 @@ TEST_F(ComponentManagerTest, ErrorsAreInTheResponseAndTheContainerGoesOn) {
   request.extra_arguments = {parameter("use_intra_process_comms", 1)};
   EXPECT_EQ(client_.load(request).error_message,
             "Extra component argument 'use_intra_process_comms' must be a boolean");
+  request.extra_arguments = {parameter("use_intra_process_comm", true)};
+  EXPECT_EQ(client_.load(request).error_message,
+            "Unknown extra component argument 'use_intra_process_comm'; did you mean 'use_intra_process_comms'?");
+  request.extra_arguments = {parameter("priority", 1)};
+  EXPECT_EQ(client_.load(request).error_message,
+            "Unknown extra component argument 'priority'; known are enable_logger_service, enable_rosout, "
+            "enable_topic_statistics, enable_type_description_service, forward_global_arguments, "
+            "start_parameter_event_publisher, start_parameter_services, use_clock_thread, use_intra_process_comms");
   request.extra_arguments.clear();
   request.parameters = {parameter("speed", "high")};
   EXPECT_THAT(client_.load(request).error_message,

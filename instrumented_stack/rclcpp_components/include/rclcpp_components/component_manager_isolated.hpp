@@ -5,11 +5,13 @@
 #include <pthread.h>
 
 #include <chrono>
+#include <cstddef>
 #include <future>
 #include <map>
 #include <memory>
 #include <string>
 #include <thread>
+#include <type_traits>
 #include <utility>
 
 #include "rclcpp_components/component_manager.hpp"
@@ -21,6 +23,11 @@ class ComponentManagerIsolated : public ComponentManager {
  public:
   using ComponentManager::ComponentManager;
 
+  ComponentManagerIsolated() = default;
+  // Executors with several threads have `number_of_threads`; 0: as many as the parameter thread_num.
+  explicit ComponentManagerIsolated(const rclcpp::ExecutorOptions& executor_options, size_t number_of_threads = 0)
+      : executor_options_(executor_options), number_of_threads_(number_of_threads) {}
+
   ~ComponentManagerIsolated() override {
     for (auto& [id, dedicated] : dedicated_executors_) {
       dedicated.end();
@@ -31,7 +38,7 @@ class ComponentManagerIsolated : public ComponentManager {
  protected:
   void add_node_to_executor(uint64_t node_id) override {
     auto node = node_wrappers_.at(node_id).get_node_base_interface();
-    const auto executor = std::make_shared<ExecutorT>();
+    const std::shared_ptr<ExecutorT> executor = make_executor();
     executor->add_node(node);
     Dedicated dedicated;
     dedicated.executor = executor;
@@ -57,6 +64,18 @@ class ComponentManagerIsolated : public ComponentManager {
   }
 
  private:
+  std::shared_ptr<ExecutorT> make_executor() const {
+    if constexpr (std::is_constructible_v<ExecutorT, const rclcpp::ExecutorOptions&, size_t>) {
+      const size_t threads =
+          number_of_threads_ > 0 ? number_of_threads_ : static_cast<size_t>(get_parameter("thread_num").as_int());
+      return std::make_shared<ExecutorT>(executor_options_, threads);
+    } else if constexpr (std::is_constructible_v<ExecutorT, const rclcpp::ExecutorOptions&>) {
+      return std::make_shared<ExecutorT>(executor_options_);
+    } else {
+      return std::make_shared<ExecutorT>();
+    }
+  }
+
   struct Dedicated {
     // Returns when the currently running callback, if any, has returned.
     void end() {
@@ -72,6 +91,8 @@ class ComponentManagerIsolated : public ComponentManager {
     std::future<void> ended;  // set when spin() has returned
   };
 
+  const rclcpp::ExecutorOptions executor_options_;
+  const size_t number_of_threads_ = 0;
   std::map<uint64_t, Dedicated> dedicated_executors_;
 };
 
