@@ -90,7 +90,8 @@ std::string container_usage(std::string_view container) {
          "\n"
          "  --isolated                     each component has an executor and a thread of its own\n"
          "  --use_multi_threaded_executor  the same as --executor-type multi-threaded\n"
-         "  -p thread_num:=N               threads of a multi-threaded or events-cbg executor; default: one per processor\n";
+         "  -p thread_num:=N               threads of a multi-threaded or events-cbg executor; default: one per "
+         "processor\n";
 }
 
 }  // namespace rclcpp_components

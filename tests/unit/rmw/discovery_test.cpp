@@ -143,7 +143,7 @@ TEST_F(SharedMemoryPorts, LeaveTheLocatorsOfAProfile) {
 
 TEST(DefaultTransports, AreUdpAndSharedMemoryThatReportALargerSendBuffer) {
   fdds::DomainParticipantQos qos;
-  rmw_fastrtps::use_default_transports(0, std::make_shared<DiscoveryTraffic>(), qos);
+  rmw_fastrtps::use_default_transports({}, 0, std::make_shared<DiscoveryTraffic>(), qos);
   EXPECT_FALSE(qos.transport().use_builtin_transports);
   std::vector<int> kinds;
   for (const auto& descriptor : qos.transport().user_transports) {
@@ -174,7 +174,7 @@ bool may_reach(const Transport& transport, const rtps::Locator_t& locator) {
 // locator for one of its own, and what it writes there is lost. Version 3 looks for the port (is_locator_reachable).
 TEST(DefaultTransports, DoNotBelieveInAPortOfSharedMemoryThatIsNotThere) {
   fdds::DomainParticipantQos qos;
-  rmw_fastrtps::use_default_transports(0, std::make_shared<DiscoveryTraffic>(), qos);
+  rmw_fastrtps::use_default_transports({}, 0, std::make_shared<DiscoveryTraffic>(), qos);
   const std::unique_ptr<rtps::TransportInterface> transport(qos.transport().user_transports.back()->create_transport());
   ASSERT_TRUE(transport->init());
   EXPECT_EQ(may_reach(*transport, rtps::Locator_t(LOCATOR_KIND_SHM, 0x7ffffff7)), RMW_FASTDDS_MAJOR >= 3);
@@ -193,7 +193,7 @@ TEST(DefaultTransports, TellWhetherSharedMemoryHasRoom) {
 
 TEST(DefaultTransports, ReachAsManyLocalPeersAsAskedFor) {
   fdds::DomainParticipantQos qos;
-  rmw_fastrtps::use_default_transports(32, std::make_shared<DiscoveryTraffic>(), qos);
+  rmw_fastrtps::use_default_transports({}, 32, std::make_shared<DiscoveryTraffic>(), qos);
   EXPECT_EQ(qos.transport().user_transports.front()->max_initial_peers_range(), 32U);
 }
 
@@ -206,7 +206,7 @@ TEST(DefaultTransports, LeaveTheTransportsAndBuffersOfAProfile) {
   qos.transport().send_socket_buffer_size = 1 << 20;
   EXPECT_FALSE(rmw_fastrtps::has_default_transports(qos));
   qos = {};
-  rmw_fastrtps::use_default_transports(0, std::make_shared<DiscoveryTraffic>(), qos);
+  rmw_fastrtps::use_default_transports({}, 0, std::make_shared<DiscoveryTraffic>(), qos);
   EXPECT_FALSE(rmw_fastrtps::has_default_transports(qos));
   qos = {};
   qos.transport().use_builtin_transports = false;

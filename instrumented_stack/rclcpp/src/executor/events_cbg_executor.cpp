@@ -95,8 +95,8 @@ void EventsCBGExecutor::run_and_keep_failure(const ExceptionHandler& exception_h
   }
 }
 
-void EventsCBGExecutor::spin_once_impl(nanoseconds timeout) {
-  const auto start = steady_clock::now();
+[[gnu::hot]] void EventsCBGExecutor::spin_once_impl(nanoseconds timeout) {
+  const auto start = timeout > nanoseconds::zero() ? steady_clock::now() : steady_clock::time_point();
   GroupQueues::Work work(*queues_);
   nanoseconds left = timeout;
   while (true) {
@@ -109,12 +109,11 @@ void EventsCBGExecutor::spin_once_impl(nanoseconds timeout) {
       work.execute([this](AnyExecutable& executable) { execute_chosen(executable); });
       return;
     }
-    if (timeout >= nanoseconds::zero()) {
-      left = timeout - (steady_clock::now() - start);
-      if (left <= nanoseconds::zero() && seen == queues_->interruptions()) {
-        return;
-      }
-      left = std::max(left, nanoseconds::zero());
+    if (timeout > nanoseconds::zero()) {
+      left = std::max<nanoseconds>(timeout - (steady_clock::now() - start), nanoseconds::zero());
+    }
+    if (left == nanoseconds::zero() && seen == queues_->interruptions()) {
+      return;
     }
   }
 }

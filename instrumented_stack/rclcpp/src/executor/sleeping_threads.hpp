@@ -46,8 +46,8 @@ class SleepingThreads {
 
   std::deque<Thread> threads_;  // they live as long as this: a thread is notified without the mutex
   std::vector<Thread*> unused_;
-  std::vector<Thread*> asleep_;    // the last one is woken first
-  Thread* for_timers_ = nullptr;   // of those asleep
+  std::vector<Thread*> asleep_;   // the last one is woken first
+  Thread* for_timers_ = nullptr;  // of those asleep
   bool lacks_one_for_timers_ = false;
   std::size_t count_woken_ = 0;  // which have not looked yet
 };

@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fastdds_versions/transport.hpp"
 
-#if RMW_FASTDDS_MAJOR >= 3
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <cstddef>
 #include <cstdlib>
 #include <iterator>
 #include <typeinfo>
 #include <vector>
-#else
-#include <unistd.h>
-
-#include <string>
-#endif
 
 namespace rmw_fastrtps {
 
-#if RMW_FASTDDS_MAJOR >= 3
 namespace {
 
+#if RMW_FASTDDS_MAJOR >= 3
 using Buffers = std::vector<rtps::NetworkBuffer>;
 
 // A library of Fast DDS with statistics ends each message with a submessage for them: its kind, its flags (here the
@@ -51,6 +48,8 @@ struct SenderOfWholeMessages : rtps::SenderResource {
   }
 };
 
+#endif
+
 // Stays a descriptor of its kind, because Fast DDS looks for it.
 struct ForwardedSharedMemory final : rtps::SharedMemTransportDescriptor {
   explicit ForwardedSharedMemory(const SharedMemTransportDescriptor& of_profile)
@@ -67,17 +66,20 @@ void add_builtin_transports(fdds::TransportConfigQos& transports) {
   auto udp = std::make_shared<rtps::UDPv4TransportDescriptor>();
   udp->sendBufferSize = transports.send_socket_buffer_size;
   udp->receiveBufferSize = transports.listen_socket_buffer_size;
+#if RMW_FASTDDS_MAJOR >= 3
   udp->default_reception_threads(transports.builtin_transports_reception_threads_);
+#endif
   auto shared_memory = std::make_shared<rtps::SharedMemTransportDescriptor>();
   shared_memory->max_message_size(udp->max_message_size());
+#if RMW_FASTDDS_MAJOR >= 3
   shared_memory->default_reception_threads(transports.builtin_transports_reception_threads_);
+#endif
   transports.user_transports.push_back(shared_memory);
   transports.user_transports.push_back(udp);
   transports.use_builtin_transports = false;
 }
 
 }  // namespace
-#endif
 
 bool ForwardingTransport::OpenOutputChannel(rtps::SendResourceList& senders, const rtps::Locator& locator) {
 #if RMW_FASTDDS_MAJOR >= 3
@@ -94,8 +96,7 @@ bool ForwardingTransport::OpenOutputChannel(rtps::SendResourceList& senders, con
 #endif
 }
 
-void forward_shared_memory([[maybe_unused]] fdds::DomainParticipantQos& qos) {
-#if RMW_FASTDDS_MAJOR >= 3
+void forward_shared_memory(fdds::DomainParticipantQos& qos) {
   auto& transports = qos.transport();
   if (transports.use_builtin_transports && std::getenv("FASTDDS_BUILTIN_TRANSPORTS") == nullptr) {
     add_builtin_transports(transports);
@@ -107,16 +108,21 @@ void forward_shared_memory([[maybe_unused]] fdds::DomainParticipantQos& qos) {
           std::make_shared<ForwardedSharedMemory>(static_cast<const rtps::SharedMemTransportDescriptor&>(kept));
     }
   }
-#endif
 }
 
-bool ForwardingTransport::is_reachable([[maybe_unused]] const rtps::Locator& locator) const {
-#if RMW_FASTDDS_MAJOR < 3
-  if (locator.kind == LOCATOR_KIND_SHM) {
-    return access(("/dev/shm/fastrtps_port" + std::to_string(locator.port)).c_str(), F_OK) == 0;
+bool ForwardingTransport::is_reachable(const rtps::Locator& locator) const {
+  if (locator.kind != LOCATOR_KIND_SHM) {
+    return true;
   }
-#endif
-  return true;
+  struct stat port {};
+  if (stat(shared_memory_port_file(locator.port).c_str(), &port) != 0) {
+    return RMW_FASTDDS_MAJOR >= 3;
+  }
+  return port.st_uid == geteuid();
+}
+
+std::string shared_memory_port_file(std::uint32_t port) {
+  return (RMW_FASTDDS_MAJOR >= 3 ? "/dev/shm/fastdds_port" : "/dev/shm/fastrtps_port") + std::to_string(port);
 }
 
 }  // namespace rmw_fastrtps

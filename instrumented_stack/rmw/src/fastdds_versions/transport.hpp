@@ -11,6 +11,7 @@
 #include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
 #include <memory>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -22,12 +23,14 @@
 #include <fastdds/rtps/transport/TransportInterface.hpp>
 #include <fastdds/rtps/transport/TransportReceiverInterface.hpp>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.hpp>
+#include <fastdds/rtps/transport/UDPv6TransportDescriptor.hpp>
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.hpp>
 #else
 #include <fastdds/rtps/network/SenderResource.h>
 #include <fastdds/rtps/transport/TransportInterface.h>
 #include <fastdds/rtps/transport/TransportReceiverInterface.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastdds/rtps/transport/UDPv6TransportDescriptor.h>
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
 #endif
 
@@ -170,15 +173,21 @@ class ForwardingTransport : public rtps::TransportInterface {
   void end() { inner_.reset(); }
 
  private:
-  // Fast DDS 2 and 3 give their ports in shared memory other names, and neither tells the other which it is. Version 2
-  // takes each port of this host for one of its own, prefers it to UDP, and writes what nobody reads. So a port must be
-  // there. Version 3 looks for it itself (is_locator_reachable).
+  // Fast DDS prefers shared memory to UDP, and writes what nobody reads where the port or the segment cannot be opened:
+  //   between Fast DDS 2 and 3, which give their ports other names; neither tells the other which it is
+  //   between containers with one network and several /dev/shm
+  //   between two users, whose files only they may write; a reader opens the segment of the writer for writing
+  // So a port must be there and must be of this user; else UDP is used. Version 3 looks itself whether it is there
+  // (is_locator_reachable).
   bool is_reachable(const rtps::Locator& locator) const;
 
   std::unique_ptr<TransportInterface> inner_;
 };
 
-// Puts a ForwardingTransport before the shared memory of a profile, where that makes a difference.
+// Puts a ForwardingTransport before the shared memory of a profile.
 void forward_shared_memory(fdds::DomainParticipantQos& qos);
+
+// The file of a port in shared memory.
+std::string shared_memory_port_file(std::uint32_t port);
 
 }  // namespace rmw_fastrtps

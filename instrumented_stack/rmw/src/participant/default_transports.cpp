@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "participant/default_transports.hpp"
 
+#include <pwd.h>
+#include <sys/stat.h>
 #include <sys/statvfs.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <set>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -137,6 +145,11 @@ struct Filtered final : Descriptor {
   std::shared_ptr<DiscoveryTraffic> traffic;
 };
 
+std::string name_of_user(uid_t user) {
+  const passwd* entry = getpwuid(user);
+  return entry != nullptr ? entry->pw_name : std::to_string(user);
+}
+
 }  // namespace
 
 bool has_room_in_shared_memory(std::uint64_t bytes) {
@@ -151,18 +164,89 @@ bool has_default_transports(const fdds::DomainParticipantQos& qos) {
          transports.send_socket_buffer_size == 0 && transports.listen_socket_buffer_size == 0;
 }
 
-void use_default_transports(std::uint32_t local_peers, const std::shared_ptr<DiscoveryTraffic>& traffic,
-                            fdds::DomainParticipantQos& qos) {
-  auto udp = std::make_shared<Filtered<rtps::UDPv4TransportDescriptor>>(traffic);
-  if (local_peers != 0) {
-    udp->maxInitialPeersRange = local_peers;
+std::optional<BuiltinTransports> wanted_builtin_transports() {
+  const char* value = std::getenv("FASTDDS_BUILTIN_TRANSPORTS");
+  const std::string_view wanted = value == nullptr ? "" : value;
+  static constexpr std::array<std::pair<std::string_view, BuiltinTransports>, 6> kKnown = {
+      {{"", {}},
+       {"DEFAULT", {}},
+       {"DEFAULTv6", {.udp4 = false, .udp6 = true}},
+       {"SHM", {.udp4 = false}},
+       {"UDPv4", {.shared_memory = false}},
+       {"UDPv6", {.udp4 = false, .udp6 = true, .shared_memory = false}}}};
+  for (auto [name, transports] : kKnown) {
+    if (name == wanted) {
+      transports.are_of_environment = !wanted.empty();
+      return transports;
+    }
   }
-  auto shared_memory = std::make_shared<Filtered<rtps::SharedMemTransportDescriptor>>(traffic);
-  shared_memory->max_message_size(udp->max_message_size());
+  static constexpr std::array<std::string_view, 5> kOfFastDds = {"NONE", "TCPv4", "TCPv6", "LARGE_DATA",
+                                                                 "LARGE_DATAv6"};
+  const std::string_view name = wanted.substr(0, wanted.find('?'));
+  const bool is_name = std::find(kOfFastDds.begin(), kOfFastDds.end(), name) != kOfFastDds.end() ||
+                       std::any_of(kKnown.begin(), kKnown.end(),
+                                   [&](const auto& known) { return known.first == name && !name.empty(); });
+  constexpr bool kFastDdsReadsIt = RMW_FASTDDS_MAJOR >= 3 || RMW_FASTDDS_MINOR >= 12;
+  if (is_name && kFastDdsReadsIt) {
+    return std::nullopt;
+  }
+  rcutils_log(nullptr, RCUTILS_LOG_SEVERITY_WARN, "rmw_fastrtps",
+              is_name
+                  ? "FASTDDS_BUILTIN_TRANSPORTS is '%s', which this release of Fast DDS does not have; using DEFAULT"
+                  : "FASTDDS_BUILTIN_TRANSPORTS is '%s', but must be DEFAULT, DEFAULTv6, SHM, UDPv4, UDPv6, TCPv4, "
+                    "TCPv6, LARGE_DATA, LARGE_DATAv6 or NONE; using DEFAULT",
+              value);
+  return BuiltinTransports{};
+}
+
+void warn_of_another_user(std::uint32_t domain_id, const fdds::DomainParticipantQos& qos) {
+  const auto& transports = qos.transport();
+  const bool is_alone =
+      !transports.use_builtin_transports &&
+      std::all_of(transports.user_transports.begin(), transports.user_transports.end(), [](const auto& transport) {
+        return std::dynamic_pointer_cast<rtps::SharedMemTransportDescriptor>(transport) != nullptr;
+      });
+  const std::string port = shared_memory_port_file(qos.wire_protocol().port.getMulticastPort(domain_id));
+  struct stat status {};
+  if (!is_alone || stat(port.c_str(), &status) != 0 || status.st_uid == geteuid()) {
+    return;
+  }
+  rcutils_log(
+      nullptr, RCUTILS_LOG_SEVERITY_WARN, "rmw_fastrtps",
+      "Nodes of the users '%s' and '%s' do not hear each other in domain %u: shared memory is the only transport, "
+      "and %s belongs to '%s'. Use UDP as well (FASTDDS_BUILTIN_TRANSPORTS=DEFAULT), or one user for both",
+      name_of_user(geteuid()).c_str(), name_of_user(status.st_uid).c_str(), domain_id, port.c_str(),
+      name_of_user(status.st_uid).c_str());
+}
+
+void use_default_transports(const BuiltinTransports& wanted, std::uint32_t local_peers,
+                            const std::shared_ptr<DiscoveryTraffic>& traffic, fdds::DomainParticipantQos& qos) {
   qos.transport().use_builtin_transports = false;
-  qos.transport().user_transports = {udp};
-  if (has_room_in_shared_memory(kMemoryOfParticipant)) {
-    qos.transport().user_transports.push_back(shared_memory);
+  auto& transports = qos.transport().user_transports;
+  transports.clear();
+  const auto add_udp = [&]<typename Descriptor>(std::shared_ptr<Filtered<Descriptor>> udp) {
+    if (local_peers != 0) {
+      udp->maxInitialPeersRange = local_peers;
+    }
+    udp->sendBufferSize = qos.transport().send_socket_buffer_size;
+    udp->receiveBufferSize = qos.transport().listen_socket_buffer_size;
+    transports.push_back(std::move(udp));
+  };
+  const rtps::UDPv4TransportDescriptor udp;
+  if (wanted.udp4) {
+    add_udp(std::make_shared<Filtered<rtps::UDPv4TransportDescriptor>>(traffic));
+  }
+  if (wanted.udp6) {
+    add_udp(std::make_shared<Filtered<rtps::UDPv6TransportDescriptor>>(traffic));
+  }
+  if (!wanted.shared_memory) {
+    return;
+  }
+  const bool is_alone = transports.empty();
+  if (is_alone || has_room_in_shared_memory(kMemoryOfParticipant)) {
+    auto shared_memory = std::make_shared<Filtered<rtps::SharedMemTransportDescriptor>>(traffic);
+    shared_memory->max_message_size(udp.max_message_size());
+    transports.push_back(shared_memory);
   } else {
     rcutils_log(nullptr, RCUTILS_LOG_SEVERITY_WARN, "rmw_fastrtps",
                 "/dev/shm is full: messages to processes of this host take the way over UDP");

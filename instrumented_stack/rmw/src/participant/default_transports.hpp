@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
 #include <memory>
+#include <optional>
 
 #include "participant/discovery_traffic.hpp"
 
@@ -25,10 +26,29 @@ bool has_room_in_shared_memory(std::uint64_t bytes);
 // Whether the profile of the participant leaves the transports and the sizes of their buffers to Fast DDS.
 bool has_default_transports(const eprosima::fastdds::dds::DomainParticipantQos& qos);
 
+// What FASTDDS_BUILTIN_TRANSPORTS asks for, of the transports that this stack makes itself. Releases of Fast DDS that
+// know the variable get the others, and those with options ("LARGE_DATA?max_msg_size=1MB").
+struct BuiltinTransports {
+  bool udp4 = true;
+  bool udp6 = false;
+  bool shared_memory = true;
+  bool are_of_environment = false;
+};
+
+// Those of the variable, the default ones without it, or nothing if they are left to Fast DDS. A warning tells of a
+// value that has no effect: one that is not known, or that this release of Fast DDS does not know.
+std::optional<BuiltinTransports> wanted_builtin_transports();
+
+// Warns if `qos` has no other transport than shared memory, and another user has the port by which the processes of the
+// domain find each other: neither user hears the other then.
+void warn_of_another_user(std::uint32_t domain_id, const eprosima::fastdds::dds::DomainParticipantQos& qos);
+
 // `local_peers`: the number of participants on one host that a unicast announcement reaches; 0 for the default of Fast
-// DDS. Buffers and segments have the sizes that Fast DDS gives them; the transports report kBytesBetweenHeartbeats to
-// writers, and let pass what `traffic` allows. Without room in /dev/shm, UDP is the only one, and a warning says so.
-void use_default_transports(std::uint32_t local_peers, const std::shared_ptr<DiscoveryTraffic>& traffic,
+// DDS. Buffers have the sizes of the profile, segments those that Fast DDS gives them; the transports report
+// kBytesBetweenHeartbeats to writers, and let pass what `traffic` allows. Without room in /dev/shm, UDP is the only
+// one, and a warning says so.
+void use_default_transports(const BuiltinTransports& wanted, std::uint32_t local_peers,
+                            const std::shared_ptr<DiscoveryTraffic>& traffic,
                             eprosima::fastdds::dds::DomainParticipantQos& qos);
 
 }  // namespace rmw_fastrtps

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "participant/discovery_range.hpp"
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -23,21 +24,23 @@ rtps::Locator_t peer_locator(const std::string& host) {
   return locator;
 }
 
-void restrict_to_localhost(const std::shared_ptr<DiscoveryTraffic>& traffic, fdds::DomainParticipantQos& qos) {
+void restrict_to_localhost(const std::optional<BuiltinTransports>& transports,
+                           const std::shared_ptr<DiscoveryTraffic>& traffic, fdds::DomainParticipantQos& qos) {
   auto& builtin = qos.wire_protocol().builtin;
   // An explicit unicast locator keeps Fast DDS from listening to multicast.
   builtin.metatrafficMulticastLocatorList.clear();
   builtin.metatrafficUnicastLocatorList.push_back(rtps::Locator_t());
   builtin.initialPeersList.push_back(peer_locator("127.0.0.1"));
-  if (qos.transport().user_transports.empty()) {
+  if (qos.transport().user_transports.empty() && transports) {
     // A peer without a port stands for the first participants of the host. By default that would be only four.
-    use_default_transports(kLocalParticipants, traffic, qos);
+    use_default_transports(*transports, kLocalParticipants, traffic, qos);
   }
 }
 
 }  // namespace
 
 void configure_discovery(const rmw_discovery_options_t& options, std::uint32_t domain_id,
+                         const std::optional<BuiltinTransports>& transports,
                          const std::shared_ptr<DiscoveryTraffic>& traffic, fdds::DomainParticipantQos& qos) {
   auto& builtin = qos.wire_protocol().builtin;
   switch (options.automatic_discovery_range) {
@@ -47,7 +50,7 @@ void configure_discovery(const rmw_discovery_options_t& options, std::uint32_t d
       return;
     }
     case RMW_AUTOMATIC_DISCOVERY_RANGE_LOCALHOST:
-      restrict_to_localhost(traffic, qos);
+      restrict_to_localhost(transports, traffic, qos);
       break;
     case RMW_AUTOMATIC_DISCOVERY_RANGE_SYSTEM_DEFAULT:
       return;

@@ -13,6 +13,7 @@
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -129,6 +130,25 @@ fdds::DomainParticipant* create_participant(std::uint32_t domain_id, fdds::Domai
   return participant;
 }
 
+// Fast DDS 2 reads FASTRTPS_DEFAULT_PROFILES_FILE, Fast DDS 3 FASTDDS_DEFAULT_PROFILES_FILE. Here both have their
+// effect.
+void load_profiles(fdds::DomainParticipantFactory& factory) {
+  const char* const names[] = {"FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE"};
+  const auto file_of = [](const char* name) {
+    const char* value = std::getenv(name);
+    return value != nullptr && *value != '\0' ? value : nullptr;
+  };
+  const char* const read_by_fast_dds = file_of(names[RMW_FASTDDS_MAJOR >= 3 ? 1 : 0]);
+  const char* const other = names[RMW_FASTDDS_MAJOR >= 3 ? 0 : 1];
+  if (const char* const file = file_of(other); file != nullptr && read_by_fast_dds == nullptr) {
+    if (factory.load_XML_profiles_file(file) != rmw_fastrtps::return_code::kOk) {
+      rcutils_log(nullptr, RCUTILS_LOG_SEVERITY_ERROR, "rmw_fastrtps",
+                  "%s is '%s', whose profiles cannot be read; they have no effect", other, file);
+    }
+  }
+  factory.load_profiles();
+}
+
 }  // namespace
 
 class Participant::DiscoveryListener final : public FoundListener {
@@ -181,21 +201,25 @@ Participant::Participant(const rmw_init_options_t& options, GraphCache& graph)
   qos_from_xml_ = from_xml != nullptr && std::string_view(from_xml) == "1";
 
   auto* factory = fdds::DomainParticipantFactory::get_instance();
-  factory->load_profiles();
+  load_profiles(*factory);
   fdds::DomainParticipantQos qos = factory->get_default_participant_qos();
   const auto domain_id =
       options.domain_id == RMW_DEFAULT_DOMAIN_ID ? 0u : static_cast<std::uint32_t>(options.domain_id);
   // A profile may have chosen other transports.
-  const bool may_choose_ports = qos.transport().use_builtin_transports && qos.transport().user_transports.empty();
-  const bool leaves_buffers_to_us = has_default_transports(qos);
+  const bool leaves_transports_to_us =
+      qos.transport().use_builtin_transports && qos.transport().user_transports.empty();
+  const auto wanted = leaves_transports_to_us ? wanted_builtin_transports() : std::nullopt;
+  const bool may_choose_ports = wanted && wanted->udp4 && wanted->shared_memory;
+  const bool leaves_buffers_to_us = wanted && (has_default_transports(qos) || wanted->are_of_environment);
   const char* discovery_server = std::getenv("ROS_DISCOVERY_SERVER");
   uses_discovery_server_ = discovery_server != nullptr && *discovery_server != '\0';
-  configure_discovery(options.discovery_options, domain_id, traffic_, qos);
+  configure_discovery(options.discovery_options, domain_id, wanted, traffic_, qos);
   if (leaves_buffers_to_us && qos.transport().user_transports.empty()) {
-    use_default_transports(0, traffic_, qos);
+    use_default_transports(*wanted, 0, traffic_, qos);
   } else if (!leaves_buffers_to_us) {
     forward_shared_memory(qos);
   }
+  warn_of_another_user(domain_id, qos);
   const std::string enclave = options.enclave == nullptr ? "/" : options.enclave;
   qos.user_data().data_vec(enclave_user_data(enclave));
   qos.name(enclave);

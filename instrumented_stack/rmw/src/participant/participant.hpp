@@ -32,10 +32,10 @@ class DiscoveryTraffic;
 
 // Constructor and functions throw std::runtime_error. Not thread safe; delete every endpoint before.
 //
-// Environment, as in rmw_fastrtps_cpp: FASTRTPS_DEFAULT_PROFILES_FILE names a file of XML profiles. Its default
-// profiles and those named like a topic apply. With RMW_FASTRTPS_USE_QOS_FROM_XML=1 they also decide memory, data
-// sharing and publish mode. RMW_FASTRTPS_PUBLICATION_MODE is SYNCHRONOUS (default), ASYNCHRONOUS or AUTO (as in the
-// profile).
+// Environment, as in rmw_fastrtps_cpp: FASTRTPS_DEFAULT_PROFILES_FILE, or FASTDDS_DEFAULT_PROFILES_FILE, names a file
+// of XML profiles. Its default profiles and those named like a topic apply. With RMW_FASTRTPS_USE_QOS_FROM_XML=1 they
+// also decide memory, data sharing and publish mode. RMW_FASTRTPS_PUBLICATION_MODE is SYNCHRONOUS (default),
+// ASYNCHRONOUS or AUTO (as in the profile).
 class Participant {
  public:
   // Reports what it discovers to `graph`, which must outlive the participant.
