@@ -81,16 +81,23 @@ std::string help_for_unmatched(const ParameterSections& read, const KnownNodeNam
   return help;
 }
 
+bool is_matched(const ParameterSections& read, const KnownNodeName& node) {
+  return read.sections.empty() || std::any_of(read.sections.begin(), read.sections.end(),
+                                              [&](const auto& section) { return may_be_for(section, node); });
+}
+
+std::string whom_of(const KnownNodeName& node) {
+  return node.name ? full_name_of(node) : "a node in " + *node.name_space;
+}
+
 void find_unmatched(const ParameterSections& read, const ParameterFileUse& use, Exploration& exploration) {
   const std::string key = fmt::format("{} {}", place_with_path(use.where), use.path);
-  if (read.sections.empty() || std::any_of(read.sections.begin(), read.sections.end(),
-                                           [&](const auto& section) { return may_be_for(section, use.node); })) {
+  if (is_matched(read, use.node)) {
     exploration.settle(key);
     return;
   }
-  const std::string whom = use.node.name ? full_name_of(use.node) : "a node in " + *use.node.name_space;
-  Diagnostic diagnostic{Severity::kWarning, fmt::format("no section of '{}' is for {}", use.path, whom), use.where,
-                        help_for_unmatched(read, use.node), Finding::kUnmatchedParameterFile};
+  Diagnostic diagnostic{Severity::kWarning, fmt::format("no section of '{}' is for {}", use.path, whom_of(use.node)),
+                        use.where, help_for_unmatched(read, use.node), Finding::kUnmatchedParameterFile};
   if (use.for_many) {
     exploration.postpone(key, std::move(diagnostic));
   } else {
@@ -108,6 +115,23 @@ void find_empty_lists(const ParameterSections& read, const ParameterFileUse& use
                             parameter.where, "leave it out, or give it an item", Finding::kWrongParameterFile});
       }
     }
+  }
+}
+
+// In a run the node itself tells what it refuses, but it starts without a word when no section is for it.
+void tell_unmatched(const ParameterFileUse& use, LaunchContext& context) {
+  if (use.for_many || (!use.node.name && !use.node.name_space)) {
+    return;
+  }
+  try {
+    const ParameterSections read = read_parameter_sections(text_of(use));
+    if (!read.no_yaml && !read.node_refuses && !is_matched(read, use.node)) {
+      context.message(LogLevel::kWarning, "launch_ros.actions.node",
+                      fmt::format("{}: no section of '{}' is for {} ({})", to_string(use.where), use.path,
+                                  whom_of(use.node), help_for_unmatched(read, use.node)));
+    }
+  } catch (const LaunchError&) {
+    // The node tells.
   }
 }
 
@@ -195,7 +219,11 @@ void append_parameter_file(const ParameterFileUse& use, LaunchContext& context,
 
 void find_faults_of_parameter_file(const ParameterFileUse& use, LaunchContext& context) {
   Exploration& exploration = context.exploration();
-  if (!exploration.is_on() || use.performed.find(kUnknownOutput) != std::string::npos) {
+  if (!exploration.is_on()) {
+    tell_unmatched(use, context);
+    return;
+  }
+  if (use.performed.find(kUnknownOutput) != std::string::npos) {
     return;
   }
   const ParameterSections read = [&] {
@@ -227,7 +255,7 @@ void find_faults_of_parameter_file(const ParameterFileUse& use, LaunchContext& c
 
 void find_faults_of_named_files(const std::vector<std::string>& argv, std::size_t first, std::size_t last,
                                 const SourceRange& where, LaunchContext& context) {
-  for (std::size_t i = std::max<std::size_t>(first, 1); i < last && context.exploration().is_on(); ++i) {
+  for (std::size_t i = std::max<std::size_t>(first, 1); i < last; ++i) {
     std::error_code ignored;
     if (argv[i - 1] == "--params-file" && std::filesystem::is_regular_file(argv[i], ignored)) {
       find_faults_of_parameter_file({argv[i], where, known_node_name(argv)}, context);

@@ -45,7 +45,8 @@ struct ParameterFileUse {
 void append_parameter_file(const ParameterFileUse& use, LaunchContext& context,
                            std::vector<NamedParameter>& parameters);
 
-// In a visit that explores: what ends a node that reads the file, and what has no effect.
+// In a visit that explores: what ends a node that reads the file, and what has no effect. In a run: a warning if the
+// file has no section for the node.
 void find_faults_of_parameter_file(const ParameterFileUse& use, LaunchContext& context);
 
 // The same for the files behind --params-file among the words [first, last) of a command line, which `where` gives.

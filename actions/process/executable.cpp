@@ -3,6 +3,7 @@
 #include "actions/parameters/parameter_file.hpp"
 #include "actions/process/process_settings.hpp"
 #include "actions/row_action.hpp"
+#include "actions/values/quirks.hpp"
 
 namespace launch {
 
@@ -31,6 +32,9 @@ ActionType executable_action() {
        {.attribute = {"name", AttributeType::kText, false, "base name of the program", "label of the process"},
         .place = place_of(&ProcessSpec::name)}},
       [](const Fields& fields, LaunchContext& context, ProcessSpec& spec) {
+        if (!fields.boolean("shell", false).perform(context.scope())) {
+          find_variables_with_blanks(fields.words("cmd"), context);
+        }
         find_faults_of_named_files(spec.argv, 1, spec.argv.size(), fields.where("cmd"), context);
         request_process(fields, context, std::move(spec));
       },

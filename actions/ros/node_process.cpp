@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "actions/parameters/parameter_file.hpp"
+#include "actions/values/quirks.hpp"
 #include "actions/values/ros_names.hpp"
 #include "base/text/names.hpp"
 #include "launcher/substitution/package_index.hpp"
@@ -123,11 +124,13 @@ std::string NodeProcess::request(LaunchContext& context) const {
   spec.argv.reserve(arguments.size() + 2 * (parameters_.size() + remaps.size()) + 8);
   spec.files.reserve(parameters_.size());
   spec.argv.push_back(program(scope));
+  find_variables_with_blanks(arguments, context);
   for (const Template& word : arguments) {
     spec.argv.push_back(word.perform(scope));
   }
   const std::size_t arguments_end = spec.argv.size();
   if (fields_.has("ros_args")) {
+    find_variables_with_blanks(fields_.words("ros_args"), context);
     spec.argv.push_back("--ros-args");
     for (const Template& word : fields_.words("ros_args")) {
       spec.argv.push_back(word.perform(scope));

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "actions/values/quirks.hpp"
 #include "base/diagnostics/read_source_file.hpp"
 #include "launcher/frontend/yaml_document.hpp"
 #include "launcher/substitution/template_parser.hpp"
@@ -57,7 +58,7 @@ Parameters::Tree Parameters::parse_tree(const Fields& fields) {
     throw LaunchError("param entity should have a name or a from attribute", fields.where(),
                       "write name and value, or from=\"FILE\"", Finding::kMissingAttribute);
   }
-  Tree tree{fields.text("name"), std::nullopt, {}};
+  Tree tree{fields.text("name"), std::nullopt, {}, {}, {}, {}};
   const std::vector<const Fields*> nested = fields.items("param");
   if (fields.has("value") && !nested.empty()) {
     throw LaunchError("nested parameters and value attributes are mutually exclusive", fields.where("value"),
@@ -78,6 +79,11 @@ Parameters::Tree Parameters::parse_tree(const Fields& fields) {
     }
     return tree;
   }
+  if (const Scalar* const scalar = fields.value("value").scalar(); scalar != nullptr && fields.has("value-sep")) {
+    tree.text = scalar->text.text();
+    tree.separator = fields.literal("value-sep");
+    tree.where = fields.where("value-sep");
+  }
   tree.value.emplace(fields.value("value"), fields.literal("type"),
                      fields.has("value-sep") ? std::optional(fields.literal("value-sep")) : std::nullopt,
                      fields.where("type"));
@@ -97,7 +103,17 @@ void Parameters::perform_tree(const Tree& tree, const std::string& prefix, Scope
   }
 }
 
-std::string Parameters::performed_file(const std::string& path, Scope& scope) const {
+void Parameters::find_useless_separators(const Tree& tree, LaunchContext& context) {
+  if (!tree.separator.empty()) {
+    find_useless_separator(tree.text, tree.separator, tree.where, context);
+  }
+  for (const Tree& child : tree.nested) {
+    find_useless_separators(child, context);
+  }
+}
+
+std::string Parameters::performed_file(const std::string& path, LaunchContext& context) const {
+  Scope& scope = context.scope();
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) {
     throw LaunchError(fmt::format("parameter file path is not a file: {}", path), file_->where(),
@@ -106,6 +122,9 @@ std::string Parameters::performed_file(const std::string& path, Scope& scope) co
   const auto file = read_source_file(path, file_->where());
   if (scope.note_performed_file) {
     scope.note_performed_file(file);
+  }
+  if (context.exploration().is_on()) {
+    find_lost_backslash(file, context);
   }
   const SourceRange whole{file, 0, static_cast<std::uint32_t>(file->text().size())};
   LocatedText performed(parse_template(LocatedText(file->text(), whole)).perform(scope));
@@ -125,19 +144,21 @@ void Parameters::append_to(std::vector<NamedParameter>& parameters, LaunchContex
                            const KnownNodeName& node) const {
   Scope& scope = context.scope();
   if (tree_) {
+    find_useless_separators(*tree_, context);
     perform_tree(*tree_, "", scope, parameters);
     return;
   }
   const std::string path = file_->perform(scope);
   append_parameter_file(
-      {path, file_->where(), node, false, allow_substitutions_ ? performed_file(path, scope) : std::string()}, context,
-      parameters);
+      {path, file_->where(), node, false, allow_substitutions_ ? performed_file(path, context) : std::string()},
+      context, parameters);
 }
 
 void Parameters::append_to(ProcessSpec& spec, LaunchContext& context, const std::string& qualified_name) const {
   Scope& scope = context.scope();
   std::string content;
   if (tree_) {
+    find_useless_separators(*tree_, context);
     std::vector<NamedParameter> parameters;
     perform_tree(*tree_, "", scope, parameters);
     content.reserve(kUsualContent);
@@ -161,7 +182,7 @@ void Parameters::append_to(ProcessSpec& spec, LaunchContext& context, const std:
       }
       return;
     }
-    content = performed_file(path, scope);
+    content = performed_file(path, context);
     find_faults_of_parameter_file({path, file_->where(), known_node_name(spec.argv), false, content}, context);
   }
   spec.argv.push_back("--params-file");

@@ -33,13 +33,17 @@ class Parameters {
   struct Tree {
     Template name;
     std::optional<ParameterValueSource> value;
+    std::string text;  // of a value with a separator
+    std::string separator;
+    SourceRange where;
     std::vector<Tree> nested;
   };
   static Tree parse_tree(const Fields& fields);
   static void perform_tree(const Tree& tree, const std::string& prefix, Scope& scope,
                            std::vector<NamedParameter>& parameters);
   // The text of a file, with its substitutions performed.
-  std::string performed_file(const std::string& path, Scope& scope) const;
+  std::string performed_file(const std::string& path, LaunchContext& context) const;
+  static void find_useless_separators(const Tree& tree, LaunchContext& context);
 
   std::optional<Template> file_;
   bool allow_substitutions_ = false;

@@ -38,6 +38,9 @@ class DeclareLaunchArgument : public Action {
                           fmt::format("give it on the command line: {}:=…", declaration_.name), Finding::kArgument);
       }
       value = configurations.emplace(declaration_.name, declaration_.default_value->perform(context.scope())).first;
+      context.exploration().note_default(declaration_.name, where(), value->second);
+    } else if (context.exploration().is_on() && declaration_.default_value) {
+      find_ignored_default(value->second, context);
     }
     const std::vector<std::string>& choices = declaration_.choices;
     if (!choices.empty() && std::find(choices.begin(), choices.end(), value->second) == choices.end()) {
@@ -48,6 +51,43 @@ class DeclareLaunchArgument : public Action {
   }
 
  private:
+  // An argument of this name in a file that was included before, beside this one, has taken its default. It holds here,
+  // too, which hardly anybody means. That the default of a file around this one holds is usual.
+  void find_ignored_default(const std::string& value, LaunchContext& context) const {
+    const auto* const first = context.exploration().defaulted(declaration_.name);
+    if (first == nullptr || first->value != value || first->where.file == nullptr || where().file == nullptr ||
+        leads_here(first->where.file->path()) || context.exploration().is_settings_file(first->where.file->path())) {
+      return;
+    }
+    std::string own;
+    try {
+      Scope scope = context.scope();
+      own = declaration_.default_value->perform(scope);
+    } catch (const LaunchError&) {
+      return;
+    }
+    if (own != value) {
+      context.exploration().remark(
+          {Severity::kWarning,
+           fmt::format("the default '{}' of argument '{}' has no effect: it is '{}'", own, declaration_.name, value),
+           declaration_.default_value->where(),
+           fmt::format("{} has set it, and an include is no scope: write scoped=\"true\" there, or give the argument "
+                       "with the include",
+                       to_string(first->where)),
+           Finding::kIgnoredDefault});
+    }
+  }
+
+  // Whether the file is this one, or one around it.
+  bool leads_here(const std::string& path) const {
+    for (const SourceRange* place = &where(); place->file != nullptr; place = &place->file->included_from()) {
+      if (place->file->path() == path) {
+        return true;
+      }
+    }
+    return false;
+  }
+
   ArgumentDeclaration declaration_;
 };
 

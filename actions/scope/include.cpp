@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "actions/values/pair_items.hpp"
+#include "actions/values/quirks.hpp"
 #include "actions/values/ros_names.hpp"
 #include "base/monotonic_clock.hpp"
 #include "launcher/language/argument_use.hpp"
@@ -33,7 +34,8 @@ int include_depth(const SourceRange& where) {
 class IncludeLaunchDescription : public Action {
  public:
   explicit IncludeLaunchDescription(const Fields& fields)
-      : Action(fields.where(), fields.condition()), namespace_(fields.optional_text("ns")),
+      : Action(fields.where(), fields.condition()),
+        namespace_(fields.optional_text("ns")),
         scoped_(fields.boolean("scoped", false)) {
     declaration_.file = fields.text("file");
     declaration_.where = fields.where();
@@ -69,11 +71,13 @@ class IncludeLaunchDescription : public Action {
     check_required_arguments(*included, context.registry(), context.scope(), given, where());
     if (context.exploration().is_on()) {
       find_undeclared_arguments(*included, given, context);
+      note_settings_file(*included, context);
     }
     ++context.requests().includes;
     // The arguments are performed inside, so that $(dirname) in a value means the included file, as in ros2 launch.
+    const bool scoped = scoped_.perform(context.scope());
     std::optional<Scope> outer;
-    if (scoped_.perform(context.scope())) {
+    if (scoped || context.exploration().finds_leaks()) {
       outer = context.scope();
     }
     const std::optional<std::string> outer_namespace = pushed_namespace(context.scope());
@@ -87,8 +91,10 @@ class IncludeLaunchDescription : public Action {
     if (namespace_) {
       restore_namespace(outer_namespace, context.scope());
     }
-    if (outer) {
+    if (scoped) {
       context.scope() = *std::move(outer);
+    } else if (outer) {
+      find_leak(*outer, where(), context);
     }
     context.requests().records.push_back({.kind = LaunchRecord::Kind::kInclude,
                                           .name = path,
@@ -133,6 +139,15 @@ class IncludeLaunchDescription : public Action {
     }
     if (!depends_on_command) {
       context.scope().forget_left_out_command();  // the paths of further includes were only tried
+    }
+  }
+
+  static void note_settings_file(const LaunchDescription& included, LaunchContext& context) {
+    const bool only_declares =
+        std::all_of(included.actions.begin(), included.actions.end(),
+                    [](const ActionPtr& action) { return action->introspect().argument != nullptr; });
+    if (only_declares && included.file != nullptr) {
+      context.exploration().note_settings_file(included.file->path());
     }
   }
 

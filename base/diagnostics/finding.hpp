@@ -36,6 +36,10 @@ enum class Finding : std::uint16_t {
   kUnknownProcess = 205,
   kEndless = 206,
   kRemark = 207,
+  kOneWord = 208,
+  kLeak = 209,
+  kLostBackslash = 210,
+  kUselessSeparator = 211,
 
   // What it needs.
   kMissingPackage = 301,
@@ -61,6 +65,7 @@ enum class Finding : std::uint16_t {
   kUnreadArgument = 501,
   kUnknownArgument = 502,
   kNotGiven = 503,
+  kIgnoredDefault = 504,
 
   // Traces.
   kUnknownContextField = 601,

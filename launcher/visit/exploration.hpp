@@ -28,6 +28,8 @@ class Exploration {
     bool judges = true;
     // Whether what ROS 2 would do in another way is told, too.
     bool strict_ros2 = false;
+    // Whether it is told what included files leave behind.
+    bool finds_leaks = false;
   };
 
   // `scope` is that of the visit, and must outlive this object.
@@ -38,6 +40,7 @@ class Exploration {
   bool is_on() const { return observer_.report != nullptr; }
   // Whether it judges what a run would do.
   bool judges() const { return observer_.judges; }
+  bool finds_leaks() const { return is_on() && observer_.finds_leaks && !in_left_out_; }
   bool is_strict() const { return is_on() && observer_.strict_ros2; }
 
   // Tells of an error behind which the visit goes on.
@@ -48,6 +51,25 @@ class Exploration {
       report(LaunchError(std::vector<Diagnostic>{std::move(diagnostic)}));
     }
   }
+  // The argument has its value from its own default.
+  struct DefaultedArgument {
+    SourceRange where;
+    std::string value;
+  };
+  void note_default(const std::string& name, const SourceRange& where, const std::string& value) {
+    if (is_on() && !in_left_out_) {
+      defaulted_.insert_or_assign(name, DefaultedArgument{where, value});
+    }
+  }
+  const DefaultedArgument* defaulted(const std::string& name) const {
+    const auto found = defaulted_.find(name);
+    return found == defaulted_.end() ? nullptr : &found->second;
+  }
+
+  // A file that does nothing but declare arguments: it is included to set them for others.
+  void note_settings_file(const std::string& path) { settings_files_.insert(path); }
+  bool is_settings_file(const std::string& path) const { return settings_files_.contains(path); }
+
   // Something that is to be told at the end unless a later action settles it: a parameter file of a scope has a section
   // for one of the nodes. The key is of the place and the matter.
   void postpone(const std::string& key, Diagnostic diagnostic) {
@@ -84,6 +106,8 @@ class Exploration {
   const Scope& scope_;
   Observer observer_;                                  // empty: not exploring
   std::set<std::pair<std::string, bool>> seen_files_;  // path, in what is left out
+  std::map<std::string, DefaultedArgument> defaulted_;
+  std::set<std::string> settings_files_;
   std::map<std::string, Diagnostic> postponed_;
   std::set<std::string> settled_;
   bool in_left_out_ = false;

@@ -140,12 +140,21 @@ int check_command(const std::vector<std::string>& words) {
                     "a trace of a run: also warn of remaps of names that the recorded nodes do not have");
   command.take_texts("--disable", choice.disabled,
                      "leave out the findings with this id; may be given several times (launch explain lists the ids)");
+  std::vector<std::string> enabled;
+  command.take_texts("--enable", enabled, "also look for the findings with this id, which are off otherwise: LF0209");
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;
   }
   std::vector<Diagnostic> found;
   try {
     choice.apply(found);
+    for (const std::string& id : enabled) {
+      const std::optional<Finding> finding = find_finding(id);
+      if (!finding) {
+        throw unknown_finding(id);
+      }
+      options.finds_leaks = options.finds_leaks || *finding == Finding::kLeak;
+    }
   } catch (const LaunchError& error) {
     print_usage_error(error, "launch check");
     return kWrongCommandLine;

@@ -111,7 +111,8 @@ class Checker {
     context.exploration().begin(
         {.report = [this](const LaunchError& error, bool is_left_out) { add_of_visit(error, is_left_out); },
          .left_out = [&](Requests requests) { left_out.push_back(std::move(requests)); },
-         .strict_ros2 = options_.strict_ros2});
+         .strict_ros2 = options_.strict_ros2,
+         .finds_leaks = options_.finds_leaks});
     const LaunchPlan plan = plan_launch(context, description);
     context.exploration().tell_postponed();
     check_unused(description, list, plan);

@@ -16,6 +16,7 @@ namespace launch {
 struct CheckOptions {
   std::vector<std::pair<std::string, std::string>> arguments;  // name:=value
   bool strict_ros2 = false;                                    // what `ros2 launch` does not know is an error
+  bool finds_leaks = false;                                    // what included files leave behind
   std::vector<RecordedNode> recorded_nodes;                    // of a run, which tell the names that remaps may change
 };
 

@@ -150,6 +150,52 @@ def generate_launch_description():
   <for name="i" len="0"><log message="hello"/></for>
 </launch>
 )x"},
+    {Finding::kOneWord, "Variable with blanks is one word", Severity::kWarning,
+     "A command line (args, ros_args, cmd, and arguments in Python) is split into words before its variables are "
+     "replaced, so a variable is never more than one word, whatever blanks it has. In ROS 1 it was split. Write the "
+     "words into the command line, each with a variable of its own.",
+     R"x(<launch>
+  <arg name="pose" default="-x 0.0 -y 0.5"/>
+  <node pkg="demo_nodes" exec="talker" args="--name robot $(var pose)"/>
+</launch>
+)x"},
+    {Finding::kLeak, "Included file leaves something behind", Severity::kWarning,
+     "An include is no scope: configurations, environment, namespace, parameters and remaps that the included file "
+     "sets "
+     "hold for everything behind it. This is a finding with --enable LF0209 only, because files that set things for "
+     "others are usual. scoped=\"true\", or a group around the include, keeps it inside.",
+     R"x(<launch>
+  <arg name="inner" default="false"/>
+  <include file="$(filename)" unless="$(var inner)">
+    <arg name="inner" value="true"/>
+  </include>
+</launch>
+)x"},
+    {Finding::kLostBackslash, "Backslash that goes", Severity::kWarning,
+     "The text of a parameter file with allow_substs is read as a substitution as a whole, and there a backslash "
+     "stands "
+     "for the character behind it: regular expressions and paths of Windows lose theirs. Write two backslashes for "
+     "one.",
+     R"x(<launch>
+  <node pkg="demo_nodes" exec="talker">
+    <param from="$(dirname)/params.yaml" allow_substs="true"/>
+  </node>
+</launch>
+)x",
+     R"x(/**:
+  ros__parameters:
+    digits: '^\d+$'
+)x"},
+    {Finding::kUselessSeparator, "value-sep that splits nothing", Severity::kWarning,
+     "The text of a parameter does not hold its value-sep, so it is a list of one item. It is split before its "
+     "variables are replaced: a variable is never split. Write a list, [$(var a), $(var b)].",
+     R"x(<launch>
+  <arg name="rates" default="1,2,3"/>
+  <node pkg="demo_nodes" exec="talker">
+    <param name="rates" value="$(var rates)" value-sep=","/>
+  </node>
+</launch>
+)x"},
 
     {Finding::kMissingPackage, "Package not found", Severity::kError,
      "No prefix of AMENT_PREFIX_PATH and no prefix of the launcher has the package. A workspace must be built, and its "
@@ -334,6 +380,20 @@ def generate_launch_description():
   <arg name="robot"/>
   <log message="$(var robot)"/>
 </launch>
+)x"},
+    {Finding::kIgnoredDefault, "Default without effect", Severity::kWarning,
+     "A file that was included before has an argument of this name, too, and its default was taken. An include is no "
+     "scope, so the argument keeps that value here, and this default has no effect. That the default of a file which "
+     "includes this one holds here is no finding, nor is a file that holds arguments alone: it is there to set them.",
+     R"x(<launch>
+  <include file="$(dirname)/params.yaml"/>
+  <arg name="rate" default="2"/>
+  <log message="$(var rate)"/>
+</launch>
+)x",
+     R"x(launch:
+- arg: {name: rate, default: "1"}
+- log: {message: "rate $(var rate)"}
 )x"},
 
     {Finding::kUnknownContextField, "Unknown context field", Severity::kError,

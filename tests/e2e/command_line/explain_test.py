@@ -17,7 +17,7 @@ SECTION = re.compile(r'^## (?P<id>LF\d{4}): .*\n\nSeverity: (?P<severity>\w+)\.\
 EXAMPLE = re.compile(r'```(?P<language>xml|yaml|python)\n(?P<code>.*?)```', re.S)
 
 # Words that a check needs to have the finding.
-FURTHER_WORDS = {'LF0107': ['--strict-ros2'], 'LF0311': ['--strict-ros2'], 'LF0502': ['rat:=1']}
+FURTHER_WORDS = {'LF0107': ['--strict-ros2'], 'LF0209': ['--enable', 'LF0209'], 'LF0311': ['--strict-ros2'], 'LF0502': ['rat:=1']}
 
 
 def launch(*words):

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <stdlib.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -170,6 +171,19 @@ TEST(NodeParameters, AreWrittenForTheNodeOrForAnyNode) {
             "/left/talker:\n  ros__parameters:\n    g.h: true\n    g.i.j: \"x\"\n");
   EXPECT_EQ(planned.plan.processes.at(0).files.at(0).argument, 7U);
   EXPECT_EQ(planned.plan.processes.at(1).files.at(0).content, "/**:\n  ros__parameters:\n    rate: 10\n");
+}
+
+TEST(NodeParameters, AFileWithoutASectionForTheNodeIsTold) {
+  const auto path = std::filesystem::temp_directory_path() / ("sections_" + std::to_string(::getpid()) + ".yaml");
+  std::ofstream(path) << "ctrl: {ros__parameters: {a: 1}}\n";
+  const std::string param = "<param from=\"" + path.string() + "\"/></node>";
+  const Planned planned = plan_actions("<node exec=\"p\" name=\"ctrl\">" + param +
+                                       "\n<node exec=\"p\" name=\"ctrl\" namespace=\"robot1\">" + param);
+  std::filesystem::remove(path);
+  ASSERT_EQ(planned.error, "");
+  EXPECT_THAT(planned.messages,
+              ElementsAre("[launch_ros.actions.node] /test/system.launch.xml:3:60: no section of '" + path.string() +
+                          "' is for /robot1/ctrl (sections: ctrl; did you mean '/robot1/ctrl' or '/**/ctrl'?)"));
 }
 
 TEST(NodeParameters, FormsThatExcludeEachOtherAreErrors) {
