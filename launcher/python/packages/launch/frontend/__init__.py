@@ -2,10 +2,11 @@
 """What packages use to offer their actions and substitutions to XML and YAML files."""
 
 from launch import _names
+from launch.frontend._own_actions import METHODS
 from launch.frontend._parser import Entity, InvalidFrontendLaunchFileError, Parser
 from launch.frontend.parse_substitution import parse_if_substitutions, parse_substitution
 
-action_parse_methods = {}
+action_parse_methods = dict(METHODS)
 substitution_parse_methods = {}
 
 

@@ -36,7 +36,7 @@ _ATTRIBUTES = {
     'IncludeLaunchDescription': {'launch_description_source': ('file', str)},
     'ForLoop': {'length': ('len', str), 'name': ('name', 'literal')},
     'ForEach': {'input_values': ('values', str)},
-    'TimerAction': {'period': ('period', str), 'cancel_on_shutdown': ('cancel_on_shutdown', str)},
+    'TimerAction': {'period': ('period', float), 'cancel_on_shutdown': ('cancel_on_shutdown', str)},
     'SetLaunchConfiguration': {'name': ('name', str), 'value': ('value', str)},
     'UnsetLaunchConfiguration': {'name': ('name', str)},
     'SetEnvironmentVariable': {'name': ('name', str), 'value': ('value', str)},
@@ -100,7 +100,9 @@ def _value(entity, parser, attribute, kind):
     if value is None or kind in (bool, 'literal'):
         return value
     if kind == 'typed':
-        return _typed(value, parser)
+        # A text of the launcher's own elements has its type already.
+        is_own = getattr(entity, 'place', None) is not None
+        return _typed(value, parser) if is_own or not isinstance(value, str) else parser.parse_substitution(value)
     if kind == 'words':
         return words(value, parser)
     return parser.parse_substitution(value if isinstance(value, str) else str(value))
@@ -163,7 +165,8 @@ def _children(name, names, entity, parser, ignore):
             found['remappings'] = remaps
         if parameters := [_parameter(item, parser) for item in _items(entity, 'param')]:
             found['parameters'] = parameters
-    if name == 'IncludeLaunchDescription' and (pairs := _pairs(entity, parser, 'arg', 'name', 'value')):
+    if name == 'IncludeLaunchDescription' and (pairs := [*_pairs(entity, parser, 'arg', 'name', 'value'),
+                                                         *_pairs(entity, parser, 'let', 'name', 'value')]):
         found['launch_arguments'] = pairs
     if name in ('ComposableNode', 'ComposableLifecycleNode'):
         if extra := [_parameter(item, parser) for item in _items(entity, 'extra_arg')]:

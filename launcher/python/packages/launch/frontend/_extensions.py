@@ -11,6 +11,7 @@ from launch._places import of_element
 from launch._values import LaunchFileError
 from launch.action import Action
 from launch.frontend._element import Element, Placed
+from launch.frontend._own_actions import METHODS
 from launch.frontend._parser import Parser
 from launch.substitution import Substitution
 from launch.substitutions import TextSubstitution
@@ -36,7 +37,8 @@ def exposed(of_actions):
     """(the names, what is wrong with packages) for the error of an unknown name."""
     from launch.frontend import action_parse_methods, substitution_parse_methods
     load_packages()
-    return sorted(action_parse_methods if of_actions else substitution_parse_methods), '\n'.join(_failed)
+    names = action_parse_methods.keys() - METHODS.keys() if of_actions else substitution_parse_methods
+    return sorted(names), '\n'.join(_failed)
 
 
 def make_action(data):
@@ -60,8 +62,10 @@ class ElementParser(Parser):
 
     def parse_action(self, entity):
         from launch.frontend import action_parse_methods
-        if not isinstance(entity, Element) or entity.type_name not in action_parse_methods:
-            return super().parse_action(entity) if not isinstance(entity, Element) else _Known(entity)
+        if not isinstance(entity, Element):
+            return super().parse_action(entity)
+        if entity.type_name in METHODS or entity.type_name not in action_parse_methods:
+            return _Known(entity)
         with of_element(entity.place):
             return _made(lambda: action_parse_methods[entity.type_name](entity, self), entity, entity.type_name)
 

@@ -124,16 +124,20 @@ class Parser:
         return replace_escaped_characters(value)
 
     def parse_action(self, entity):
-        """The action of a class that the launch file has exposed itself."""
+        """The action of an entity that a front end in Python, or the launch file itself, has made."""
         from launch.frontend import action_parse_methods
         if entity.type_name not in action_parse_methods:
             raise RuntimeError(f'Unrecognized entity of the type: {entity.type_name}')
         action, arguments = action_parse_methods[entity.type_name](entity, self)
+        entity.assert_entity_completely_parsed()
         return action(**arguments)
 
     def parse_description(self, entity):
-        """A description that includes the file, which the launcher reads itself."""
+        """A description that includes the file, which the launcher reads itself. Without a file: the actions of it."""
+        from launch.launch_description import LaunchDescription
         from launch.launch_description_sources import get_launch_description_from_any_launch_file
         if entity.type_name != 'launch':
             raise RuntimeError("Expected 'launch' as root tag")
-        return get_launch_description_from_any_launch_file(self._path)
+        if self._path is not None and os.path.isfile(self._path):
+            return get_launch_description_from_any_launch_file(self._path)
+        return LaunchDescription([self.parse_action(child) for child in entity.children])
