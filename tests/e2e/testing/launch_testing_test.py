@@ -63,6 +63,11 @@ class LaunchTest(unittest.TestCase):
             'TestAfterShutdown.test_output_in_its_order': 'passed',
             'TestAfterShutdown.test_output_with_and_without_escapes': 'passed'})
 
+    def test_a_process_that_ends_by_itself_is_not_interrupted(self):
+        _, outcomes = self.outcomes('ends_by_itself.py')
+        self.assertEqual(outcomes, {'TestAfter.test_it_has_ended_well': 'passed',
+                                    'TestAfter.test_it_has_written': 'passed'})
+
     def test_programs_that_tests_start(self):
         _, outcomes = self.outcomes('started_by_tests.py')
         self.assertEqual(set(outcomes.values()), {'passed'})

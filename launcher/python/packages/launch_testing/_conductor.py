@@ -28,6 +28,11 @@ from launch_testing.io_handler import ActiveIoHandler
 from launch_testing.proc_info_handler import ActiveProcInfoHandler
 
 
+# Without active tests the launch is shut down at once. A process that ends by itself, such as `echo`, has this time to do
+# so first, in seconds; else a busy machine interrupts it before it has done anything.
+_TIME_TO_END = 2.0
+
+
 class LaunchServiceOfTests:
     """What a test can ask of the launch that it belongs to. It may be used on the tests' thread."""
 
@@ -63,11 +68,13 @@ class Conductor(Action):
         self._loop = None
         self._requests = None
         self._running = set()  # process ids
+        self._none_is_left = threading.Event()  # some have run, and all of them have ended
         self._foreign = {}  # processes of XML and YAML files, by name
         self._all_ended = None
         self.proc_info = ActiveProcInfoHandler()
         self.proc_output = ActiveIoHandler()
         self._run = self._load(order)
+        self._has_active_tests = self._run.active.countTestCases() > 0
 
     def _load(self, order):
         module = _loader.load_module(order['file'], order['name'])
@@ -112,6 +119,7 @@ class Conductor(Action):
             event.action._final_cmd = words
             event.action.process_details['cmd'] = words
         self._running.add(event.pid)
+        self._none_is_left.clear()
         self.proc_output.track(event.action)
         self.proc_info.append(event)
 
@@ -128,6 +136,8 @@ class Conductor(Action):
             self._tell_early_end()
 
     def _look_for_end(self):
+        if not self._running:
+            self._none_is_left.set()
         if self._all_ended is not None and not self._running:
             self._all_ended.set()
 
@@ -140,7 +150,8 @@ class Conductor(Action):
         return 'the tests'
 
     def _start(self):
-        _coroutines.start(self._conduct(), self, background=not self._run.keep_alive)
+        # The end of all processes is no early end if no test is to see them run.
+        _coroutines.start(self._conduct(), self, background=self._has_active_tests and not self._run.keep_alive)
 
     def ask(self, request):
         """Has the launcher's thread call the function. What comes after the end of the launch is forgotten."""
@@ -178,6 +189,8 @@ class Conductor(Action):
         else:
             self._told['cases'] += _results.run(self._run.active)
             self._active_tests_ended = True
+            if not self._has_active_tests:
+                self._none_is_left.wait(timeout=_TIME_TO_END)
         self.ask(self._end)
 
     # Results.
