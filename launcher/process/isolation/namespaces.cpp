@@ -19,6 +19,10 @@
 #include <system_error>
 #include <utility>
 
+#if __has_include(<lttng/ust-ctl.h>)
+#include <lttng/ust-ctl.h>
+#endif
+
 #include "base/environment/network_device.hpp"
 #include "base/files/pipe.hpp"
 #include "launcher/process/exec/launch_exec_protocol.hpp"
@@ -31,9 +35,14 @@ namespace {
 
 constexpr const char* kSharedMemory = "/dev/shm";
 // In /dev/shm: memory with which LTTng's session daemon wakes the traced programs that have started before it. The
-// daemon of root uses the first name, those of users add their numbers. 8 is a version of their interface.
+// daemon of root uses the first name, those of users add their numbers. The number at its end is the version of their
+// interface: 8 for LTTng 2.13, 11 for 2.16.
 constexpr std::string_view kWaitFile = "lttng-ust-wait-";
+#if __has_include(<lttng/ust-ctl.h>)
+constexpr const char* kWaitFileOfRoot = LTTNG_UST_WAIT_FILENAME;
+#else
 constexpr const char* kWaitFileOfRoot = "lttng-ust-wait-8";
+#endif
 
 // Descriptors of a launcher that has just started have smaller numbers than this, and those of launch-exec, too.
 constexpr int kFirstFile = 16;

@@ -2,6 +2,7 @@
 // A process without a session daemon does not load lttng-ust until one starts.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <lttng/ust-ctl.h>
 #include <signal.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -29,7 +30,7 @@ using test_support::RunningCommand;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr const char* kFileOfRoot = "/dev/shm/lttng-ust-wait-8";
+constexpr const char* kFileOfRoot = "/dev/shm/" LTTNG_UST_WAIT_FILENAME;
 
 class DaemonArrival : public testing::Test {
  protected:
@@ -57,10 +58,12 @@ class DaemonArrival : public testing::Test {
   // `lttng list` tells of the processes that the daemon has registered.
   static bool is_registered(const RunningCommand& process,
                             const std::vector<std::string>& list = {"lttng", "list", "--userspace"}) {
-    const std::string wanted = "PID: " + std::to_string(process.pid()) + " ";
+    const std::string pid = std::to_string(process.pid());
     const auto end = std::chrono::steady_clock::now() + test_support::kCommandTimeout;
     while (std::chrono::steady_clock::now() < end) {
-      if (output_of(list).find(wanted) != std::string::npos) {
+      const std::string told = output_of(list);
+      if (told.find("PID: " + pid + " ") != std::string::npos ||
+          told.find("Process " + pid + ":") != std::string::npos) {  // since LTTng 2.15
         return true;
       }
     }
@@ -193,7 +196,7 @@ TEST_F(DaemonArrival, IsNotAwaitedWhenADaemonRuns) {
 TEST_F(DaemonArrival, IsNotAwaitedWhenThereIsASocketOfADaemon) {
   const fs::path folder = fs::path(std::getenv("LTTNG_HOME")) / ".lttng";
   fs::create_directories(folder);
-  std::ofstream(folder / "lttng-ust-sock-8");
+  std::ofstream(folder / LTTNG_UST_SOCK_FILENAME);
   RunningCommand process({.argv = {OBJECTS_ON_COMMAND}});
   EXPECT_THAT(maps_of_started(process), HasSubstr("/liblttng-ust.so"));
 }

@@ -109,11 +109,12 @@ TEST_F(Recording, SetsOffATrigger) {
            "--filter=source_timestamp == -1", "--action=start-session", "started"});
   succeed({FIRE_ALL_EVENTS});
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  constexpr const char* kActive = "<enabled>true</enabled>";
   std::string list;
   do {
-    list = run_command({"lttng", "list"}).out;
-  } while (list.find("started [active]") == std::string::npos && std::chrono::steady_clock::now() < deadline);
-  EXPECT_NE(list.find("started [active]"), std::string::npos) << list;
+    list = run_command({"lttng", "--mi=xml", "list"}).out;
+  } while (list.find(kActive) == std::string::npos && std::chrono::steady_clock::now() < deadline);
+  EXPECT_NE(list.find(kActive), std::string::npos) << list;
 }
 
 // The first event of a message asks for the memory that the later ones will need. That memory is gone when a session

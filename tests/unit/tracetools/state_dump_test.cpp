@@ -129,7 +129,7 @@ TEST_F(StateDump, ComesForASessionDaemonThatIsYoungerThanTheProcess) {
   for (;;) {
     const auto list = run_command({"lttng", "list", "--userspace"});
     ASSERT_EQ(list.exit_code, 0) << list.err;
-    if (list.out.find("ros2:rcl_init ") != std::string::npos) {
+    if (list.out.find("ros2:rcl_init") != std::string::npos) {
       break;
     }
   }

@@ -33,7 +33,9 @@ bool has_memory(const char* path) {
   return stat(path, &status) == 0 && status.st_blocks > 0;
 }
 
-constexpr bool kWakesAsKnown = LTTNG_UST_ABI_MAJOR_VERSION_OLDEST_COMPATIBLE == 8;  // lttng-ust 2.13
+// lttng-ust 2.13, 2.16
+constexpr bool kWakesAsKnown =
+    LTTNG_UST_ABI_MAJOR_VERSION_OLDEST_COMPATIBLE == 8 || LTTNG_UST_ABI_MAJOR_VERSION_OLDEST_COMPATIBLE == 11;
 constexpr const char* kFolderOfRoot = "/var/run/lttng";
 
 bool socket_exists(const char* folder, const char* subfolder) {
@@ -105,8 +107,10 @@ const std::int32_t* map_number(const char* path, bool of_root) {
 }  // namespace
 
 std::optional<AwaitedDaemons> awaited_daemons() noexcept {
-  // LTTng does not trace programs with the rights of another user by that user's daemon.
-  if (!kWakesAsKnown || daemon_may_be_there() || getuid() != geteuid()) {
+  // LTTng does not trace programs with the rights of another user by that user's daemon. Since 2.15 a variable may name
+  // another folder for sockets, and for the file that wakes.
+  if (!kWakesAsKnown || daemon_may_be_there() || getuid() != geteuid() ||
+      std::getenv("LTTNG_UST_APP_PATH") != nullptr) {
     return std::nullopt;
   }
   const WakeFiles files;
