@@ -89,5 +89,18 @@ TEST_F(LaunchReportFiles, SaysWhichFileCannotBeWritten) {
             "launch report: error: cannot write /dev/full: No space left on device\n");
 }
 
+// There LTTng aligns numbers to their size, which it does not on amd64.
+TEST_F(LaunchReportFiles, ReadsATraceThatWasRecordedOnArm64) {
+  const std::string unpack = "tar -C " + path_ + " -xf " GOLDEN "/traces/ping_pong_arm64.tar.xz";
+  ASSERT_EQ(std::system(unpack.c_str()), 0);
+  const Outcome outcome = launch_report(path_ + " --json");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto report = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(report.at("events"), 460);
+  EXPECT_TRUE(report.at("losses").empty());
+  ASSERT_EQ(report.at("chains").size(), 1U);
+  EXPECT_EQ(report.at("chains").at(0).at("response").at("count"), 10);
+}
+
 }  // namespace
 }  // namespace tracing
