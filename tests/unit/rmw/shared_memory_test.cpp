@@ -44,9 +44,9 @@ class Arrived final : public rtps::TransportReceiverInterface {
     changed_.notify_all();
   }
 
-  std::optional<std::string> next() {
+  std::optional<std::string> next(std::chrono::milliseconds patience = std::chrono::seconds(30)) {
     std::unique_lock lock(mutex_);
-    if (!changed_.wait_for(lock, std::chrono::seconds(30), [this] { return !messages_.empty(); })) {
+    if (!changed_.wait_for(lock, patience, [this] { return !messages_.empty(); })) {
       return std::nullopt;
     }
     std::string message = std::move(messages_.front());
@@ -159,6 +159,53 @@ TEST(SharedMemory, WhatFastDdsAnnouncesHasNothingBehindIt) {
   EXPECT_THAT(submessages(*announcement), ElementsAre(kTimestamp, kData));
   EXPECT_TRUE(transport->CloseInputChannel(here));
   transport->shutdown();
+}
+
+std::string announcement_of_a_participant() {
+  constexpr char kBytes[] =
+      "RTPS\2\3\1\17\0\0\0\0\0\0\0\0\0\0\0\2"                            // of participant 2
+      "\x15\5\30\0\0\0\20\0\0\0\0\0\0\1\0\xc2\0\0\0\0\1\0\0\0\0\3\0\0";  // data: first sample
+  return {kBytes, sizeof kBytes - 1};
+}
+
+// Processes that open a port at once may remove each other's file of it. Then nobody writes where the reader reads.
+TEST(SharedMemory, APortThatIsTakenAwayIsOpenedAgain) {
+  fdds::DomainParticipantQos qos;
+  const auto traffic = std::make_shared<DiscoveryTraffic>();
+  traffic->introduce({});
+  rmw_fastrtps::use_default_transports(0, traffic, qos);
+  ASSERT_EQ(qos.transport().user_transports.size(), 2U);
+  const std::unique_ptr<rtps::TransportInterface> udp(qos.transport().user_transports.front()->create_transport());
+  const std::unique_ptr<rtps::TransportInterface> reader(qos.transport().user_transports.back()->create_transport());
+  ASSERT_TRUE(udp->init() && reader->init());
+  const rtps::Locator_t here = own_port();
+  Arrived arrived;
+  ASSERT_TRUE(reader->OpenInputChannel(here, &arrived, kLargestMessage));
+  rtps::Locator_t network(LOCATOR_KIND_UDPv4, 20'000 + static_cast<std::uint32_t>(::getpid()) % 10'000);
+  rtps::IPLocator::setIPv4(network, "127.0.0.1");
+  Arrived announcements;
+  ASSERT_TRUE(udp->OpenInputChannel(network, &announcements, kLargestMessage));
+  ASSERT_EQ(::unlink(rmw_fastrtps::shared_memory_port_file(here.port).c_str()), 0);
+
+  // Others find no port, and make one, which they alone know.
+  const std::unique_ptr<rtps::TransportInterface> others(rtps::SharedMemTransportDescriptor().create_transport());
+  const std::unique_ptr<rtps::TransportInterface> udp_of_others(rtps::UDPv4TransportDescriptor().create_transport());
+  ASSERT_TRUE(others->init() && udp_of_others->init());
+  rtps::SendResourceList senders;
+  ASSERT_TRUE(others->OpenOutputChannel(senders, here));
+  ASSERT_TRUE(udp_of_others->OpenOutputChannel(senders, network));
+  ASSERT_GE(senders.size(), 2U);
+  const std::string announcement = announcement_of_a_participant();
+  constexpr int kTries = 40;
+  int tries = 0;
+  for (; tries < kTries && !arrived.next(std::chrono::milliseconds(250)); ++tries) {
+    send(*senders.front(), here, {"found"});
+    send(*senders[1], network, {announcement});
+  }
+  EXPECT_LT(tries, kTries);
+  senders.clear();
+  EXPECT_TRUE(reader->CloseInputChannel(here));
+  EXPECT_TRUE(udp->CloseInputChannel(network));
 }
 
 TEST(SharedMemory, AMessageEndsWhereItEndsWithTheTransportsOfAProfile) {

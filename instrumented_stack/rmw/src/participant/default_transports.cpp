@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "fastdds_versions/transport.hpp"
+#include "participant/own_ports.hpp"
 #include "rcutils/logging.h"
 
 namespace rmw_fastrtps {
@@ -64,8 +65,9 @@ void filter(rtps::SenderResource& sender, const std::shared_ptr<DiscoveryTraffic
 // Hands over what `traffic` lets hear.
 class FilteredReceiver final : public rtps::TransportReceiverInterface {
  public:
-  FilteredReceiver(rtps::TransportReceiverInterface& receiver, std::shared_ptr<DiscoveryTraffic> traffic)
-      : receiver_(receiver), traffic_(std::move(traffic)) {}
+  FilteredReceiver(rtps::TransportReceiverInterface& receiver, std::shared_ptr<DiscoveryTraffic> traffic,
+                   std::shared_ptr<OwnPorts> ports)
+      : receiver_(receiver), traffic_(std::move(traffic)), ports_(std::move(ports)) {}
 
   void OnDataReceived(const rtps::octet* data, std::uint32_t size, const Locator& local,
                       const Locator& remote) override {
@@ -73,7 +75,11 @@ class FilteredReceiver final : public rtps::TransportReceiverInterface {
       return;
     }
     const auto message = discovery_message_in({data, size});
-    if (!message || traffic_->is_heard(*message, local.kind, std::chrono::steady_clock::now())) {
+    const auto now = std::chrono::steady_clock::now();
+    if (message && local.kind != LOCATOR_KIND_SHM) {
+      ports_->check(now);
+    }
+    if (!message || traffic_->is_heard(*message, local.kind, now)) {
       receiver_.OnDataReceived(data, size, local, remote);
     }
   }
@@ -81,14 +87,19 @@ class FilteredReceiver final : public rtps::TransportReceiverInterface {
  private:
   rtps::TransportReceiverInterface& receiver_;
   const std::shared_ptr<DiscoveryTraffic> traffic_;
+  const std::shared_ptr<OwnPorts> ports_;
 };
 
 // Hands everything over to `inner`, except for its configuration. Messages pass by `traffic`.
 class FilteredTransport final : public ForwardingTransport {
  public:
-  FilteredTransport(std::unique_ptr<TransportInterface> inner, std::shared_ptr<DiscoveryTraffic> traffic)
-      : ForwardingTransport(std::move(inner)), traffic_(std::move(traffic)) {}
-  ~FilteredTransport() override { end(); }
+  FilteredTransport(std::unique_ptr<TransportInterface> inner, std::shared_ptr<DiscoveryTraffic> traffic,
+                    std::shared_ptr<OwnPorts> ports)
+      : ForwardingTransport(std::move(inner)), traffic_(std::move(traffic)), ports_(std::move(ports)) {}
+  ~FilteredTransport() override {
+    ports_->all_closed();
+    end();
+  }
 
   rtps::TransportDescriptorInterface* get_configuration() override { return &*configuration_; }
 
@@ -112,8 +123,26 @@ class FilteredTransport final : public ForwardingTransport {
   }
   bool OpenInputChannel(const Locator& locator, rtps::TransportReceiverInterface* receiver,
                         std::uint32_t max_message_size) override {
-    receivers_.push_back(std::make_unique<FilteredReceiver>(*receiver, traffic_));
-    return ForwardingTransport::OpenInputChannel(locator, receivers_.back().get(), max_message_size);
+    receivers_.push_back(std::make_unique<FilteredReceiver>(*receiver, traffic_, ports_));
+    auto* filtered = receivers_.back().get();
+    if (!ForwardingTransport::OpenInputChannel(locator, filtered, max_message_size)) {
+      return false;
+    }
+    // Ports of groups are shared with others, and Fast DDS sends nothing to them.
+    if (locator.kind == LOCATOR_KIND_SHM && locator.address[0] != 'M') {
+      ports_->opened(
+          locator.port, [this, locator] { ForwardingTransport::CloseInputChannel(locator); },
+          [this, locator, filtered, max_message_size] {
+            ForwardingTransport::OpenInputChannel(locator, filtered, max_message_size);
+          });
+    }
+    return true;
+  }
+  bool CloseInputChannel(const Locator& locator) override {
+    if (locator.kind == LOCATOR_KIND_SHM) {
+      ports_->closed(locator.port);
+    }
+    return ForwardingTransport::CloseInputChannel(locator);
   }
   void update_network_interfaces() override {
     ForwardingTransport::update_network_interfaces();
@@ -127,6 +156,7 @@ class FilteredTransport final : public ForwardingTransport {
   }
 
   const std::shared_ptr<DiscoveryTraffic> traffic_;
+  const std::shared_ptr<OwnPorts> ports_;
   std::vector<std::unique_ptr<FilteredReceiver>> receivers_;  // outlive the threads of the transport behind this one
   std::optional<ReportedConfiguration> configuration_;
   std::set<Locator> open_;  // Fast DDS opens one at a time
@@ -136,13 +166,16 @@ class FilteredTransport final : public ForwardingTransport {
 // Stays a descriptor of its kind, because Fast DDS looks for the one of shared memory.
 template <typename Descriptor>
 struct Filtered final : Descriptor {
-  explicit Filtered(std::shared_ptr<DiscoveryTraffic> of_participant) : traffic(std::move(of_participant)) {}
+  Filtered(std::shared_ptr<DiscoveryTraffic> of_participant, std::shared_ptr<OwnPorts> ports_of_participant)
+      : traffic(std::move(of_participant)), ports(std::move(ports_of_participant)) {}
 
   rtps::TransportInterface* create_transport() const override {
-    return new FilteredTransport(std::unique_ptr<rtps::TransportInterface>(Descriptor::create_transport()), traffic);
+    return new FilteredTransport(std::unique_ptr<rtps::TransportInterface>(Descriptor::create_transport()), traffic,
+                                 ports);
   }
 
   std::shared_ptr<DiscoveryTraffic> traffic;
+  std::shared_ptr<OwnPorts> ports;
 };
 
 std::string name_of_user(uid_t user) {
@@ -221,6 +254,7 @@ void warn_of_another_user(std::uint32_t domain_id, const fdds::DomainParticipant
 
 void use_default_transports(const BuiltinTransports& wanted, std::uint32_t local_peers,
                             const std::shared_ptr<DiscoveryTraffic>& traffic, fdds::DomainParticipantQos& qos) {
+  const auto ports = std::make_shared<OwnPorts>();
   qos.transport().use_builtin_transports = false;
   auto& transports = qos.transport().user_transports;
   transports.clear();
@@ -234,17 +268,17 @@ void use_default_transports(const BuiltinTransports& wanted, std::uint32_t local
   };
   const rtps::UDPv4TransportDescriptor udp;
   if (wanted.udp4) {
-    add_udp(std::make_shared<Filtered<rtps::UDPv4TransportDescriptor>>(traffic));
+    add_udp(std::make_shared<Filtered<rtps::UDPv4TransportDescriptor>>(traffic, ports));
   }
   if (wanted.udp6) {
-    add_udp(std::make_shared<Filtered<rtps::UDPv6TransportDescriptor>>(traffic));
+    add_udp(std::make_shared<Filtered<rtps::UDPv6TransportDescriptor>>(traffic, ports));
   }
   if (!wanted.shared_memory) {
     return;
   }
   const bool is_alone = transports.empty();
   if (is_alone || has_room_in_shared_memory(kMemoryOfParticipant)) {
-    auto shared_memory = std::make_shared<Filtered<rtps::SharedMemTransportDescriptor>>(traffic);
+    auto shared_memory = std::make_shared<Filtered<rtps::SharedMemTransportDescriptor>>(traffic, ports);
     shared_memory->max_message_size(udp.max_message_size());
     transports.push_back(shared_memory);
   } else {
