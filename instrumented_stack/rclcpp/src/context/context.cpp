@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/progress.hpp"
 #include "rclcpp/contexts/default_context.hpp"
 #include "rclcpp/detail/rcl_arguments.hpp"
 #include "rclcpp/detail/require_ok.hpp"
@@ -91,6 +92,7 @@ void Context::init(int argc, const char* const* argv, const InitOptions& init_op
   shutdown_reason_.clear();
   rcl_context_ = rcl_context;
   valid_ = true;
+  progress::join();
 
   ValidContexts& valid = valid_contexts();
   const std::lock_guard valid_lock(valid.mutex);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "executor/executor_entities.hpp"
 
 namespace rclcpp::experimental::executors {
@@ -58,6 +59,7 @@ EventsExecutor::~EventsExecutor() {
 
 void EventsExecutor::spin() {
   const SpinningScope scope(*this, "spin()");
+  const progress::Spin spin(progress::Doing::kNothing);
   struct TimersThread {
     EventsExecutor& executor;
     ~TimersThread() {
@@ -164,7 +166,11 @@ bool EventsExecutor::execute_next(nanoseconds timeout, bool& was_wake_up) {
   }
   timer_was_last_ = false;
   ExecutorEvent event;
-  if (events_queue_->dequeue(event, std::clamp(until_timer, nanoseconds::zero(), timeout))) {
+  const nanoseconds longest = std::clamp(until_timer, nanoseconds::zero(), timeout);
+  progress::waits(longest);
+  const bool has_event = events_queue_->dequeue(event, longest);
+  progress::does(progress::Doing::kBetween);
+  if (has_event) {
     was_wake_up = is_wake_up(event);
     execute_event(event);
     return true;
@@ -185,22 +191,26 @@ void EventsExecutor::execute_event(const ExecutorEvent& event) {
     switch (event.type) {
       case SUBSCRIPTION_EVENT:
         if (const auto subscription = find_in(subscriptions_, event.entity_key)) {
+          const progress::Callback callback(progress::Doing::kSubscription);
           subscription->execute();
         }
         break;
       case SERVICE_EVENT:
         if (const auto service = find_in(services_, event.entity_key)) {
+          const progress::Callback callback(progress::Doing::kService);
           service->execute();
         }
         break;
       case CLIENT_EVENT:
         if (const auto client = find_in(clients_, event.entity_key)) {
+          const progress::Callback callback(progress::Doing::kClient);
           client->execute();
         }
         break;
       case WAITABLE_EVENT:
         if (const auto waitable = find_in(waitables_, event.entity_key)) {
           TRACETOOLS_EXT_TRACEPOINT(rclcpp_executor_execute_waitable, static_cast<const void*>(waitable.get()));
+          const progress::Callback callback(progress::Doing::kWaitable);
           waitable->execute(waitable->take_data_by_entity_id(static_cast<size_t>(event.waitable_data)));
         }
         break;

@@ -10,6 +10,7 @@
 #include <utility>
 #include <variant>
 
+#include "base/progress.hpp"
 #include "executor/executor_entities.hpp"
 #include "rclcpp/node.hpp"
 
@@ -97,6 +98,7 @@ Executor::SpinningScope::SpinningScope(Executor& executor, const char* function)
 
 Executor::Executor(const ExecutorOptions& options)
     : context_(options.context), entities_(std::make_shared<ExecutorEntities>(options.context)) {
+  progress::join();
   shutdown_callback_ = context_->add_on_shutdown_callback([weak = std::weak_ptr(entities_)] {
     if (const auto entities = weak.lock()) {
       entities->interrupt();
@@ -141,6 +143,7 @@ std::vector<CallbackGroup::WeakPtr> Executor::get_automatically_added_callback_g
 
 void Executor::spin_once(nanoseconds timeout) {
   const SpinningScope scope(*this, "spin_once()");
+  const progress::Spin spin(progress::Doing::kAway);
   spin_once_impl(timeout);
 }
 
@@ -153,6 +156,7 @@ void Executor::spin_once_impl(nanoseconds timeout) {
 
 void Executor::spin_some(nanoseconds max_duration) {
   const SpinningScope scope(*this, "spin_some()");
+  const progress::Spin spin(progress::Doing::kAway);
   spin_some_impl(max_duration, false);
 }
 
@@ -161,6 +165,7 @@ void Executor::spin_all(nanoseconds max_duration) {
     throw std::invalid_argument("max_duration must be greater than or equal to 0");
   }
   const SpinningScope scope(*this, "spin_all()");
+  const progress::Spin spin(progress::Doing::kAway);
   spin_some_impl(max_duration, true);
 }
 
@@ -214,6 +219,7 @@ FutureReturnCode Executor::spin_until(const std::function<bool()>& complete, nan
     return FutureReturnCode::SUCCESS;
   }
   const SpinningScope scope(*this, "spin_until_future_complete()");
+  const progress::Spin spin(progress::Doing::kNothing);
   const auto start = steady_clock::now();
   nanoseconds timeout_left = timeout;
   while (context_->is_valid() && spinning_) {
@@ -349,23 +355,28 @@ void Executor::erase_unserved() {
   if (any_executable.timer) {
     TRACETOOLS_TRACEPOINT(rclcpp_executor_execute,
                           static_cast<const void*>(any_executable.timer->get_timer_handle().get()));
+    const progress::Callback callback(progress::Doing::kTimer);
     any_executable.timer->execute_callback(any_executable.data);
   }
   if (any_executable.subscription) {
     TRACETOOLS_TRACEPOINT(rclcpp_executor_execute,
                           static_cast<const void*>(any_executable.subscription->get_subscription_handle().get()));
+    const progress::Callback callback(progress::Doing::kSubscription);
     any_executable.subscription->execute();
   }
   // These have no rclcpp_executor_execute.
   if (any_executable.service) {
+    const progress::Callback callback(progress::Doing::kService);
     any_executable.service->execute();
   }
   if (any_executable.client) {
+    const progress::Callback callback(progress::Doing::kClient);
     any_executable.client->execute();
   }
   if (any_executable.waitable) {
     TRACETOOLS_EXT_TRACEPOINT(rclcpp_executor_execute_waitable,
                               static_cast<const void*>(any_executable.waitable.get()));
+    const progress::Callback callback(progress::Doing::kWaitable);
     any_executable.waitable->execute(any_executable.data);
   }
   any_executable.release_group();

@@ -6,6 +6,8 @@
 #include <rcl/rmw_entity.hpp>
 #include <utility>
 
+#include "base/progress.hpp"
+
 namespace rclcpp {
 
 ExecutorWait::ExecutorWait(const std::shared_ptr<rcl_context_t>& context, const GuardCondition& interrupt)
@@ -54,7 +56,10 @@ void ExecutorWait::register_all() {
   const std::int64_t limit = timeout.count() < 0 ? TimerQueue::kNever : timeout.count();
   const std::int64_t until_timer = std::min(timers_.time_until_first(), waitables_.time_until_first_timer());
   const std::int64_t time = std::max<std::int64_t>(0, std::min(limit, until_timer));
-  waiter_.wait(std::chrono::nanoseconds(time == TimerQueue::kNever ? -1 : time), positions_);
+  const std::chrono::nanoseconds longest(time == TimerQueue::kNever ? -1 : time);
+  progress::waits(longest);
+  waiter_.wait(longest, positions_);
+  progress::does(progress::Doing::kBetween);
 
   const auto begin = positions_.begin();
   const auto end_of_entities = std::lower_bound(begin, positions_.end(), interrupt_position());

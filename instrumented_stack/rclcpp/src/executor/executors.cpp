@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "base/progress.hpp"
+
 namespace rclcpp {
 
 namespace {
@@ -17,6 +19,7 @@ ExecutorOptions options_for(node_interfaces::NodeBaseInterface& node) {
 
 [[gnu::hot]] void executors::SingleThreadedExecutor::spin() {
   const SpinningScope scope(*this, "spin()");
+  const progress::Spin spin(progress::Doing::kNothing);
   while (context_->is_valid() && spinning_) {
     AnyExecutable any_executable;
     if (get_next_executable(any_executable)) {

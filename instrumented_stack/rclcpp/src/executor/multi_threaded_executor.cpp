@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/progress.hpp"
+
 namespace rclcpp::executors {
 
 MultiThreadedExecutor::MultiThreadedExecutor(const ExecutorOptions& options, size_t number_of_threads,
@@ -45,13 +47,16 @@ void MultiThreadedExecutor::run_and_keep_failure() {
 }
 
 void MultiThreadedExecutor::run() {
+  const progress::Spin spin(progress::Doing::kNothing);
   while (context_->is_valid() && spinning_) {
     AnyExecutable any_executable;
+    progress::does(progress::Doing::kNothing);  // another thread may wait for all of them
     {
       const std::lock_guard lock(wait_mutex_);
       if (!context_->is_valid() || !spinning_) {
         return;
       }
+      progress::does(progress::Doing::kBetween);
       if (!get_next_executable(any_executable, next_exec_timeout_)) {
         continue;
       }

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/progress.hpp"
 #include "executor/timer_queue.hpp"
 
 namespace rclcpp::experimental {
@@ -113,6 +114,7 @@ bool TimersManager::execute_head_timer() {
   if (!data) {
     return false;
   }
+  const progress::Callback callback(progress::Doing::kTimer);
   head->execute_callback(data);
   return true;
 }
@@ -170,8 +172,10 @@ TimerQueue& TimersManager::queue() {
 }
 
 void TimersManager::run() {
+  const progress::Spin spin(progress::Doing::kNothing);
   while (context_->is_valid()) {
     const nanoseconds timeout = get_head_timeout();
+    progress::waits(timeout);
     {
       std::unique_lock lock(thread_mutex_);
       const auto wakes = [this] { return has_changed_ || !running_; };
@@ -185,6 +189,7 @@ void TimersManager::run() {
       }
       has_changed_ = false;
     }
+    progress::does(progress::Doing::kBetween);
     execute_head_timer();
   }
 }
