@@ -31,10 +31,12 @@ namespace launch {
   ACTION(log_warning)                  \
   ACTION(node)                         \
   ACTION(node_container)               \
+  ACTION(on_health_change)             \
   ACTION(on_process_exit)              \
   ACTION(on_process_io)                \
   ACTION(on_process_start)             \
   ACTION(on_shutdown)                  \
+  ACTION(on_start_limit)               \
   ACTION(on_state_transition)          \
   ACTION(publish)                      \
   ACTION(push_ros_namespace)           \

@@ -40,7 +40,7 @@ ItemSpec DependsOn::item_of_fault() {
   }
   const std::vector<AttributeSpec> rest = {
       {"condition", AttributeType::kLiteral, false, "started; present",
-       "with process: started, exited or output; with topic: present or message; else present", true},
+       "with process: started, exited, output or healthy; with topic: present or message; else present", true},
       {"exit_code", AttributeType::kText, false, "0",
        "with exited: any, nonzero, or codes and signals separated by commas", true},
       {"pattern", AttributeType::kText, false, "any line", "with output: regular expression to be found in a line",
@@ -62,7 +62,7 @@ DependsOn::DependsOn(const Fields& fields)
       subject_(ros_subject_of(fields, {"process"})),
       on_failure_(static_cast<OnFailure>(choice(fields, "on_failure", {"shutdown", "start", "skip"}))) {
   if (subject_ == "process") {
-    state_ = static_cast<State>(choice(fields, "condition", {"started", "exited", "output"}));
+    state_ = static_cast<State>(choice(fields, "condition", {"started", "exited", "output", "healthy"}));
     for (const char* const of_node : {"state", "parameter", "value"}) {
       if (fields.has(of_node)) {
         throw LaunchError(fmt::format("{} goes with a node only", of_node), fields.where(of_node), {},
@@ -144,6 +144,9 @@ ProcessCondition DependsOn::process_condition(Scope& scope, std::uint64_t occurr
       break;
     case State::kOutput:
       condition.state = UntilOutput{perform_output_pattern(fields_, scope), occurrence};
+      break;
+    case State::kHealthy:
+      condition.state = UntilHealthy{};
       break;
   }
   return condition;

@@ -31,7 +31,7 @@ class DependsOn {
   bool is_random(Scope& scope) const;
 
  private:
-  enum class State { kStarted, kExited, kOutput };
+  enum class State { kStarted, kExited, kOutput, kHealthy };
 
   NumberRange occurrence(Scope& scope) const;
   Dependency dependency(LaunchContext& context, std::uint64_t occurrence) const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// <on_process_start>, <on_process_exit>, <on_process_io>, <on_shutdown>, <on_state_transition>, <wait_for>: visit
-// actions when something happens. <unregister_event_handler>: a handler gets no more events.
+// <on_process_start>, <on_process_exit>, <on_process_io>, <on_health_change>, <on_start_limit>, <on_shutdown>,
+// <on_state_transition>, <wait_for>: visit actions when something happens. <unregister_event_handler>: a handler gets
+// no more events.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -141,6 +142,34 @@ ActionType on_process_io_action() {
       check_pattern, [](const Fields& fields, LaunchContext& context, Handled<Event>& handled) {
         handled.event.pattern = perform_output_pattern(fields, context.scope());
       });
+}
+
+ActionType on_health_change_action() {
+  using Event = OnHealthChange;
+  return handler_of<Event>(
+      "on_health_change", "Visits its actions each time the health of a watched process has changed.",
+      {process_row<Event>(),
+       {.attribute = {"to", Type::kText, false, "any", "healthy or unhealthy"},
+        .perform =
+            [](const Fields& fields, Scope& scope, Handled<Event>& handled) {
+              const Template& text = fields.text("to");
+              const std::string to = text.perform(scope);
+              if (to != "healthy" && to != "unhealthy") {
+                throw LaunchError(fmt::format("the health of a process gets healthy or unhealthy, not '{}'", to),
+                                  text.where(), did_you_mean(to, {"healthy", "unhealthy"}));
+              }
+              handled.event.health = to == "healthy" ? Health::kHealthy : Health::kUnhealthy;
+            },
+        .checks_literal = true},
+       once_row<Event>(),
+       handler_name_row<Event>()});
+}
+
+ActionType on_start_limit_action() {
+  using Event = OnStartLimit;
+  return handler_of<Event>("on_start_limit",
+                           "Visits its actions when a process has been started as often as its start_limit allows.",
+                           {process_row<Event>(), once_row<Event>(), handler_name_row<Event>()});
 }
 
 ActionType on_shutdown_action() {

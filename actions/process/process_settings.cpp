@@ -10,6 +10,7 @@
 
 #include "actions/process/depends_on.hpp"
 #include "actions/process/resource_settings.hpp"
+#include "actions/process/watch.hpp"
 #include "actions/values/pair_items.hpp"
 #include "base/processes/process_mark.hpp"
 #include "launcher/substitution/boolean.hpp"
@@ -131,6 +132,32 @@ void perform_backoff(const Fields& fields, Scope& scope, ProcessSpec& spec) {
   }
 }
 
+void perform_start_limit(const Fields& fields, Scope& scope, ProcessSpec& spec) {
+  spec.start_limit.starts = static_cast<std::int64_t>(fields.number("start_limit")->perform(scope));
+  if (spec.start_limit.starts < 1) {
+    throw LaunchError(fmt::format("start_limit must be at least 1, got {}", spec.start_limit.starts),
+                      fields.where("start_limit"), "leave it out to have no limit");
+  }
+}
+
+void perform_on_start_limit(const Fields& fields, Scope& scope, ProcessSpec& spec) {
+  const std::string given = fields.text("on_start_limit").perform(scope);
+  if (given != "none" && given != "shutdown") {
+    throw LaunchError(fmt::format("on_start_limit can be none or shutdown, got '{}'", given),
+                      fields.where("on_start_limit"), "other actions go into an event handler, <on_start_limit>");
+  }
+  spec.start_limit.shuts_down = given == "shutdown";
+}
+
+void check_start_limit(const Fields& fields) {
+  for (const char* const of_limit : {"start_limit_interval", "start_limit_cool_down", "on_start_limit"}) {
+    if (fields.has(of_limit) && !fields.has("start_limit")) {
+      throw LaunchError(fmt::format("{} goes with start_limit only", of_limit), fields.where(of_limit),
+                        "give start_limit, the number of starts", Finding::kExclusive);
+    }
+  }
+}
+
 void perform_required(const Fields& fields, Scope& scope, ProcessSpec& spec) {
   spec.required = fields.boolean("required", false).perform(scope);
   if (spec.required && spec.respawn.enabled) {
@@ -192,6 +219,20 @@ const std::vector<Setting<ProcessSpec>>& process_settings() {
       {.attribute = {"respawn_max_delay", Type::kFloat, false, "60", "seconds: the longest delay with respawn_backoff",
                      true},
        .place = place_of(&ProcessSpec::respawn, &RespawnPolicy::max_delay)},
+      {.attribute = {"start_limit", Type::kInteger, false, "none",
+                     "how often the process may start within start_limit_interval, by respawn or because it is "
+                     "unhealthy; then it is given up",
+                     true},
+       .perform = perform_start_limit},
+      {.attribute = {"start_limit_interval", Type::kFloat, false, "60", "seconds in which starts are counted", true},
+       .place = place_of(&ProcessSpec::start_limit, &StartLimit::within)},
+      {.attribute = {"start_limit_cool_down", Type::kFloat, false, "none",
+                     "seconds after which a process that was given up is started again", true},
+       .place = place_of(&ProcessSpec::start_limit, &StartLimit::cool_down)},
+      {.attribute = {"on_start_limit", Type::kText, false, "none",
+                     "shutdown: when the process is given up, the whole system ends", true},
+       .perform = perform_on_start_limit,
+       .checks_literal = true},
       {.attribute = {"required", Type::kBoolean, false, "false",
                      "true: when the process ends, the whole system ends with its exit code", true},
        .perform = perform_required},
@@ -301,14 +342,19 @@ std::vector<AttributeSpec> with_process_attributes(std::vector<AttributeSpec> ow
 }
 
 std::vector<ItemSpec> process_items() {
-  return {pair_item("env", "a variable of the process's environment", "name of the variable"), DependsOn::item()};
+  return {pair_item("env", "a variable of the process's environment", "name of the variable"), DependsOn::item(),
+          WatchItem::item()};
 }
 
 void check_process(const Fields& fields) {
+  check_start_limit(fields);
   check_settings(process_settings(), fields);
   check_settings(resource_settings(), fields);
   for (const Fields* dependency : fields.items("depends_on")) {
     (void)DependsOn(*dependency);
+  }
+  for (const Fields* watch : fields.items("watch")) {
+    WatchItem::check(*watch);
   }
 }
 
@@ -337,6 +383,9 @@ void request_process(const Fields& fields, LaunchContext& context, ProcessSpec s
   }
   spec.limits.core_files = !spec.crash_directory.empty();
   spec.origin = fields.where();
+  for (const Fields* watch : fields.items("watch")) {
+    WatchItem::perform(*watch, context, spec);
+  }
   for (const Fields* dependency : fields.items("depends_on")) {
     DependsOn(*dependency).request(context, context.requests().processes.size());
   }

@@ -135,6 +135,13 @@ void append_process(std::string& text, const SteeredProcess& process, const Proc
     fmt::format_to(to, ",\"state\":\"{}\"", state_name(view.state));
     if (view.pid >= 0) {
       fmt::format_to(to, ",\"pid\":{},\"running_for\":{}", number_outside(view.pid), seconds(view.running_for));
+      if (view.health != Health::kUnwatched) {
+        fmt::format_to(to, ",\"health\":\"{}\"", name_of(view.health));
+        if (!view.health_reason.empty()) {
+          text += ",\"health_reason\":";
+          append_json_string(text, view.health_reason);
+        }
+      }
     }
     fmt::format_to(to, ",\"restarts\":{}", view.runs > 0 ? view.runs - 1 : 0);
     if (view.last_exit) {
@@ -200,6 +207,21 @@ struct EventWriter {
   void operator()(const ProcessWaitsForTerminal& waits) const {
     json["event"] = "waits_for_terminal";
     json["pid"] = number_outside(waits.pid);
+  }
+  void operator()(const HealthChanged& change) const {
+    json["event"] = "health";
+    json["health"] = name_of(change.health);
+    if (!change.reason.empty()) {
+      json["reason"] = change.reason;
+    }
+  }
+  void operator()(const StartLimitReached& reached) const {
+    json["event"] = "start_limit";
+    json["starts"] = reached.starts;
+    json["within"] = seconds(reached.within);
+    if (reached.cool_down) {
+      json["next_start_in"] = seconds(*reached.cool_down);
+    }
   }
   void operator()(const ProcessDone&) const { json["event"] = "done"; }
 };

@@ -121,6 +121,8 @@ bool PsReader::string(std::string& value) {
         launch.processes.back().name = std::move(value);
       } else if (key_ == "state") {
         launch.processes.back().state = std::move(value);
+      } else if (key_ == "health") {
+        launch.processes.back().health = std::move(value);
       }
       break;
     case Part::kEnd:

@@ -17,6 +17,7 @@ namespace launch {
 struct ListedProcess {
   std::string name;
   std::string state;           // "running", … (docs/control.md)
+  std::string health;          // "starting", "healthy", "unhealthy"; "" if it is not watched
   std::string end;             // of the last run: "exit code 1", "SIGSEGV"; "" if none has ended
   pid_t pid = -1;              // -1: it does not run
   std::int64_t restarts = -1;  // -1: it has not been started

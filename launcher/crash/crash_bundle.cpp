@@ -226,9 +226,10 @@ fs::path write_crash_bundle(const Crash& crash, const fs::path& parent, const st
   return bundle;
 }
 
-fs::path write_deadline_bundle(const Crash& late, const std::vector<std::string>& reasons, const fs::path& parent) {
+fs::path write_deadline_bundle(const Crash& late, const std::vector<std::string>& reasons, const fs::path& parent,
+                               const std::string& file) {
   fs::path bundle = make_directory(late, parent);
-  write(bundle / "deadline.txt", summary(late, fmt::format("{}", fmt::join(reasons, ", "))));
+  write(bundle / file, summary(late, fmt::format("{}", fmt::join(reasons, ", "))));
   write(bundle / "threads.txt", threads(late.pid));
   std::ifstream maps(fmt::format("/proc/{}/maps", late.pid));
   std::ofstream(bundle / "maps.txt") << maps.rdbuf();

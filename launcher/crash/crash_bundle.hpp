@@ -40,13 +40,14 @@ struct Crash {
 std::filesystem::path write_crash_bundle(const Crash& crash, const std::filesystem::path& parent,
                                          const std::atomic<bool>& hurry);
 
-// Makes a directory as above for a process that has missed a deadline and runs on, with `reasons`, sentences that say
-// what it has missed. It holds
-// - deadline.txt: the reasons, and what crash.txt says of the process;
+// Makes a directory as above for a process that has missed a deadline, or is unhealthy, and runs on, with `reasons`,
+// sentences that say what is wrong. It holds
+// - the file of this name (deadline.txt, health.txt): the reasons, and what crash.txt says of the process;
 // - threads.txt: the threads of the process, and what each waits for in the kernel. The process is not stopped;
 // - maps.txt, output.log and command.sh, as above.
 std::filesystem::path write_deadline_bundle(const Crash& late, const std::vector<std::string>& reasons,
-                                            const std::filesystem::path& parent);
+                                            const std::filesystem::path& parent,
+                                            const std::string& file = "deadline.txt");
 
 // Adds the events before the crash: `snapshot`, with hard links where that is possible.
 void add_snapshot(const std::filesystem::path& bundle, const std::filesystem::path& snapshot);

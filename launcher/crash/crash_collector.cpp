@@ -144,6 +144,29 @@ void CrashCollector::collect_late(pid_t pid, const std::vector<std::string>& rea
   });
 }
 
+void CrashCollector::on_unhealthy(ProcessId id, const std::string& reason, std::function<void()> done) {
+  const auto found = runs_.find(id);
+  if (found == runs_.end() || unhealthy_[id] >= kMostOfOneProcess) {
+    done();
+    return;
+  }
+  const Run& run = found->second;
+  if (++unhealthy_[id] == kMostOfOneProcess) {
+    tell_(true,
+          fmt::format("{} has been unhealthy {} times; this is the last bundle of it", run.label, kMostOfOneProcess));
+  }
+  add([this, process = describe_run(id, run), reason, done = std::move(done),
+       parent = std::filesystem::path(run.spec.crash_directory)] {
+    try {
+      const std::filesystem::path bundle = write_deadline_bundle(process, {reason}, parent, "health.txt");
+      tell_later(false, fmt::format("bundle of {}, which is unhealthy: {}", process.process, bundle.string()));
+    } catch (const std::exception& error) {
+      tell_later(true, fmt::format("no bundle: {}", error.what()));
+    }
+    loop_.post(done);
+  });
+}
+
 void CrashCollector::finish(std::function<void()> done) {
   if (is_idle()) {
     loop_.post(std::move(done));

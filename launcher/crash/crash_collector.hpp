@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Makes a bundle of each crash of the processes whose spec has a crash directory. A crash is an end that nobody asked
-// for and that the spec does not allow. A process that misses a deadline, and runs on, gets a bundle, too.
+// for and that the spec does not allow. A process that misses a deadline or is unhealthy, and runs on, gets a bundle,
+// too.
 //
 // The work is done on a thread of its own, one bundle after the other, because a debugger takes seconds.
 #pragma once
@@ -51,6 +52,10 @@ class CrashCollector {
   void on_snapshot(const std::vector<std::string>& reasons, const std::filesystem::path& directory,
                    const std::vector<std::string>& late);
 
+  // The process is unhealthy, and runs on. Calls `done` when there is a bundle, in a later turn of the loop, or at once
+  // when there will be none.
+  void on_unhealthy(ProcessId id, const std::string& reason, std::function<void()> done);
+
   // Calls `done` in a later turn of the loop, when all bundles are complete; at once if there is none to wait for.
   void finish(std::function<void()> done);
   // The user is in a hurry: debuggers are ended.
@@ -86,7 +91,8 @@ class CrashCollector {
   std::map<ProcessId, Output> output_;
   std::map<ProcessId, std::size_t> crashes_;
   std::map<ProcessId, std::size_t> missed_;  // deadlines
-  std::map<ProcessId, Run> runs_;            // of processes with a crash directory
+  std::map<ProcessId, std::size_t> unhealthy_;
+  std::map<ProcessId, Run> runs_;  // of processes with a crash directory
 
   std::atomic<bool> hurry_ = false;
   std::map<std::string, std::filesystem::path> last_bundle_;  // of each process; for the thread alone

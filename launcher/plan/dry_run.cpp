@@ -63,6 +63,9 @@ Json process_as_json(const ProcessSpec& spec, const Environment& launcher_enviro
   if (spec.limits.any()) {
     process["limits"] = describe(spec.limits);
   }
+  for (const HealthWatch& watch : spec.watches) {
+    process["watches"].push_back(describe(watch));
+  }
   if (spec.origin) {
     process["source"] = source_as_json(spec.origin);
   }
@@ -168,6 +171,9 @@ std::string process_as_text(const ProcessSpec& spec, const Environment& launcher
   }
   for (const std::string& limit : describe(spec.limits)) {
     text += fmt::format("  limit: {}\n", limit);
+  }
+  for (const HealthWatch& watch : spec.watches) {
+    text += fmt::format("  healthy while {}\n", describe(watch));
   }
   for (std::size_t i = 0; i < spec.files.size(); ++i) {
     text += fmt::format("  @params:{}:\n{}", i, indented(spec.files[i].content, 6));

@@ -4,11 +4,14 @@
 
 #include <sys/types.h>
 
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 
+#include "base/diagnostics/source.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/output/output_router.hpp"
 #include "launcher/process/process_runner.hpp"
@@ -17,6 +20,16 @@
 namespace launch {
 
 enum class ProcessState { kStarting, kRunning, kInterrupting, kTerminating, kKilling, kRespawnDelay, kDone };
+
+// What is known of the health of a process that runs.
+enum class Health {
+  kUnwatched,  // also of a process that does not run
+  kStarting,   // nothing yet
+  kHealthy,
+  kUnhealthy
+};
+// "unwatched", "starting", "healthy", "unhealthy".
+const char* name_of(Health health);
 
 struct ProcessStarted {
   pid_t pid;
@@ -54,6 +67,19 @@ struct ProcessWaitsForTerminal {
   bool reads;         // else it sets modes
   bool has_terminal;  // its spec wants the terminal: it waits until the launch is in the foreground again
 };
+struct HealthChanged {
+  Health health;
+  Health before;
+  std::string reason;  // of kUnhealthy: "a timer callback has run for 5.1 s"
+  SourceRange where;   // the watch that has found it
+  pid_t pid = -1;      // the supervisor sets it
+};
+// It has been started as often as its limit allows.
+struct StartLimitReached {
+  std::int64_t starts;
+  Duration within;
+  std::optional<Duration> cool_down;  // until the next start; nullopt: there is none
+};
 struct ProcessDone {};  // will not run again
 
 // `spec` and `label` stay valid as long as the supervisor.
@@ -62,7 +88,7 @@ struct ProcessEvent {
   const std::string& label;
   const ProcessSpec& spec;
   std::variant<ProcessStarted, ProcessStartFailed, ProcessExited, SignalSent, ProcessLeft, RespawnSlowed,
-               ProcessWaitsForTerminal, ProcessDone>
+               ProcessWaitsForTerminal, HealthChanged, StartLimitReached, ProcessDone>
       what;
 };
 

@@ -90,6 +90,22 @@ class Messages {
                     help, place(event_.spec)));
   }
 
+  void operator()(const HealthChanged& change) const {
+    if (change.health == Health::kUnhealthy) {
+      say(LogLevel::kError, fmt::format("process is unhealthy: {}{}", change.reason,
+                                        change.where ? fmt::format(" ({})", to_string(change.where)) : std::string()));
+    } else if (change.before == Health::kUnhealthy) {
+      say(LogLevel::kInfo, "process is healthy again");
+    }
+  }
+
+  void operator()(const StartLimitReached& reached) const {
+    const std::string next = reached.cool_down ? fmt::format("it is started again in {} s", seconds(*reached.cool_down))
+                                               : std::string("it is not started again");
+    say(LogLevel::kError, fmt::format("process has been started {} times in {} s; {}{}", reached.starts,
+                                      seconds(reached.within), next, place(event_.spec)));
+  }
+
   void operator()(const ProcessDone&) const {}
 
  private:
@@ -112,6 +128,20 @@ class Messages {
 
 ProcessSupervisor::Observer process_messages(OutputRouter& output) {
   return [&output](const ProcessEvent& event) { std::visit(Messages(output, event), event.what); };
+}
+
+const char* name_of(Health health) {
+  switch (health) {
+    case Health::kUnwatched:
+      return "unwatched";
+    case Health::kStarting:
+      return "starting";
+    case Health::kHealthy:
+      return "healthy";
+    case Health::kUnhealthy:
+      return "unhealthy";
+  }
+  return "";
 }
 
 namespace {

@@ -17,6 +17,7 @@
 #include "base/environment/environment.hpp"
 #include "base/files/unique_fd.hpp"
 #include "launcher/process/event_loop.hpp"
+#include "launcher/process/health_watch.hpp"
 #include "launcher/process/resource_limits.hpp"
 
 namespace launch {
@@ -51,6 +52,14 @@ struct RespawnPolicy {
   Duration max_delay = std::chrono::seconds(60);
 };
 
+// Starts that come too fast: the process is given up, for a time or for ever. Starts that a user asks for do not count.
+struct StartLimit {
+  std::int64_t starts = 0;  // so many within the time; 0: no limit
+  Duration within = std::chrono::seconds(60);
+  std::optional<Duration> cool_down;  // then it is started again; nullopt: never
+  bool shuts_down = false;            // for observers: the launch ends when the process is given up
+};
+
 // Ends of a process that are no failures, beside exit code 0.
 struct AllowedExits {
   bool any = false;
@@ -83,8 +92,10 @@ struct ProcessSpec {
   OutputRouting output;
   ResourceLimits limits;
   RespawnPolicy respawn;
-  bool shutdown_on_exit = false;  // for observers: the whole system shall end when this process does
-  bool required = false;          // for observers: the launch ends as this process did
+  StartLimit start_limit;
+  std::vector<HealthWatch> watches;  // for observers: how its health is told; empty: it is not watched
+  bool shutdown_on_exit = false;     // for observers: the whole system shall end when this process does
+  bool required = false;             // for observers: the launch ends as this process did
   AllowedExits allowed_exits;
   std::string crash_directory;  // for observers: where a bundle of each crash is made; empty: nowhere
   Duration sigterm_timeout = std::chrono::seconds(5);  // from SIGINT to SIGTERM

@@ -28,14 +28,14 @@ using Event = SupervisionEvent;
 
 // clang-format off
 const std::array<std::array<Supervision::Handler, Supervision::kEvents>, Supervision::kStates> Supervision::kTable{{
-  //                   kStart                kExit                        kOutputClosed                  kTimeout                    kSignal                       kShutdown                        kTerminate                     kKill                       kStop                       kRestart                       kTerminalSignal                         kGroupEnded
-  /* kStarting     */ {&Supervision::spawn,  &Supervision::ignore,        &Supervision::ignore,          &Supervision::ignore,       &Supervision::ignore,         &Supervision::ignore,            &Supervision::ignore,          &Supervision::ignore,       &Supervision::ignore,       &Supervision::ignore, &Supervision::ignore, &Supervision::ignore},
-  /* kRunning      */ {&Supervision::ignore, &Supervision::end_unasked,   &Supervision::ignore,          &Supervision::ignore,       &Supervision::send_requested, &Supervision::interrupt,         &Supervision::terminate_now,   &Supervision::kill_now,     &Supervision::stop,         &Supervision::restart, &Supervision::note_signal_of_terminal, &Supervision::ignore},
-  /* kInterrupting */ {&Supervision::ignore, &Supervision::end_signalled, &Supervision::remains_ended,   &Supervision::terminate,    &Supervision::send_requested, &Supervision::ignore,            &Supervision::terminate_now,   &Supervision::kill_now,     &Supervision::stay_stopped, &Supervision::start_again, &Supervision::ignore, &Supervision::leave_remains},
-  /* kTerminating  */ {&Supervision::ignore, &Supervision::end_signalled, &Supervision::remains_ended,   &Supervision::kill_at_last, &Supervision::send_requested, &Supervision::ignore,            &Supervision::ignore,          &Supervision::kill_now,     &Supervision::stay_stopped, &Supervision::start_again, &Supervision::ignore, &Supervision::leave_remains},
-  /* kKilling      */ {&Supervision::ignore, &Supervision::end_signalled, &Supervision::ignore,          &Supervision::give_up,      &Supervision::ignore,         &Supervision::ignore,            &Supervision::ignore,          &Supervision::kill_now,     &Supervision::stay_stopped, &Supervision::start_again, &Supervision::ignore, &Supervision::ignore},
-  /* kRespawnDelay */ {&Supervision::ignore, &Supervision::ignore,        &Supervision::ignore,          &Supervision::spawn,        &Supervision::ignore,         &Supervision::finish,            &Supervision::ignore,          &Supervision::ignore,       &Supervision::finish,       &Supervision::restart_now, &Supervision::ignore, &Supervision::ignore},
-  /* kDone         */ {&Supervision::ignore, &Supervision::ignore,        &Supervision::release_remains, &Supervision::ignore,       &Supervision::ignore,         &Supervision::interrupt_remains, &Supervision::ignore,          &Supervision::kill_remains, &Supervision::ignore,       &Supervision::revive, &Supervision::ignore, &Supervision::ignore},
+  //                   kStart                kExit                        kOutputClosed                  kTimeout                    kSignal                       kShutdown                        kTerminate                     kKill                       kStop                       kRestart                       kTerminalSignal                         kGroupEnded   kUnhealthy
+  /* kStarting     */ {&Supervision::spawn,  &Supervision::ignore,        &Supervision::ignore,          &Supervision::ignore,       &Supervision::ignore,         &Supervision::ignore,            &Supervision::ignore,          &Supervision::ignore,       &Supervision::ignore,       &Supervision::ignore, &Supervision::ignore, &Supervision::ignore, &Supervision::ignore},
+  /* kRunning      */ {&Supervision::ignore, &Supervision::end_unasked,   &Supervision::ignore,          &Supervision::ignore,       &Supervision::send_requested, &Supervision::interrupt,         &Supervision::terminate_now,   &Supervision::kill_now,     &Supervision::stop,         &Supervision::restart, &Supervision::note_signal_of_terminal, &Supervision::ignore, &Supervision::restart_unhealthy},
+  /* kInterrupting */ {&Supervision::ignore, &Supervision::end_signalled, &Supervision::remains_ended,   &Supervision::terminate,    &Supervision::send_requested, &Supervision::ignore,            &Supervision::terminate_now,   &Supervision::kill_now,     &Supervision::stay_stopped, &Supervision::start_again, &Supervision::ignore, &Supervision::leave_remains, &Supervision::ignore},
+  /* kTerminating  */ {&Supervision::ignore, &Supervision::end_signalled, &Supervision::remains_ended,   &Supervision::kill_at_last, &Supervision::send_requested, &Supervision::ignore,            &Supervision::ignore,          &Supervision::kill_now,     &Supervision::stay_stopped, &Supervision::start_again, &Supervision::ignore, &Supervision::leave_remains, &Supervision::ignore},
+  /* kKilling      */ {&Supervision::ignore, &Supervision::end_signalled, &Supervision::ignore,          &Supervision::give_up,      &Supervision::ignore,         &Supervision::ignore,            &Supervision::ignore,          &Supervision::kill_now,     &Supervision::stay_stopped, &Supervision::start_again, &Supervision::ignore, &Supervision::ignore, &Supervision::ignore},
+  /* kRespawnDelay */ {&Supervision::ignore, &Supervision::ignore,        &Supervision::ignore,          &Supervision::spawn,        &Supervision::ignore,         &Supervision::finish,            &Supervision::ignore,          &Supervision::ignore,       &Supervision::finish,       &Supervision::restart_now, &Supervision::ignore, &Supervision::ignore, &Supervision::ignore},
+  /* kDone         */ {&Supervision::ignore, &Supervision::ignore,        &Supervision::release_remains, &Supervision::ignore,       &Supervision::ignore,         &Supervision::interrupt_remains, &Supervision::ignore,          &Supervision::kill_remains, &Supervision::ignore,       &Supervision::revive, &Supervision::ignore, &Supervision::ignore, &Supervision::ignore},
 }};
 // clang-format on
 
@@ -73,6 +73,9 @@ void Supervision::spawn(Supervised& process) {
   process.refused = false;
   process.waits_for_foreground = false;
   process.request = Request::kNone;
+  if (process.spec.start_limit.starts > 0) {
+    process.starts.push_back(loop.now());
+  }
   try {
     if (process.state == ProcessState::kStarting) {
       files.write(process.spec, process.id);
@@ -80,11 +83,10 @@ void Supervision::spawn(Supervised& process) {
     }
     process.process = runner.spawn(process.spec);
   } catch (const std::system_error& error) {
-    const bool again = respawns(process);
-    notify(process, ProcessStartFailed{error.what(), again});
-    if (again) {
-      wait_for_respawn(process, std::max(process.respawn_delay.next(process.spec.respawn, Duration{0}),
-                                         ProcessSupervisor::kFailedStartDelay));
+    notify(process, ProcessStartFailed{error.what(), respawns(process)});
+    if (wants_respawn(process)) {
+      start_later(process, std::max(process.respawn_delay.next(process.spec.respawn, Duration{0}),
+                                    ProcessSupervisor::kFailedStartDelay));
     } else {
       finish(process);
     }
@@ -97,6 +99,8 @@ void Supervision::spawn(Supervised& process) {
   process.unreaped = true;
   process.started = loop.now();
   ++process.runs;
+  process.health = process.spec.watches.empty() ? Health::kUnwatched : Health::kStarting;
+  process.health_reason.clear();
   process.output.follow(process.process, [this, &process] { handle(process, Event::kOutputClosed); });
   process.exit_source = loop.on_exit(process.process.pidfd.get(), [this, &process] { handle(process, Event::kExit); });
   notify(process, ProcessStarted{process.process.pid, process.spec.terminal_input && !process.process.has_terminal});
@@ -143,11 +147,13 @@ void Supervision::restart(Supervised& process) {
 void Supervision::start_again(Supervised& process) {
   if (!shutting_down) {
     process.request = Request::kRestart;
+    process.starts.clear();
   }
 }
 
 void Supervision::restart_now(Supervised& process) {
   process.retries = 0;
+  process.starts.clear();
   process.respawn_delay.reset();
   spawn(process);
 }
@@ -160,43 +166,25 @@ void Supervision::revive(Supervised& process) {
   process.process = Process{};
   process.output.close();
   process.retries = 0;
+  process.starts.clear();
   process.respawn_delay.reset();
   process.state = ProcessState::kRespawnDelay;
   ++active;
   spawn(process);
 }
 
-bool Supervision::respawns(const Supervised& process) const {
-  if (shutting_down || process.request != Request::kNone) {
-    return !shutting_down && process.request == Request::kRestart;
-  }
-  const RespawnPolicy& policy = process.spec.respawn;
-  return policy.enabled && (policy.max_retries < 0 || process.retries < policy.max_retries);
-}
-
-// The run is over: decides what comes next.
-void Supervision::conclude(Supervised& process) {
-  if (!process.unreaped) {
-    process.process = Process{};
-  }
-  if (!respawns(process)) {
-    finish(process);
-  } else if (process.request == Request::kRestart) {
-    process.retries = -1;  // this start is no retry
-    process.respawn_delay.reset();
-    wait_for_respawn(process, Duration{0});
-  } else {
-    wait_for_respawn(process, process.respawn_delay.next(process.spec.respawn, process.ran_for));
-    if (process.respawn_delay.slows_down()) {
-      notify(process, RespawnSlowed{RespawnDelay::kShortRuns});
-    }
+void Supervision::restart_unhealthy(Supervised& process) {
+  if (!shutting_down) {
+    process.request = Request::kRestartUnhealthy;
+    interrupt(process);
   }
 }
 
-void Supervision::wait_for_respawn(Supervised& process, Duration delay) {
-  process.state = ProcessState::kRespawnDelay;
-  ++process.retries;
-  start_timer(process, delay);
+void Supervision::set_health(Supervised& process, HealthChanged change) {
+  change.pid = process.process.pid;
+  process.health = change.health;
+  process.health_reason = change.reason;
+  notify(process, std::move(change));
 }
 
 void Supervision::start_timer(Supervised& process, Duration delay) {
@@ -335,6 +323,18 @@ void ProcessSupervisor::restart(ProcessId id) {
   impl_->handle(*impl_->processes.at(id - 1), Event::kRestart);
 }
 
+void ProcessSupervisor::restart_unhealthy(ProcessId id) {
+  impl_->handle(*impl_->processes.at(id - 1), Event::kUnhealthy);
+}
+
+ProcessRunner& ProcessSupervisor::runner() const {
+  return impl_->runner;
+}
+
+void ProcessSupervisor::set_health(ProcessId id, HealthChanged change) {
+  impl_->set_health(*impl_->processes.at(id - 1), std::move(change));
+}
+
 Duration ProcessSupervisor::terminate_all() {
   Duration longest{0};
   for (std::size_t i = 0; i < impl_->processes.size(); ++i) {
@@ -382,7 +382,9 @@ ProcessView ProcessSupervisor::view(ProcessId id) const {
           .running_for = runs ? impl_->loop.now() - process.started : Duration{0},
           .next_step_in = process.timer ? process.timer_end - impl_->loop.now() : Duration{0},
           .runs = process.runs,
-          .last_exit = process.last_exit};
+          .last_exit = process.last_exit,
+          .health = runs ? process.health : Health::kUnwatched,
+          .health_reason = process.health_reason};
 }
 
 }  // namespace launch

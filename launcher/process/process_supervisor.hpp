@@ -43,6 +43,8 @@ struct ProcessView {
   Duration next_step_in;  // until the next signal of its end, or its next start; 0: nothing is timed
   std::int64_t runs;      // how often it has been started
   std::optional<ProcessExit> last_exit;
+  Health health;
+  const std::string& health_reason;
 };
 
 class ProcessSupervisor {
@@ -116,6 +118,15 @@ class ProcessSupervisor {
   // Ends one process in the same way and starts it again at once. A process that is done is just started. The retries
   // of its respawn policy are counted anew. Ignored after shutdown().
   void restart(ProcessId id);
+
+  // Does the same because the process is unhealthy: the start counts for its limit of starts, and may not come.
+  void restart_unhealthy(ProcessId id);
+
+  // By which others start helpers of a process, such as the command of a watch.
+  ProcessRunner& runner() const;
+
+  // Takes note of the health of a process that runs, and tells the observers. For the one who watches it.
+  void set_health(ProcessId id, HealthChanged change);
 
   // After shutdown(): sends SIGTERM now to each process that has only got SIGINT so far. Returns the longest time until
   // one of the processes that are left gets SIGKILL.

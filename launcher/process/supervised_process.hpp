@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The private part of the supervisor: its state of each process, and the handlers of events. Only for
-// process_supervisor.cpp, which has the table of states and events, and for process_end.cpp and process_terminal.cpp.
+// process_supervisor.cpp, which has the table of states and events, and for process_end.cpp, process_respawn.cpp and
+// process_terminal.cpp.
 #pragma once
 
 #include <array>
@@ -55,11 +56,12 @@ enum class SupervisionEvent {
   kStop,
   kRestart,
   kTerminalSignal,
-  kGroupEnded
+  kGroupEnded,
+  kUnhealthy
 };
 
 // What was asked for during a run. At the end of the run it counts before the respawn policy.
-enum class SupervisionRequest { kNone, kStop, kRestart };
+enum class SupervisionRequest { kNone, kStop, kRestart, kRestartUnhealthy };
 
 // One process of a supervisor, over all its runs.
 struct Supervised {
@@ -77,6 +79,7 @@ struct Supervised {
   int requested_signal = 0;  // of the kSignal event being handled
   SupervisionRequest request = SupervisionRequest::kNone;
   RespawnDelay respawn_delay;
+  std::deque<Duration> starts;  // that count for the limit, as far as they are recent
 
   // The current or last run.
   Process process;
@@ -89,6 +92,8 @@ struct Supervised {
   Duration ran_for{0};
   std::int64_t runs = 0;  // started so far
   std::optional<ProcessExit> last_exit;
+  Health health = Health::kUnwatched;
+  std::string health_reason;  // of kUnhealthy
   ChildOutput output;
   EventLoop::SourcePtr exit_source;
   EventLoop::SourcePtr timer;
@@ -107,6 +112,8 @@ struct Supervision {
   // Runs the handler of the table. An event raised meanwhile, by a handler or by an observer, waits until it is done:
   // observers see the events of a process in order, and handlers run on a settled state.
   void handle(Supervised& process, Event event, int signal = 0);
+  // As ProcessSupervisor::set_health().
+  void set_health(Supervised& process, HealthChanged change);
   // To be called after a change of the two observers of lines.
   void observe_lines();
   // As ProcessSupervisor::watch_terminal().
@@ -127,7 +134,7 @@ struct Supervision {
  private:
   using Request = SupervisionRequest;
   using Handler = void (Supervision::*)(Supervised&);
-  static constexpr std::size_t kEvents = 12;
+  static constexpr std::size_t kEvents = 13;
   static constexpr std::size_t kStates = 7;
   struct Pending {
     Supervised* process;
@@ -145,6 +152,7 @@ struct Supervision {
   void start_again(Supervised& process);
   void restart_now(Supervised& process);
   void revive(Supervised& process);
+  void restart_unhealthy(Supervised& process);
   // Those of its end (process_end.cpp).
   void interrupt(Supervised& process);
   void terminate(Supervised& process);
@@ -166,6 +174,9 @@ struct Supervision {
   // What handlers share.
   void notify(Supervised& process, decltype(ProcessEvent::what) what);
   bool respawns(const Supervised& process) const;
+  bool wants_respawn(const Supervised& process) const;
+  bool limit_reached(const Supervised& process) const;
+  void start_later(Supervised& process, Duration delay);
   void conclude(Supervised& process);
   void wait_for_respawn(Supervised& process, Duration delay);
   void start_timer(Supervised& process, Duration delay);

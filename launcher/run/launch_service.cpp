@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -16,6 +16,15 @@
 #include "launcher/process/guardian/guardian.hpp"
 
 namespace launch {
+namespace {
+
+auto warn_or_tell(LaunchContext& context, const char* logger) {
+  return [&context, logger](bool warning, const std::string& text) {
+    context.message(warning ? LogLevel::kWarning : LogLevel::kInfo, logger, text);
+  };
+}
+
+}  // namespace
 
 LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSupervisor& supervisor, ErrorSink errors)
     : context_(context),
@@ -26,16 +35,11 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
                {[this] { return on_lost_guardian(); }, [this](const std::string& signal) { on_interrupt(signal); },
                 [this](int number, const std::string& signal) { on_interrupt_again(number, signal); },
                 [this](const std::string& text) { context_.message(LogLevel::kInfo, "launch", text); }}),
-      crashes_(loop,
-               [this](bool warning, const std::string& text) {
-                 context_.message(warning ? LogLevel::kWarning : LogLevel::kInfo, "launch", text);
-               }),
-      scopes_(
-          loop,
-          [this](bool warning, const std::string& text) {
-            context_.message(warning ? LogLevel::kWarning : LogLevel::kInfo, "launch.trace", text);
-          },
-          timing_),
+      crashes_(loop, warn_or_tell(context, "launch")),
+      health_(loop, supervisor, crashes_,
+              {std::bind_front(&LaunchContext::message, &context_),
+               [this](const std::string& reason) { shutdown(reason); }}),
+      scopes_(loop, warn_or_tell(context, "launch.trace"), timing_),
       rounds_(scopes_,
               {[this](Round round) { start(std::move(round)); }, [this](const LaunchError& error) { fail(error); },
                [this] {
@@ -43,24 +47,22 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
                  check_finished();
                }}),
       recording_(scopes_),
-      processes_(loop, supervisor,
-                 {[this](ProcessSpec& spec, ProcessId id) { prepare(spec, id); },
-                  [this](const LaunchError& error) { fail(error); },
-                  [this](LogLevel level, const std::string& logger, const std::string& text) {
-                    context_.message(level, logger, text);
-                  },
-                  [this](const TrackedProcess& process) {
-                    ros_tasks_.on_skipped(process.names);
-                    test_.on_skipped(process);
-                    loop_.post([this] { check_started(); });
-                  },
-                  [this](const std::string& process, const Dependency& dependency) {
-                    record({.kind = LaunchRecord::Kind::kReady,
-                            .name = process,
-                            .what = describe(dependency),
-                            .where = dependency.where,
-                            .time = monotonic_time()});
-                  }}),
+      processes_(
+          loop, supervisor,
+          {[this](ProcessSpec& spec, ProcessId id) { prepare(spec, id); },
+           [this](const LaunchError& error) { fail(error); }, std::bind_front(&LaunchContext::message, &context_),
+           [this](const TrackedProcess& process) {
+             ros_tasks_.on_skipped(process.names);
+             test_.on_skipped(process);
+             loop_.post([this] { check_started(); });
+           },
+           [this](const std::string& process, const Dependency& dependency) {
+             record({.kind = LaunchRecord::Kind::kReady,
+                     .name = process,
+                     .what = describe(dependency),
+                     .where = dependency.where,
+                     .time = monotonic_time()});
+           }}),
       test_(loop, supervisor, processes_,
             [this](const std::string& text) { context_.message(LogLevel::kWarning, "launch", text); }),
       steering_(supervisor, processes_,
@@ -91,11 +93,8 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
       hurry_(loop, supervisor, scopes_, crashes_, farewell_,
              [this](LogLevel level, const std::string& text) { context_.message(level, "launch", text); }) {
   supervisor_.observe([this](const ProcessEvent& event) { on_process_event(event); });
-  scopes_.observe_snapshots(
-      [this](const std::vector<std::string>& reasons, const std::string& directory,
-             const std::vector<std::string>& late) { crashes_.on_snapshot(reasons, directory, late); });
-  ros_tasks_.observe_failures(
-      [this](const std::string& what, const SourceRange& where) { outcome_.on_component_failure(what, where); });
+  scopes_.observe_snapshots(std::bind_front(&CrashCollector::on_snapshot, &crashes_));
+  ros_tasks_.observe_failures(std::bind_front(&Outcome::on_component_failure, &outcome_));
 }
 
 LaunchService::~LaunchService() {
@@ -159,6 +158,7 @@ void LaunchService::on_process_event(const ProcessEvent& event) {
   recording_.record(event);
   outcome_.on_process_event(event);
   crashes_.on_process_event(event);
+  health_.on_event(event);
   processes_.on_event(event);
   test_.on_event(event);
   steering_.on_event(event);
@@ -238,16 +238,10 @@ void LaunchService::start(Round given) {
   recording_.begin();
   const Overloaded carry_out{
       [&](std::vector<ProcessCommand>& commands) {
-        std::for_each(commands.begin(), commands.end(), [&](const auto& command) { processes_.execute(command); });
+        std::for_each(commands.begin(), commands.end(), std::bind_front(&Processes::execute, &processes_));
       },
       [&](std::vector<UnregisterRequest>& requests) {
-        for (const UnregisterRequest& request : requests) {
-          if (!handlers_.remove(request.name)) {
-            context_.message(LogLevel::kWarning, "launch",
-                             fmt::format("no event handler is registered that is named '{}' ({})", request.name,
-                                         to_string(request.where)));
-          }
-        }
+        handlers_.unregister(requests, std::bind_front(warn_or_tell(context_, "launch"), true));
       },
       [&](std::vector<TestRequest>& tests) { test_.begin(std::move(tests), context_.scope().log_directory); },
       [&](std::vector<EventHandler>& handlers) {
@@ -261,7 +255,10 @@ void LaunchService::start(Round given) {
       [&](std::vector<LoadRequest>& loads) { ros_tasks_.start(std::move(loads), {}); },
       [&](std::vector<TransitionRequest>& transitions) { ros_tasks_.start({}, std::move(transitions)); },
       [&](std::vector<ProcessSpec>& processes) {
-        std::for_each(processes.begin(), processes.end(), [&](const ProcessSpec& spec) { crashes_.expect(spec); });
+        for (const ProcessSpec& spec : processes) {
+          crashes_.expect(spec);
+          health_.monitor.expect(spec);
+        }
         processes_.wait(*round);
         observe_output();
       },
@@ -291,7 +288,8 @@ void LaunchService::start(Round given) {
 }
 
 void LaunchService::observe_output() {
-  if (!handlers_.watch_output() && !processes_.watch_output() && !crashes_.watch_output() && !test_.watch_output()) {
+  if (!handlers_.watch_output() && !processes_.watch_output() && !crashes_.watch_output() && !test_.watch_output() &&
+      !health_.monitor.watch_output()) {
     return;
   }
   supervisor_.observe_output([this](const ProcessSpec& spec, ProcessId id, const std::string& label,
@@ -299,11 +297,13 @@ void LaunchService::observe_output() {
     processes_.on_line(id, stream, line);
     handlers_.on_line(spec, label, stream, line);
     crashes_.on_line(spec, id, line);
+    health_.monitor.on_line(id, stream, line);
     test_.on_line(spec, id, label, stream, line);
   });
 }
 
 void LaunchService::prepare(ProcessSpec& spec, ProcessId id) {
+  health_.monitor.prepare(spec, id);
   scopes_.prepare(spec);
   test_.prepare(spec, id);
   ros_tasks_.name_process(id, spec.other_names);
@@ -322,6 +322,7 @@ void LaunchService::shutdown(const std::string& reason) {
   if (phase_ == Phase::kRunning) {
     phase_ = Phase::kFarewell;
     test_.on_shutdown();
+    health_.monitor.shutdown();
     steering_.tell_end(reason);
     rounds_.close();
     timers_.shutdown();

@@ -25,6 +25,7 @@
 #include "launcher/run/end/user_signals.hpp"
 #include "launcher/run/handlers/handlers.hpp"
 #include "launcher/run/handlers/timers.hpp"
+#include "launcher/run/health/health_care.hpp"
 #include "launcher/run/scopes/active_scopes.hpp"
 #include "launcher/run/scopes/recording.hpp"
 #include "launcher/run/start/processes.hpp"
@@ -148,6 +149,7 @@ class LaunchService {
   UserSignals signals_;
   Outcome outcome_;
   CrashCollector crashes_;
+  HealthCare health_;
   ActiveScopes scopes_;
   Rounds rounds_;
   Recording recording_;

@@ -28,6 +28,7 @@ std::string describe(const Dependency& dependency) {
             const std::string times = until.occurrence == 1 ? "" : fmt::format(", {} times", until.occurrence);
             return fmt::format("'{}' has written {}{}", condition.process, until.pattern.describe(), times);
           },
+          [&](const UntilHealthy&) { return fmt::format("'{}' is healthy", condition.process); },
       },
       condition.state);
 }
@@ -86,6 +87,10 @@ void find_targets(std::vector<Dependency>& dependencies, const Numbers& numbers,
     }
     try {
       dependency.target = find_target(condition->process, numbers, table, dependency.where);
+      if (std::holds_alternative<UntilHealthy>(condition->state) && !dependency.target->is_watched) {
+        throw LaunchError(fmt::format("nothing tells whether '{}' is healthy", condition->process), dependency.where,
+                          "give it a <watch>, such as <watch kind=\"executor\"/>", Finding::kStartOrder);
+      }
     } catch (const LaunchError& error) {
       errors.insert(errors.end(), error.diagnostics().begin(), error.diagnostics().end());
     }

@@ -30,10 +30,12 @@ struct UntilOutput {
   std::uint64_t occurrence = 1;  // the how many-th such line
 };
 
+struct UntilHealthy {};
+
 // Another process of the launch.
 struct ProcessCondition {
   std::string process;  // a name (process_table.hpp) that only one process has
-  std::variant<UntilStarted, UntilExited, UntilOutput> state;
+  std::variant<UntilStarted, UntilExited, UntilOutput, UntilHealthy> state;
 };
 
 // What happens when a condition can't hold any more, or when its time is over.

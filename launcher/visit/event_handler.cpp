@@ -15,6 +15,11 @@ struct Description {
   std::string operator()(const OnProcessIo& io) const {
     return fmt::format("on_process_io{} with {}", of_process(), io.pattern.describe());
   }
+  std::string operator()(const OnHealthChange& change) const {
+    return fmt::format("on_health_change{}{}", of_process(),
+                       change.health ? fmt::format(" to {}", name_of(*change.health)) : std::string());
+  }
+  std::string operator()(const OnStartLimit&) const { return "on_start_limit" + of_process(); }
   std::string operator()(const OnShutdown&) const { return "on_shutdown"; }
   std::string operator()(const OnStateTransition& transition) const {
     std::string text = fmt::format("on_state_transition of '{}'", transition.node);

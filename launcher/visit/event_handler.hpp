@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -14,6 +15,7 @@
 #include "launcher/language/output_pattern.hpp"
 #include "launcher/language/readiness_condition.hpp"
 #include "launcher/process/event_loop.hpp"
+#include "launcher/process/process_event.hpp"
 #include "launcher/substitution/scope.hpp"
 
 namespace launch {
@@ -25,6 +27,12 @@ struct OnProcessExit {
 struct OnProcessIo {
   OutputPattern pattern;
 };
+// The health of a process has become this one; nullopt: another one.
+struct OnHealthChange {
+  std::optional<Health> health;
+};
+// A process has reached its limit of starts.
+struct OnStartLimit {};
 // Processes that the handler starts run before the others are asked to end.
 struct OnShutdown {
   Duration timeout = std::chrono::seconds(5);  // the longest time that they may take
@@ -41,7 +49,9 @@ struct OnceReady {
 };
 
 struct EventHandler {
-  std::variant<OnProcessStart, OnProcessExit, OnProcessIo, OnShutdown, OnStateTransition, OnceReady> event;
+  std::variant<OnProcessStart, OnProcessExit, OnProcessIo, OnHealthChange, OnStartLimit, OnShutdown, OnStateTransition,
+               OnceReady>
+      event;
   std::string name;     // the name for unregister_event_handler; empty: none
   std::string process;  // a name (process_table.hpp); empty: every process
   bool once = false;

@@ -26,6 +26,11 @@ EventValues made_up_event(const EventHandler& handler) {
   } else if (const auto* const io = std::get_if<OnProcessIo>(&handler.event)) {
     values.emplace_back("text", "");
     values.emplace_back("stream", io->pattern.stream() == "stderr" ? "stderr" : "stdout");
+  } else if (const auto* const change = std::get_if<OnHealthChange>(&handler.event)) {
+    values.emplace_back("health", name_of(change->health.value_or(Health::kUnhealthy)));
+    values.emplace_back("reason", "");
+  } else if (std::holds_alternative<OnStartLimit>(handler.event)) {
+    values.emplace_back("starts", "1");
   } else if (std::holds_alternative<OnShutdown>(handler.event)) {
     values = {{"reason", ""}};
   } else if (const auto* const transition = std::get_if<OnStateTransition>(&handler.event)) {

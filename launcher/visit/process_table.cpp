@@ -19,6 +19,7 @@ std::vector<std::string> names_of(const ProcessSpec& spec) {
 TrackedProcess& ProcessTable::add(const ProcessSpec& spec) {
   TrackedProcess& process = processes_.emplace_back();
   process.names = names_of(spec);
+  process.is_watched = !spec.watches.empty();
   for (const std::string& name : process.names) {
     by_name_[name].push_back(&process);
   }
@@ -41,6 +42,9 @@ TrackedProcess* ProcessTable::note(const ProcessEvent& event) {
     process->is_over = false;
   } else if (const auto* const exited = std::get_if<ProcessExited>(&event.what)) {
     process->exit_code = exited->exit.code;
+    process->is_healthy = false;
+  } else if (const auto* const change = std::get_if<HealthChanged>(&event.what)) {
+    process->is_healthy = change->health == Health::kHealthy;
   } else if (std::holds_alternative<ProcessDone>(event.what)) {
     process->is_over = true;
   }

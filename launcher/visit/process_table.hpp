@@ -22,6 +22,8 @@ struct TrackedProcess {
   bool has_run = false;            // it was started, now or earlier
   bool is_over = false;            // it is done, or will never start
   std::optional<int> exit_code;    // of the last run that has ended
+  bool is_watched = false;         // for its health
+  bool is_healthy = false;
 };
 
 class ProcessTable {

@@ -23,6 +23,10 @@ void Failures::on_process_event(const ProcessEvent& event) {
     }
   } else if (const auto* const failed = std::get_if<ProcessStartFailed>(&event.what)) {
     add(event, "not started, " + failed->reason);
+  } else if (const auto* const health = std::get_if<HealthChanged>(&event.what)) {
+    if (health->health == Health::kUnhealthy) {
+      add(event, "unhealthy, " + health->reason);
+    }
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What has failed in a launch: processes that ended badly although nobody had asked them to end, processes that could
-// not be started, components that could not be loaded. A process counts also if it was started again.
+// What has failed in a launch: processes that ended badly although nobody had asked them to end, that could not be
+// started, or that were unhealthy; components that could not be loaded. A process counts also if it was started again.
 #pragma once
 
 #include <cstddef>

@@ -87,6 +87,27 @@ std::vector<Invocation> EventHandlers::on_event(const ProcessEvent& event) {
   if (const auto* const exited = std::get_if<ProcessExited>(&event.what)) {
     return exit(exited->exit.code, std::to_string(exited->pid));
   }
+  if (const auto* const change = std::get_if<HealthChanged>(&event.what)) {
+    return take(
+        event.spec, event.label,
+        [change](const EventHandler& handler) {
+          const auto* const wanted = std::get_if<OnHealthChange>(&handler.event);
+          return wanted != nullptr && wanted->health.value_or(change->health) == change->health;
+        },
+        [&] {
+          return about(
+              event.spec, event.label,
+              {{"pid", std::to_string(change->pid)}, {"health", name_of(change->health)}, {"reason", change->reason}});
+        });
+  }
+  if (const auto* const reached = std::get_if<StartLimitReached>(&event.what)) {
+    return take(
+        event.spec, event.label,
+        [](const EventHandler& handler) { return std::holds_alternative<OnStartLimit>(handler.event); },
+        [&] {
+          return about(event.spec, event.label, {{"starts", std::to_string(reached->starts)}});
+        });
+  }
   if (std::holds_alternative<ProcessStartFailed>(event.what)) {
     return exit(kExitCodeOfFailedStart, "");
   }

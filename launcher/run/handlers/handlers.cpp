@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/run/handlers/handlers.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 #include <variant>
 
@@ -20,6 +22,16 @@ void Handlers::add(EventHandler handler, RosClient* client) {
     states_.add(std::move(handler), client);
   } else {
     events_.add(std::move(handler));
+  }
+}
+
+void Handlers::unregister(const std::vector<UnregisterRequest>& requests,
+                          const std::function<void(const std::string& text)>& warn) {
+  for (const UnregisterRequest& request : requests) {
+    if (!remove(request.name)) {
+      warn(fmt::format("no event handler is registered that is named '{}' ({})", request.name,
+                       to_string(request.where)));
+    }
   }
 }
 

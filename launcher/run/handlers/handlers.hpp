@@ -28,8 +28,9 @@ class Handlers {
 
   // The client watches the states of nodes; it may be null when no handler needs them.
   void add(EventHandler handler, RosClient* client);
-  // Forgets the handlers of that name, also for events that wait for their visit; false when none is registered.
-  bool remove(const std::string& name);
+  // Forgets the handlers of these names, also for events that wait for their visit. Warns when there is none.
+  void unregister(const std::vector<UnregisterRequest>& requests,
+                  const std::function<void(const std::string& text)>& warn);
 
   void on_event(const ProcessEvent& event) { queue_.add(events_.on_event(event)); }
   void on_line(const ProcessSpec& spec, const std::string& label, OutputStream stream, std::string_view line) {
@@ -45,6 +46,8 @@ class Handlers {
   bool idle() const { return queue_.empty(); }
 
  private:
+  bool remove(const std::string& name);
+
   InvocationQueue queue_;
   EventHandlers events_;
   StateHandlers states_;

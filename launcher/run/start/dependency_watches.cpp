@@ -40,6 +40,9 @@ Verdict judge(const ProcessCondition& condition, const TrackedProcess& process) 
                         [&](const UntilOutput&) -> Verdict {
                           return {false, failure()};
                         },
+                        [&](const UntilHealthy&) -> Verdict {
+                          return {process.is_healthy, process.is_healthy ? std::nullopt : failure()};
+                        },
                     },
                     condition.state);
 }

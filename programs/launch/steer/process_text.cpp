@@ -37,10 +37,14 @@ std::string end_text(const nlohmann::ordered_json& end) {
 
 std::string state_text(const nlohmann::ordered_json& process) {
   const auto end = process.find("last_end");
-  return state_text(process.value("state", ""), end == process.end() ? "" : end_text(*end));
+  return state_text(process.value("state", ""), end == process.end() ? "" : end_text(*end),
+                    process.value("health", ""));
 }
 
-std::string state_text(const std::string& state, const std::string& end) {
+std::string state_text(const std::string& state, const std::string& end, const std::string& health) {
+  if (state == "running" && !health.empty()) {
+    return fmt::format("running, {}", health);
+  }
   return state == "ended" && !end.empty() ? fmt::format("ended: {}", end) : state;
 }
 

@@ -12,9 +12,9 @@ namespace launch {
 
 // Adds `cpu` (seconds) and `memory` (bytes) to those of the processes that run.
 void add_usage(nlohmann::ordered_json& processes);
-// "running", "ended: exit code 1", "ended: SIGSEGV".
+// "running", "running, unhealthy", "ended: exit code 1", "ended: SIGSEGV".
 std::string state_text(const nlohmann::ordered_json& process);
-std::string state_text(const std::string& state, const std::string& end);
+std::string state_text(const std::string& state, const std::string& end, const std::string& health);
 // "exit code 1", "SIGSEGV".
 std::string end_text(const nlohmann::ordered_json& end);
 // "12.3 MiB"

@@ -39,7 +39,9 @@ std::string cpu_text(const ProcessUsage& usage, double running_for) {
 ProcessRow row_of(const ListedLaunch& launch, const ListedProcess& process, const std::optional<ProcessUsage>& usage) {
   const bool runs = process.pid >= 0;
   return {process.name,
-          usage && usage->stopped && process.state == "running" ? "stopped" : state_text(process.state, process.end),
+          usage && usage->stopped && process.state == "running"
+              ? "stopped"
+              : state_text(process.state, process.end, process.health),
           runs ? std::to_string(process.pid) : "-",
           process.restarts < 0 ? "-" : std::to_string(process.restarts),
           usage ? cpu_text(*usage, process.running_for) : "-",

@@ -103,7 +103,11 @@ INSTANTIATE_TEST_SUITE_P(
                     {},
                     {"[test_pong]: [output] are you there?", "[test_ping]: [output] yes, here I am",
                      "trace written to: ", "/my-tracing-session (", "trace is complete: no events lost"}},
-            Example{"45_crash", {"--ignore-failures"}, {"crash bundle of unlucky-2: ", "(unlucky-2 died of SIGSEGV)"}}),
+            Example{"45_crash", {"--ignore-failures"}, {"crash bundle of unlucky-2: ", "(unlucky-2 died of SIGSEGV)"}},
+            Example{"54_health",
+                    {"--ignore-failures"},
+                    {"process is unhealthy: an executor has not woken up for a timer",
+                     "restarting the process, because it is unhealthy", "talker-1 runs again"}}),
         testing::Values("xml", "yaml")),
     [](const auto& row) { return std::string(std::get<0>(row.param).name + 3) + "_" + std::get<1>(row.param); });
 

@@ -5,7 +5,7 @@ from launch.actions import EmitEvent, ExecuteProcess, LogInfo, RegisterEventHand
 from launch.event_handlers import OnProcessExit, OnProcessStart, OnShutdown
 from launch.events import matches_action
 from launch.events.process import ShutdownProcess, SignalProcess
-from launch_extensions import RestartProcess, WaitFor
+from launch_extensions import OnHealthChange, OnStartLimit, RestartProcess, WaitFor
 from launch_ros.actions import LifecycleNode, LifecycleTransition, Node
 from launch_ros.event_handlers import OnStateTransition
 from launch_ros.events.lifecycle import ChangeState
@@ -20,6 +20,12 @@ def generate_launch_description():
     managed = LifecycleNode(package='demo_nodes', executable='talker', name='other', namespace='/left')
     waits = Node(package='demo_nodes', executable='listener', trace=False, depends_on=[
         {'process': first, 'condition': 'exited', 'exit_code': 0, 'timeout': 2.5}, {'service': '/left/s'}])
+    watched = Node(package='demo_nodes', executable='talker', name='watched', respawn=True, start_limit=5,
+                   start_limit_interval=30, start_limit_cool_down=90, watch=[
+                       {'kind': 'executor', 'timeout': 2.5, 'interval': 0.5, 'on_unhealthy': 'restart'},
+                       {'kind': 'output', 'pattern': '^tick', 'stream': 'stdout', 'start_period': 10, 'failures': 2},
+                       {'kind': 'blocked', 'timeout': 20, 'on_unhealthy': 'signal', 'signal': 'SIGQUIT'},
+                       {'kind': 'command', 'cmd': "check 'a b'", 'on_unhealthy': 'shutdown'}])
     on_transition = OnStateTransition(
         target_lifecycle_node=managed, start_state='configuring', goal_state='inactive', handle_once=True,
         entities=[EmitEvent(event=ChangeState(lifecycle_node_matcher=matches_action(managed),
@@ -45,4 +51,9 @@ def generate_launch_description():
                                                entities=[UnregisterEventHandler(on_transition)])),
         waits,
         WaitFor([RestartProcess(waits)], topic='/scan', message=True),
+        watched,
+        ExecuteProcess(cmd=['behind'], respawn=True, start_limit=3, on_start_limit='shutdown',
+                       depends_on={'process': watched, 'condition': 'healthy'}),
+        OnHealthChange([LogInfo(msg='unhealthy')], process=watched, to='unhealthy', once=True),
+        OnStartLimit([LogInfo(msg='given up')], process=watched),
     ])

@@ -47,6 +47,12 @@ class EventText {
     return fmt::format("waits for the terminal{}", waits.has_terminal ? ", which it has" : "");
   }
   std::string operator()(const RespawnSlowed& slowed) const { return fmt::format("slowed after {} runs", slowed.runs); }
+  std::string operator()(const HealthChanged& change) const {
+    return change.health == Health::kUnhealthy ? "unhealthy: " + change.reason : "healthy";
+  }
+  std::string operator()(const StartLimitReached& reached) const {
+    return fmt::format("{} starts reached{}", reached.starts, reached.cool_down ? ", cools down" : "");
+  }
   std::string operator()(const ProcessDone&) const { return "done"; }
 
  private:

@@ -15,15 +15,15 @@ namespace executor_progress {
 constexpr const char* kVariable = "LAUNCH_EXECUTOR_PROGRESS";
 
 enum class Doing : std::uint64_t {
-  kNothing,       // it does not spin, and need not
-  kWaiting,       // the time is that at which it will wake up at the latest; kNever if only a message wakes it
-  kBetween,       // since that time it chooses what to do next
-  kTimer,         // since that time a callback runs: of a timer …
+  kNothing,  // it does not spin, and need not
+  kWaiting,  // the time is that at which it will wake up at the latest; kNever if only a message wakes it
+  kBetween,  // since that time it chooses what to do next
+  kTimer,    // since that time a callback runs: of a timer …
   kSubscription,
   kService,
   kClient,
   kWaitable,
-  kAway           // since that time no function of an executor runs, after spin_some() and its like
+  kAway  // since that time no function of an executor runs, after spin_some() and its like
 };
 
 // What a thread does, with a time of CLOCK_MONOTONIC in ns.

@@ -38,4 +38,45 @@ class RestartProcess(Action):
         return [entity('restart', self._place(), [('process', self._process), *self._when()])]
 
 
-__all__ = ['RestartProcess', 'WaitFor']
+class _OfProcess(Action):
+    """A handler of an event of the process of an action, of the process with a name, or of every process."""
+
+    def __init__(self, actions, *, process=None, once=False, name=None, **kwargs):
+        from launch.actions._processes import name_of_process
+        super().__init__(**kwargs)
+        self._actions = actions
+        self._attributes = []
+        if process is not None:
+            process = name_of_process(process, 'process') if isinstance(process, Action) else text(process, 'process')
+            self._attributes.append(('process', process))
+        if once:
+            self._attributes.append(('once', 'true'))
+        if name is not None:
+            self._attributes.append(('name', text(name, 'name')))
+
+    def get_sub_entities(self):
+        return self._actions
+
+    def _tags(self):
+        return [entity(self._TAG, self._place(), self._with_places([*self._attributes, *self._when()]),
+                       entities(self._actions, self._place()))]
+
+
+class OnHealthChange(_OfProcess):
+    """Visits its actions each time a process has become healthy or unhealthy; <on_health_change> in XML."""
+
+    _TAG = 'on_health_change'
+
+    def __init__(self, actions, *, to=None, **kwargs):
+        super().__init__(actions, **kwargs)
+        if to is not None:
+            self._attributes.append(('to', text(to, 'to')))
+
+
+class OnStartLimit(_OfProcess):
+    """Visits its actions when a process has been started as often as its start_limit allows; <on_start_limit> in XML."""
+
+    _TAG = 'on_start_limit'
+
+
+__all__ = ['OnHealthChange', 'OnStartLimit', 'RestartProcess', 'WaitFor']

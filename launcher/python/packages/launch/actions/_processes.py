@@ -30,24 +30,23 @@ def name_of_process(action, what):
     return (action._spoken_of,)
 
 
-def _dependencies(given, action):
-    """The items for depends_on: mappings with the attributes of XML. `process` may be an action."""
+def _items(tag, given, action, example):
+    """The items of a tag: mappings with the attributes of XML. `process` may be an action."""
     items = []
     given = [given] if isinstance(given, dict) else given or []
     for dependency in given:
         if not isinstance(dependency, dict):
-            raise LaunchFileError(f'depends_on must hold mappings, got {type(dependency).__name__}',
-                                  "write {'process': action, 'condition': 'exited'}")
+            raise LaunchFileError(f'{tag} must hold mappings, got {type(dependency).__name__}', f'write {example}')
         attributes = []
         for name, value in dependency.items():
             if name == 'process' and isinstance(value, Action):
-                value = name_of_process(value, "'process' of depends_on")
+                value = name_of_process(value, f"'process' of {tag}")
             elif isinstance(value, bool) or not isinstance(value, (int, float)):
-                value = text(value, f'{name!r} of depends_on')
+                value = text(value, f'{name!r} of {tag}')
             else:
                 value = number(value, name)
             attributes.append((name, value))
-        items.append(entity('depends_on', action._place_of('depends_on') or action._place(), attributes))
+        items.append(entity(tag, action._place_of(tag) or action._place(), attributes))
     return items
 
 
@@ -116,20 +115,23 @@ class _Process(Action):
     # Arguments that only this launcher has, named as in XML, with "_" for "-".
     _EXTENSIONS = ('stdout', 'stderr', 'required', 'respawn_backoff', 'respawn_max_delay', 'nice', 'sched_policy',
                    'sched_priority', 'cpus', 'memory_limit', 'open_files_limit', 'trace', 'leave_running',
-                   'allowed_exit_codes', 'crash_dir', 'stdin')
+                   'allowed_exit_codes', 'crash_dir', 'stdin', 'start_limit', 'start_limit_interval',
+                   'start_limit_cool_down', 'on_start_limit')
 
     _DASHED = ('leave_running', 'allowed_exit_codes', 'crash_dir')
 
     def _take(self, options, known=(), former=None):
         """Keeps the options of the process; `known` are the arguments that the caller handles itself."""
-        options_known = (*self._ARGUMENTS, *self._EXTENSIONS, 'depends_on')
+        options_known = (*self._ARGUMENTS, *self._EXTENSIONS, 'depends_on', 'watch')
         unknown = [name for name in options if name not in options_known]
         reject(type(self), unknown, [*options_known, *known], former)
         Action.__init__(self, condition=options.get('condition'))
         if options.get('output_format', _OUTPUT_FORMAT) != _OUTPUT_FORMAT:
             raise LaunchFileError('output_format is not supported: lines begin with the name of the process')
         self._options = options
-        self._dependencies = _dependencies(options.get('depends_on'), self)
+        self._dependencies = [
+            *_items('depends_on', options.get('depends_on'), self, "{'process': action, 'condition': 'exited'}"),
+            *_items('watch', options.get('watch'), self, "{'kind': 'executor', 'timeout': 5}")]
         self._spoken_of = None
         self._was_read = False
         self._details = None

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/process/health_watch.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/overloaded.hpp"
+
+namespace launch {
+
+std::string_view kind_of(const HealthWatch& watch) {
+  return std::visit(Overloaded{
+                        [](const ExecutorProgress&) { return "executor"; },
+                        [](const OutputLines&) { return "output"; },
+                        [](const NotBlocked&) { return "blocked"; },
+                        [](const CommandSucceeds&) { return "command"; },
+                    },
+                    watch.subject);
+}
+
+std::string_view to_string(OnUnhealthy reaction) {
+  switch (reaction) {
+    case OnUnhealthy::kNothing:
+      return "none";
+    case OnUnhealthy::kRestart:
+      return "restart";
+    case OnUnhealthy::kSignal:
+      return "signal";
+    case OnUnhealthy::kShutdown:
+      return "shutdown";
+  }
+  return "";
+}
+
+std::string describe(const HealthWatch& watch) {
+  const double timeout = std::chrono::duration<double>(watch.timeout).count();
+  std::string text = std::visit(
+      Overloaded{
+          [&](const ExecutorProgress&) { return fmt::format("its executors never stand still for {} s", timeout); },
+          [&](const OutputLines& lines) {
+            return fmt::format("it prints {}{} at least every {} s",
+                               lines.pattern.empty() ? "a line" : fmt::format("a line that matches '{}'", lines.pattern),
+                               lines.stream == "both" ? "" : " on " + lines.stream, timeout);
+          },
+          [&](const NotBlocked&) { return fmt::format("it is never blocked for {} s", timeout); },
+          [&](const CommandSucceeds& command) {
+            return fmt::format("'{}' ends with 0 within {} s", fmt::join(command.argv, " "), timeout);
+          },
+      },
+      watch.subject);
+  if (watch.failures > 1) {
+    text += fmt::format(", {} failures in a row", watch.failures);
+  }
+  return watch.reaction == OnUnhealthy::kNothing ? text : fmt::format("{}; else {}", text, to_string(watch.reaction));
+}
+
+}  // namespace launch

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// How it is told whether a process that runs is healthy: one `watch` of a launch file. Plain data; launcher/health looks.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "base/diagnostics/source.hpp"
+#include "launcher/process/event_loop.hpp"
+
+namespace launch {
+
+// The executors of the process go on: no callback takes longer than the time-out, and nothing else keeps them.
+struct ExecutorProgress {};
+// A line is printed at least once in the time-out.
+struct OutputLines {
+  std::string pattern;          // regular expression to be found in the line; empty: any line
+  std::string stream = "both";  // stdout, stderr or both
+};
+// The process is neither stopped (state T) nor does it hang in the kernel (state D) longer than the time-out.
+struct NotBlocked {};
+
+// A command ends with exit code 0, within the time-out.
+struct CommandSucceeds {
+  std::vector<std::string> argv;
+};
+
+using WatchSubject = std::variant<ExecutorProgress, OutputLines, NotBlocked, CommandSucceeds>;
+
+// What follows when the process gets unhealthy.
+enum class OnUnhealthy { kNothing, kRestart, kSignal, kShutdown };
+
+struct HealthWatch {
+  WatchSubject subject;
+  Duration timeout = std::chrono::seconds(5);
+  Duration interval = std::chrono::seconds(1);  // between two looks
+  std::int64_t failures = 1;                    // so many in a row make the process unhealthy
+  Duration start_period{0};                     // from the start of the process: failures do not count
+  OnUnhealthy reaction = OnUnhealthy::kNothing;
+  int signal = 0;  // of kSignal
+  SourceRange where;
+};
+
+// "executor", "output", "blocked", "command": the word of a launch file.
+std::string_view kind_of(const HealthWatch& watch);
+// "none", "restart", "signal", "shutdown".
+std::string_view to_string(OnUnhealthy reaction);
+// "it prints any line at least every 5 s, else restart"
+std::string describe(const HealthWatch& watch);
+
+}  // namespace launch
