@@ -37,8 +37,7 @@ void perform_reaction(const Fields& fields, Scope& scope, HealthWatch& watch) {
   const auto found = std::find(kReactions.begin(), kReactions.end(), given);
   if (found == kReactions.end()) {
     throw LaunchError(fmt::format("on_unhealthy can be none, restart, signal or shutdown, got '{}'", given),
-                      text.where(),
-                      given.empty() ? std::string() : did_you_mean(given, kReactions));
+                      text.where(), given.empty() ? std::string() : did_you_mean(given, kReactions));
   }
   watch.reaction = static_cast<OnUnhealthy>(found - kReactions.begin());
 }
@@ -74,19 +73,17 @@ const std::vector<Setting<HealthWatch>>& watch_settings() {
                      "blocked (the process is stopped, or hangs in the kernel) or command (it ends with exit code 0)",
                      true}},
       {.attribute = {"timeout", Type::kFloat, false, "5",
-                     "seconds after which what does not go on, or a command that does not end, counts as a failure", true},
-       .perform =
-           [](const Fields& fields, Scope& scope, HealthWatch& watch) {
-             perform_time<&HealthWatch::timeout>(fields, "timeout", scope, watch);
-           }},
-      {.attribute = {"interval", Type::kFloat, false, "a fifth of timeout, 1 at most; of blocked half of timeout, 2 at most; of a command 10",
-                     "seconds from one look to the next", true},
-       .perform =
-           [](const Fields& fields, Scope& scope, HealthWatch& watch) {
-             perform_time<&HealthWatch::interval>(fields, "interval", scope, watch);
-           }},
-      {.attribute = {"failures", Type::kInteger, false, "1; of a command 3", "so many failures in a row make the process unhealthy",
+                     "seconds after which what does not go on, or a command that does not end, counts as a failure",
                      true},
+       .perform = [](const Fields& fields, Scope& scope,
+                     HealthWatch& watch) { perform_time<&HealthWatch::timeout>(fields, "timeout", scope, watch); }},
+      {.attribute = {"interval", Type::kFloat, false,
+                     "a fifth of timeout, 1 at most; of blocked half of timeout, 2 at most; of a command 10",
+                     "seconds from one look to the next", true},
+       .perform = [](const Fields& fields, Scope& scope,
+                     HealthWatch& watch) { perform_time<&HealthWatch::interval>(fields, "interval", scope, watch); }},
+      {.attribute = {"failures", Type::kInteger, false, "1; of a command 3",
+                     "so many failures in a row make the process unhealthy", true},
        .perform = perform_failures},
       {.attribute = {"start_period", Type::kFloat, false, "0",
                      "seconds after the start in which failures do not count; the first success ends it", true},

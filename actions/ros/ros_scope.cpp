@@ -39,8 +39,8 @@ struct SimulatedTime {
 void perform_parameter(const Fields& fields, Scope& scope, NamedParameter& parameter) {
   const Value& value = fields.value("value");
   const Scalar* const scalar = value.scalar();
-  if (scalar != nullptr && (scalar->made != nullptr || scalar->type == Scalar::Type::kUntyped ||
-                            scalar->type == Scalar::Type::kString)) {
+  if (scalar != nullptr &&
+      (scalar->made != nullptr || scalar->type == Scalar::Type::kUntyped || scalar->type == Scalar::Type::kString)) {
     const Template text = scalar->made != nullptr ? *scalar->made : parse_template(scalar->text);
     parameter.value = typed_parameter(text.perform(scope), value.where);
   } else {

@@ -198,8 +198,7 @@ class YamlEntityBuilder {
 
   // Its one key has a mapping. No attribute of an item has one.
   static bool is_like_action(const YamlNode& item) {
-    return item.kind == Kind::kMapping && item.entries.size() == 1 &&
-           item.entries.front().value.kind == Kind::kMapping;
+    return item.kind == Kind::kMapping && item.entries.size() == 1 && item.entries.front().value.kind == Kind::kMapping;
   }
 
   // Makes a child of each mapping of the list. The children have the name of the key.

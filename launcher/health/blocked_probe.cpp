@@ -26,9 +26,9 @@ Look BlockedProbe::look(Duration, Duration passed) {
   if (age_ < timeout_) {
     return {};
   }
-  return {Look::Result::kBad, fmt::format("it {} for {:.1f} s",
-                                          state == 'T' ? "has been stopped by a signal" : "has hung in the kernel",
-                                          std::chrono::duration<double>(age_).count())};
+  return {Look::Result::kBad,
+          fmt::format("it {} for {:.1f} s", state == 'T' ? "has been stopped by a signal" : "has hung in the kernel",
+                      std::chrono::duration<double>(age_).count())};
 }
 
 }  // namespace launch

@@ -179,8 +179,9 @@ Look ExecutorProbe::judge_process(Duration now, Duration passed) {
     return {};
   }
   if (page_.joined.load(std::memory_order_relaxed) == 0) {
-    return {.note = "it tells nothing of its executors, so they can't be watched: only programs with rclcpp of this "
-                    "project do (docs/supervision.md)"};
+    return {.note =
+                "it tells nothing of its executors, so they can't be watched: only programs with rclcpp of this "
+                "project do (docs/supervision.md)"};
   }
   return {Look::Result::kBad, fmt::format("no executor has begun to spin for {:.1f} s", seconds(without_executor_))};
 }

@@ -50,33 +50,33 @@ void HealthMonitor::prepare(ProcessSpec& spec, ProcessId id) {
 
 std::unique_ptr<HealthProbe> HealthMonitor::make_probe(const HealthWatch& watch, ProcessSpec& spec, ProcessId id,
                                                        std::size_t number) {
-  return std::visit(
-      Overloaded{
-          [&](const ExecutorProgress&) -> std::unique_ptr<HealthProbe> {
-            const ProgressMemory::Place place = memory_.add();
-            spec.environment.insert_or_assign(executor_progress::kVariable, place.text);
-            return std::make_unique<ExecutorProbe>(*place.page, watch.timeout);
-          },
-          [&](const OutputLines& lines) -> std::unique_ptr<HealthProbe> {
-            return std::make_unique<OutputProbe>(OutputPattern(lines.pattern, watch.where, lines.stream, watch.where),
-                                                 watch.timeout);
-          },
-          [&](const NotBlocked&) -> std::unique_ptr<HealthProbe> {
-            return std::make_unique<BlockedProbe>(watch.timeout);
-          },
-          [&](const CommandSucceeds& command) -> std::unique_ptr<HealthProbe> {
-            ProcessSpec helper;
-            helper.name = spec.name;
-            helper.argv = command.argv;
-            helper.environment = spec.environment;
-            helper.working_directory = spec.working_directory;
-            helper.traced = false;
-            helper.origin = watch.where;
-            return std::make_unique<CommandProbe>(loop_, supervisor_.runner(), std::move(helper), watch.timeout,
-                                                  [this, id, number](const Look& look) { answer(id, number, look); });
-          },
-      },
-      watch.subject);
+  return std::visit(Overloaded{
+                        [&](const ExecutorProgress&) -> std::unique_ptr<HealthProbe> {
+                          const ProgressMemory::Place place = memory_.add();
+                          spec.environment.insert_or_assign(executor_progress::kVariable, place.text);
+                          return std::make_unique<ExecutorProbe>(*place.page, watch.timeout);
+                        },
+                        [&](const OutputLines& lines) -> std::unique_ptr<HealthProbe> {
+                          return std::make_unique<OutputProbe>(
+                              OutputPattern(lines.pattern, watch.where, lines.stream, watch.where), watch.timeout);
+                        },
+                        [&](const NotBlocked&) -> std::unique_ptr<HealthProbe> {
+                          return std::make_unique<BlockedProbe>(watch.timeout);
+                        },
+                        [&](const CommandSucceeds& command) -> std::unique_ptr<HealthProbe> {
+                          ProcessSpec helper;
+                          helper.name = spec.name;
+                          helper.argv = command.argv;
+                          helper.environment = spec.environment;
+                          helper.working_directory = spec.working_directory;
+                          helper.traced = false;
+                          helper.origin = watch.where;
+                          return std::make_unique<CommandProbe>(
+                              loop_, supervisor_.runner(), std::move(helper), watch.timeout,
+                              [this, id, number](const Look& look) { answer(id, number, look); });
+                        },
+                    },
+                    watch.subject);
 }
 
 void HealthMonitor::on_event(const ProcessEvent& event) {
@@ -208,8 +208,7 @@ bool HealthMonitor::may_judge(ProcessId id, const Watched& process) const {
 void HealthMonitor::judge(Watched& process, Watch& watch, const Look& look) {
   if (!look.note.empty() && watch.noted.empty()) {
     watch.noted = look.note;
-    callbacks_.tell(LogLevel::kWarning, process.label,
-                    fmt::format("{} ({})", look.note, to_string(watch.spec.where)));
+    callbacks_.tell(LogLevel::kWarning, process.label, fmt::format("{} ({})", look.note, to_string(watch.spec.where)));
   }
   const bool is_starting = watch.state == Look::Result::kPending && watch.ran_for < watch.spec.start_period;
   if (look.result == Look::Result::kGood) {
@@ -226,9 +225,7 @@ void HealthMonitor::conclude(ProcessId id, Watched& process) {
   const auto in_state = [](Look::Result state) { return [state](const Watch& watch) { return watch.state == state; }; };
   const auto bad = std::find_if(process.watches.begin(), process.watches.end(), in_state(Look::Result::kBad));
   const bool is_good = std::all_of(process.watches.begin(), process.watches.end(), in_state(Look::Result::kGood));
-  const Health health = bad != process.watches.end() ? Health::kUnhealthy
-                        : is_good                    ? Health::kHealthy
-                                                     : process.health;
+  const Health health = bad != process.watches.end() ? Health::kUnhealthy : is_good ? Health::kHealthy : process.health;
   // Of several watches, one that is pending again leaves the process as it was.
   if (health == process.health) {
     return;

@@ -54,12 +54,12 @@ class HealthMonitor {
     HealthWatch spec;
     std::unique_ptr<HealthProbe> probe;
     Look::Result state = Look::Result::kPending;
-    std::string reason{};        // of kBad
-    std::string noted{};         // in this run
-    std::int64_t failures = 0;   // in a row
-    Duration ran_for{0};         // as far as it counts
-    Duration last{0};            // look, or the start
-    Duration next{0};            // look
+    std::string reason{};       // of kBad
+    std::string noted{};        // in this run
+    std::int64_t failures = 0;  // in a row
+    Duration ran_for{0};        // as far as it counts
+    Duration last{0};           // look, or the start
+    Duration next{0};           // look
   };
   struct Watched {
     std::string label{};
@@ -70,7 +70,8 @@ class HealthMonitor {
 
   // Sets the timer, if the look is due before.
   void wait_until(Duration time);
-  std::unique_ptr<HealthProbe> make_probe(const HealthWatch& watch, ProcessSpec& spec, ProcessId id, std::size_t number);
+  std::unique_ptr<HealthProbe> make_probe(const HealthWatch& watch, ProcessSpec& spec, ProcessId id,
+                                          std::size_t number);
   // Of a watch that is answered later.
   void answer(ProcessId id, std::size_t number, const Look& look);
   void begin(Watched& process, pid_t pid);

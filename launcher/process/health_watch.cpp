@@ -38,9 +38,10 @@ std::string describe(const HealthWatch& watch) {
       Overloaded{
           [&](const ExecutorProgress&) { return fmt::format("its executors never stand still for {} s", timeout); },
           [&](const OutputLines& lines) {
-            return fmt::format("it prints {}{} at least every {} s",
-                               lines.pattern.empty() ? "a line" : fmt::format("a line that matches '{}'", lines.pattern),
-                               lines.stream == "both" ? "" : " on " + lines.stream, timeout);
+            return fmt::format(
+                "it prints {}{} at least every {} s",
+                lines.pattern.empty() ? "a line" : fmt::format("a line that matches '{}'", lines.pattern),
+                lines.stream == "both" ? "" : " on " + lines.stream, timeout);
           },
           [&](const NotBlocked&) { return fmt::format("it is never blocked for {} s", timeout); },
           [&](const CommandSucceeds& command) {

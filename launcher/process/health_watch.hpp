@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How it is told whether a process that runs is healthy: one `watch` of a launch file. Plain data; launcher/health looks.
+// How it is told whether a process that runs is healthy: one `watch` of a launch file. Plain data; launcher/health
+// looks.
 #pragma once
 
 #include <chrono>

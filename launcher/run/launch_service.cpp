@@ -40,12 +40,8 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
               {std::bind_front(&LaunchContext::message, &context_),
                [this](const std::string& reason) { shutdown(reason); }}),
       scopes_(loop, warn_or_tell(context, "launch.trace"), timing_),
-      rounds_(scopes_,
-              {[this](Round round) { start(std::move(round)); }, [this](const LaunchError& error) { fail(error); },
-               [this] {
-                 check_started();
-                 check_finished();
-               }}),
+      rounds_(scopes_, {[this](Round round) { start(std::move(round)); },
+                        [this](const LaunchError& error) { fail(error); }, [this] { check_finished(); }}),
       recording_(scopes_),
       processes_(
           loop, supervisor,
@@ -54,14 +50,10 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
            [this](const TrackedProcess& process) {
              ros_tasks_.on_skipped(process.names);
              test_.on_skipped(process);
-             loop_.post([this] { check_started(); });
+             post_check();
            },
            [this](const std::string& process, const Dependency& dependency) {
-             record({.kind = LaunchRecord::Kind::kReady,
-                     .name = process,
-                     .what = describe(dependency),
-                     .where = dependency.where,
-                     .time = monotonic_time()});
+             recording_.record_ready(process, dependency);
            }}),
       test_(loop, supervisor, processes_,
             [this](const std::string& text) { context_.message(LogLevel::kWarning, "launch", text); }),
@@ -97,10 +89,6 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
   ros_tasks_.observe_failures(std::bind_front(&Outcome::on_component_failure, &outcome_));
 }
 
-LaunchService::~LaunchService() {
-  supervisor_.observe_output(nullptr);
-}
-
 void LaunchService::use_guardian(Guardian& guardian) {
   guardian_ = &guardian;
   scopes_.use_guardian(guardian);
@@ -120,10 +108,6 @@ int LaunchService::run(const LaunchDescription& description) {
     context_.message(LogLevel::kError, "launch", line);
   }
   return outcome_.exit_code();
-}
-
-void LaunchService::end(const std::string& reason) {
-  loop_.post([this, reason] { shutdown(reason); });
 }
 
 // The events in the course of the launch.
@@ -367,6 +351,7 @@ void LaunchService::check_started() {
 }
 
 void LaunchService::check_finished() {
+  check_started();
   if (!is_idle()) {
     return;
   }

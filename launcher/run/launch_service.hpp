@@ -44,7 +44,7 @@ class LaunchService {
 
   // All references must outlive the service. `errors` receives the errors that occur while the launch runs.
   LaunchService(LaunchContext& context, EventLoop& loop, ProcessSupervisor& supervisor, ErrorSink errors);
-  ~LaunchService();
+  ~LaunchService() { supervisor_.observe_output(nullptr); }
   LaunchService(const LaunchService&) = delete;
   LaunchService& operator=(const LaunchService&) = delete;
 
@@ -64,7 +64,9 @@ class LaunchService {
   // For a test of the system that is launched.
   SystemTest& test() { return test_; }
   // Begins the shutdown in a later turn of the loop.
-  void end(const std::string& reason);
+  void end(const std::string& reason) {
+    loop_.post([this, reason] { shutdown(reason); });
+  }
 
   // Failures of processes and components don't change the exit code, as with ros2 launch.
   void ignore_failures() { outcome_.ignore_failures(); }

@@ -22,9 +22,9 @@ void HealthCare::on_event(const ProcessEvent& event) {
   monitor.on_event(event);
   const auto* const reached = std::get_if<StartLimitReached>(&event.what);
   if (reached != nullptr && event.spec.start_limit.shuts_down) {
-    callbacks_.tell(LogLevel::kError, "launch",
-                    fmt::format("process[{}] has reached its limit of starts: shutting down launched system",
-                                event.label));
+    callbacks_.tell(
+        LogLevel::kError, "launch",
+        fmt::format("process[{}] has reached its limit of starts: shutting down launched system", event.label));
     callbacks_.shutdown(fmt::format("process[{}] has reached its limit of starts", event.label));
   }
 }

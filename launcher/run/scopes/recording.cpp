@@ -40,6 +40,14 @@ void Recording::record(const ProcessEvent& event) {
   record(what);
 }
 
+void Recording::record_ready(const std::string& process, const Dependency& dependency) {
+  record({.kind = LaunchRecord::Kind::kReady,
+          .name = process,
+          .what = describe(dependency),
+          .where = dependency.where,
+          .time = monotonic_time()});
+}
+
 void Recording::record_visit(std::int64_t begin, const SourceRange& where, const Requests& requests) {
   for (const LaunchRecord& step : requests.records) {
     record(step);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "launcher/process/process_event.hpp"
 #include "launcher/run/scopes/active_scopes.hpp"
@@ -21,6 +22,8 @@ class Recording {
 
   void record(const LaunchRecord& record);
   void record(const ProcessEvent& event);
+  // The condition that a process waits for holds.
+  void record_ready(const std::string& process, const Dependency& dependency);
   // Records a traversal that began at that time, and the records that it noted.
   void record_visit(std::int64_t begin, const SourceRange& where, const Requests& requests);
 

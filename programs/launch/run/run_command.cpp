@@ -43,6 +43,7 @@
 #include "programs/command_line/result_output.hpp"
 #include "programs/command_line/subcommand.hpp"
 #include "programs/launch/commands.hpp"
+#include "programs/launch/run/service_status.hpp"
 
 namespace launch {
 
@@ -152,22 +153,6 @@ void tell_isolation(const Isolation& isolation, OutputRouter& output) {
   }
 }
 
-Journal::Origin origin_of(const ProcessView& process) {
-  const SourceRange& where = process.spec.origin;
-  Journal::Origin origin{.process = process.label,
-                         .node = process.spec.other_names.empty() ? "" : process.spec.other_names.front()};
-  if (where) {
-    origin.file = where.file->path();
-    origin.line_number = static_cast<unsigned>(where.file->position(where.begin).line);
-  }
-  return origin;
-}
-
-std::string running_processes(const ProcessSupervisor& supervisor) {
-  const std::size_t count = supervisor.alive().size();
-  return fmt::format("{} {}", count, count == 1 ? "process runs" : "processes run");
-}
-
 // Makes everything that a run needs. The order is that of destruction, backwards.
 int run(const CommandLine& command, const Registry& registry, const Environment& environment,
         const std::shared_ptr<const LaunchDescription>& description, const std::vector<std::string>& files,
@@ -245,30 +230,17 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
     output.message(LogLevel::kWarning, "launch",
                    fmt::format("'launch ps' and other commands can't reach this launch: {}", error.what()));
   }
-  std::optional<ServiceManager> manager;
-  std::string progress;  // the status line
-  const auto tell_status = [&] {
-    if (manager) {
-      manager->status(progress.empty() ? running_processes(supervisor) : progress);
-    }
-  };
+  std::optional<ServiceStatus> service_status;
   if (service_manager) {
-    manager.emplace(*service_manager, *loop);
-    service.observe_started([&manager] { manager->ready(); });
-    supervisor.observe([&](const ProcessEvent&) {
-      if (service.steering().is_ending()) {
-        manager->stopping();
-      } else if (progress.empty()) {
-        tell_status();
-      }
-    });
+    service_status.emplace(*service_manager, *loop, service, supervisor);
   }
   std::optional<StatusLine> status;
-  if (manager || output.can_show_status()) {
+  if (service_status || output.can_show_status()) {
     status.emplace(*loop, supervisor, service.steering(), [&](const std::string& line) {
       output.show_status(line);
-      progress = line;
-      tell_status();
+      if (service_status) {
+        service_status->show(line);
+      }
     });
     service.observe_suspension([&status](bool stops) { status->suspend(stops); });
   }

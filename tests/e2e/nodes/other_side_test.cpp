@@ -36,7 +36,7 @@ class OtherSideTest : public testing::Test {
     fs::create_directory(home_);
     fs::permissions(sandbox_.directory(), fs::perms(0755));
     ASSERT_EQ(chown(home_.c_str(), nobody->pw_uid, nobody->pw_gid), 0);
-    as_nobody_ = {"setpriv", "--reuid", std::to_string(nobody->pw_uid), "--regid", std::to_string(nobody->pw_gid),
+    as_nobody_ = {"setpriv",       "--reuid", std::to_string(nobody->pw_uid), "--regid", std::to_string(nobody->pw_gid),
                   "--clear-groups"};
   }
 
@@ -84,8 +84,8 @@ TEST_F(OtherSideTest, NodesOfTwoUsersHearEachOther) {
 
 TEST_F(OtherSideTest, NodesOfTwoContainersWithOneNetworkHearEachOther) {
   RunningCommand ping(Command{{kPing}});
-  RunningCommand pong(Command{{"unshare", "--mount", "sh", "-c",
-                               std::string("mount -t tmpfs tmpfs /dev/shm && exec ") + kPong}});
+  RunningCommand pong(
+      Command{{"unshare", "--mount", "sh", "-c", std::string("mount -t tmpfs tmpfs /dev/shm && exec ") + kPong}});
   expect_to_talk(ping, pong);
 }
 

@@ -63,7 +63,8 @@ int main(int argc, char** argv) {
     rclcpp::executors::MultiThreadedExecutor executor(rclcpp::ExecutorOptions(), 3);
     executor.add_node(node);
     const auto group = node->create_callback_group(rclcpp::CallbackGroupType::Reentrant);
-    const auto other = node->create_wall_timer(10ms, [] {}, group);
+    const auto other = node->create_wall_timer(
+        10ms, [] {}, group);
     const auto exclusive = node->create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive);
     const auto hangs = node->create_wall_timer(
         10ms,

@@ -38,8 +38,8 @@ class Health : public testing::Test {
   // A node that hangs as `how` says, after a quarter of a second, and ends the launch by it.
   CommandResult hang(const std::string& how, const std::string& watch) {
     return launch(R"xml(<executable name="node" output="screen" sigterm_timeout="0.2")xml"
-                                              R"xml( sigkill_timeout="0.2" cmd=")xml" HANGING_NODE " " +
-                                              how + "\">" + watch + "</executable>");
+                  R"xml( sigkill_timeout="0.2" cmd=")xml" HANGING_NODE " " +
+                  how + "\">" + watch + "</executable>");
   }
 
   Sandbox sandbox_;
@@ -49,9 +49,10 @@ constexpr const char* kExecutor = R"xml(<watch kind="executor" timeout="1" on_un
 
 TEST_F(Health, FindsACallbackThatSleepsForEver) {
   const CommandResult result = hang("sleep", kExecutor);
-  EXPECT_THAT(result.err + result.out,
-              ContainsRegex("\\[node-1\\]: process is unhealthy: a timer callback has run for [0-9]+\\.[0-9] s, its thread "
-                            "sleeps \\(.*system.launch.xml:2:"));
+  EXPECT_THAT(
+      result.err + result.out,
+      ContainsRegex("\\[node-1\\]: process is unhealthy: a timer callback has run for [0-9]+\\.[0-9] s, its thread "
+                    "sleeps \\(.*system.launch.xml:2:"));
   EXPECT_EQ(result.exit_code, 3) << result.out << result.err;
 }
 
@@ -133,11 +134,10 @@ TEST_F(Health, RestartsAHungNodeAndTellsHandlersOfIt) {
 }
 
 TEST_F(Health, ASignalLeavesACrashBundleAndTheHangIsDescribedInAnotherOne) {
-  const CommandResult result =
-      hang("sleep\" crash-dir=\"" + (sandbox_.directory() / "crashes").string(),
-           R"xml(<watch kind="executor" timeout="1" on_unhealthy="signal"/>)xml");
-  EXPECT_THAT(result.out, AllOf(HasSubstr("bundle of node-1, which is unhealthy: "),
-                                HasSubstr("crash bundle of node-1: ")));
+  const CommandResult result = hang("sleep\" crash-dir=\"" + (sandbox_.directory() / "crashes").string(),
+                                    R"xml(<watch kind="executor" timeout="1" on_unhealthy="signal"/>)xml");
+  EXPECT_THAT(result.out,
+              AllOf(HasSubstr("bundle of node-1, which is unhealthy: "), HasSubstr("crash bundle of node-1: ")));
   std::vector<std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(sandbox_.directory() / "crashes")) {
     files.push_back(entry.path().filename().string());
@@ -176,8 +176,9 @@ TEST_F(Health, IsInPsAndInEvents) {
 }
 
 TEST_F(Health, AStopByTheTerminalIsNoHang) {
-  RunningCommand launch({.argv = {LAUNCH_PROGRAM, write(R"xml(<executable name="node" output="screen" cmd=")xml" HANGING_NODE
-                                                        R"xml( ever"><watch kind="executor" timeout="1"/></executable>)xml")}});
+  RunningCommand launch(
+      {.argv = {LAUNCH_PROGRAM, write(R"xml(<executable name="node" output="screen" cmd=")xml" HANGING_NODE
+                                      R"xml( ever"><watch kind="executor" timeout="1"/></executable>)xml")}});
   ASSERT_TRUE(launch.wait_for_output("tick 5", kPatience));
   launch.send_signal(SIGTSTP);
   // The launch stops itself and all its processes.

@@ -188,13 +188,15 @@ TEST(ScopedInclude, KeepsWhatItSetsToItself) {
   std::ofstream(file) << R"xml(<launch><arg name="x" default="inside"/><let name="y" value="inside"/>
     <set_env name="Z" value="inside"/><push_ros_namespace namespace="left"/><set_parameter name="p" value="1"/>
     <node exec="a"/><log message="$(var x) $(var y) $(env Z)"/></launch>)xml";
-  const auto planned = plan_actions("<let name=\"y\" value=\"outside\"/><include scoped=\"true\" file=\"" + file.string() +
-                                    "\"><arg name=\"x\" value=\"given\"/></include><node exec=\"b\"/>"
-                                    "<log message=\"$(var x none) $(var y) $(env Z none) $(param p none)\"/>");
+  const auto planned =
+      plan_actions("<let name=\"y\" value=\"outside\"/><include scoped=\"true\" file=\"" + file.string() +
+                   "\"><arg name=\"x\" value=\"given\"/></include><node exec=\"b\"/>"
+                   "<log message=\"$(var x none) $(var y) $(env Z none) $(param p none)\"/>");
   std::filesystem::remove(file);
   EXPECT_EQ(planned.error, "");
   EXPECT_THAT(namespaces(planned), ElementsAre("/left", "none"));
-  EXPECT_THAT(planned.messages, ElementsAre("[launch.user] given inside inside", "[launch.user] none outside none none"));
+  EXPECT_THAT(planned.messages,
+              ElementsAre("[launch.user] given inside inside", "[launch.user] none outside none none"));
 }
 
 TEST(GroupNamespace, NeedsAScope) {

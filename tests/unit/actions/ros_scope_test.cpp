@@ -26,8 +26,8 @@ TEST(RosScope, AParameterMayBeAListOrANumberInYaml) {
       "- set_parameter: {name: d, value: true}\n- set_parameter: {name: e, value: \"[1, 2]\"}\n- node: {exec: n}\n");
   ASSERT_EQ(planned.error, "");
   EXPECT_THAT(planned.plan.processes.at(0).argv,
-              testing::ElementsAre("n", "--ros-args", "-p", "a:=[48.5, 9.25, 0.0]", "-p", "b:=[\"x\", \"y\"]", "-p", "c:=5",
-                                   "-p", "d:=True", "-p", "e:=[1, 2]"));
+              testing::ElementsAre("n", "--ros-args", "-p", "a:=[48.5, 9.25, 0.0]", "-p", "b:=[\"x\", \"y\"]", "-p",
+                                   "c:=5", "-p", "d:=True", "-p", "e:=[1, 2]"));
   EXPECT_EQ(test_support::plan_text("launch:\n- set_parameter: {name: a, value: [1, x]}\n").error,
             "/test/system.launch.yaml:2:35: error: the result is a non-uniform list\n"
             "    2 | - set_parameter: {name: a, value: [1, x]}\n"

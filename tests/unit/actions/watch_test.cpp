@@ -25,8 +25,8 @@ std::vector<launch::HealthWatch> watches(const std::string& items) {
 }
 
 TEST(Watch, HasDefaultsByItsKind) {
-  const std::vector<launch::HealthWatch> found =
-      watches(R"(<watch kind="executor"/><watch kind="command" cmd="check 'a b'"/><watch kind="output" timeout="60"/>)");
+  const std::vector<launch::HealthWatch> found = watches(
+      R"(<watch kind="executor"/><watch kind="command" cmd="check 'a b'"/><watch kind="output" timeout="60"/>)");
   ASSERT_THAT(found, SizeIs(3));
   EXPECT_EQ(found[0].timeout, 5s);
   EXPECT_EQ(found[0].interval, 1s);

@@ -61,12 +61,14 @@ class HealthMonitorTest : public testing::Test {
   }()};
   ProcessSupervisor supervisor_{loop_, runner_, output_};
   std::vector<std::string> journal_;
-  HealthMonitor monitor_{
-      loop_, supervisor_,
-      {[this](ProcessId id, const HealthWatch&, const std::string&) { journal_.push_back(fmt::format("act on {}", id)); },
-       [this](LogLevel, const std::string& logger, const std::string& text) {
-         journal_.push_back(logger + ": " + text);
-       }}};
+  HealthMonitor monitor_{loop_,
+                         supervisor_,
+                         {[this](ProcessId id, const HealthWatch&, const std::string&) {
+                            journal_.push_back(fmt::format("act on {}", id));
+                          },
+                          [this](LogLevel, const std::string& logger, const std::string& text) {
+                            journal_.push_back(logger + ": " + text);
+                          }}};
 };
 
 TEST_F(HealthMonitorTest, FindsAProcessThatFallsSilentAndThatSpeaksAgain) {

@@ -27,9 +27,9 @@ class StartLimits : public SupervisorFixture {
 TEST_F(StartLimits, GiveAProcessUp) {
   supervisor->start(flapping(3, 10s));
   loop.advance(60s);
-  EXPECT_THAT(take_lines(), ElementsAre("0.0 a-1 started", "1.0 a-1 exited 1, again", "1.0 a-1 started",
-                                        "2.0 a-1 exited 1, again", "2.0 a-1 started", "3.0 a-1 exited 1",
-                                        "3.0 a-1 3 starts reached", "3.0 a-1 done"));
+  EXPECT_THAT(take_lines(),
+              ElementsAre("0.0 a-1 started", "1.0 a-1 exited 1, again", "1.0 a-1 started", "2.0 a-1 exited 1, again",
+                          "2.0 a-1 started", "3.0 a-1 exited 1", "3.0 a-1 3 starts reached", "3.0 a-1 done"));
 }
 
 TEST_F(StartLimits, CountOnlyRecentStarts) {
@@ -92,8 +92,8 @@ TEST_F(StartLimits, CountRestartsOfAnUnhealthyProcess) {
   take_lines();
   supervisor->restart_unhealthy(id);
   loop.advance(1s);
-  EXPECT_THAT(take_lines(), ElementsAre("2.0 a-1 SIGINT", "2.0 a-1 exited -2, expected", "2.0 a-1 2 starts reached",
-                                        "2.0 a-1 done"));
+  EXPECT_THAT(take_lines(),
+              ElementsAre("2.0 a-1 SIGINT", "2.0 a-1 exited -2, expected", "2.0 a-1 2 starts reached", "2.0 a-1 done"));
 }
 
 TEST_F(StartLimits, ARestartOfAnUnhealthyProcessIsNoRetry) {

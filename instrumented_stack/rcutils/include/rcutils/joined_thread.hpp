@@ -9,8 +9,9 @@
 
 namespace rcutils {
 
-// A thread that is joined only by the process that has started it. The child of a fork has none of its parent's threads,
-// but their objects, which are destroyed when it calls exit(). Later releases of glibc (2.43) would wait for ever there.
+// A thread that is joined only by the process that has started it. The child of a fork has none of its parent's
+// threads, but their objects, which are destroyed when it calls exit(). Later releases of glibc (2.43) would wait for
+// ever there.
 class JoinedThread {
  public:
   JoinedThread() = default;

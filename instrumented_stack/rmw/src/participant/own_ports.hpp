@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ports in shared memory that this process reads, and that others may take away.
 //
-// Whoever opens a port of Fast DDS that it finds unhealthy, or not ready yet, removes its file and makes a new one. A lock
-// is to keep two processes from doing so at a time, but it is removed together with the port, and by whoever has waited
-// two seconds for it. So a process may remove the port that its reader has just made. The reader goes on reading memory
-// that has no name any more, and everybody else writes into the new port, which nobody reads. Fast DDS never notices. So
-// this class looks, whenever something has come another way.
+// Whoever opens a port of Fast DDS that it finds unhealthy, or not ready yet, removes its file and makes a new one. A
+// lock is to keep two processes from doing so at a time, but it is removed together with the port, and by whoever has
+// waited two seconds for it. So a process may remove the port that its reader has just made. The reader goes on reading
+// memory that has no name any more, and everybody else writes into the new port, which nobody reads. Fast DDS never
+// notices. So this class looks, whenever something has come another way.
 #pragma once
 
 #include <chrono>
@@ -21,7 +21,8 @@ class OwnPorts {
  public:
   using TimePoint = std::chrono::steady_clock::time_point;
 
-  // Fast DDS itself makes a port anew that was declared unhealthy. That takes a third of a second, more on a busy machine.
+  // Fast DDS itself makes a port anew that was declared unhealthy. That takes a third of a second, more on a busy
+  // machine.
   static constexpr std::chrono::milliseconds kPatience{1000};
 
   // The process reads this port. `close` and `open` are called one after the other, to open it again.
