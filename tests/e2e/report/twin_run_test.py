@@ -66,10 +66,7 @@ class Twin(unittest.TestCase):
                     self.assertAlmostEqual(one['what_if']['p50_ns'] / one['simulated']['p50_ns'], factor, delta=0.1 * factor)
 
     def test_a_simulation_of_many_processes_has_their_figures(self):
-        file = self.directory / 'for_a_while.launch.xml'
-        file.write_text(f'<launch><include file="{EXAMPLES}/12_reference_system.launch.xml"><arg name="messages" value="0"/></include>'
-                        '<timer period="6"><shutdown/></timer></launch>')
-        self.launch('--isolate', file)
+        self.launch('--isolate', EXAMPLES / '12_reference_system.launch.xml', 'messages:=60')
         trace = next((self.directory / 'traces').glob('reference_system-*'))
         folder = self.directory / 'many'
         result = json.loads(self.launch('twin', trace, '-o', folder, '--json').stdout)

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/support/trace_writer/example_system.hpp"
 #include "tests/support/trace_writer/temporary_directory.hpp"
 #include "tests/unit/twin/small_system.hpp"
@@ -139,6 +141,42 @@ TEST(BuildTwin, NoTimerStandsForABurst) {
   EXPECT_NE(twin.missing.front().find("sent 4 messages on /a outside of its callbacks; the twin does not"),
             std::string::npos)
       << twin.missing.front();
+}
+
+// It has two callbacks in the trace. The publisher uses communication within the process, too.
+TEST(BuildTwin, ASubscriptionWithIntraProcessCommunicationIsOne) {
+  testing::HandRecording hand;
+  hand.add_process();
+  hand.add_process();
+  const timeline::Index here = hand.add_node("/here", 0);
+  const timeline::Index talker = hand.add_node("/talker", 0);
+  const timeline::Index there = hand.add_node("/there", 1);
+  const timeline::Index within = hand.add_subscription(here, "/a");
+  hand.recording.timeline.callbacks.push_back(hand.recording.timeline.callbacks[within]);
+  const timeline::Index beyond = within + 1;
+  const timeline::Index thread = hand.add_thread(1);
+  hand.recording.timeline.publishers = {{talker, 0}, {there, 0}};
+  hand.recording.publishers = {{10, true, false}, {10, true, false}};
+  for (std::int64_t time = 0; time < 100'000; time += 1'000) {
+    hand.send(time + 10, hand.run(within, thread, time + 15, time + 16), 0);
+    hand.recording.timeline.instances.back().intra_process = true;
+    hand.send(time + 500, hand.run(beyond, thread, time + 580, time + 581), 1);
+  }
+  join_callbacks_of_subscriptions(hand.recording.timeline);
+  const System twin = build_twin(hand.recording, {.cpus = 2});
+  const auto subscriptions = std::count_if(twin.callbacks.begin(), twin.callbacks.end(), [](const Callback& callback) {
+    return callback.kind == Callback::Kind::kSubscription;
+  });
+  ASSERT_EQ(subscriptions, 1);
+  EXPECT_EQ(twin.callbacks[0].runs, 200u);
+  EXPECT_EQ(twin.callbacks[0].near_delays.quantile(0.5), 5);
+  EXPECT_EQ(twin.callbacks[0].delays.quantile(0.5), 80);
+  EXPECT_TRUE(twin.nodes[0].intra_process);
+  EXPECT_TRUE(twin.nodes[1].intra_process);
+  EXPECT_FALSE(twin.nodes[2].intra_process);
+  const Figures figures = figures_of(hand.recording, twin);
+  EXPECT_EQ(figures.at({FigureKind::kHop, "/talker to /here, subscription /a"}).size(), 100u);
+  EXPECT_EQ(figures.at({FigureKind::kHop, "/there to /here, subscription /a"}).size(), 100u);
 }
 
 TEST(BuildTwin, ASubscriptionKeepsItsQualityOfService) {

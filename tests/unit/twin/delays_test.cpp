@@ -36,15 +36,17 @@ TEST(Delays, FewGapsOfSeveralThreadsAreNotThoseOfOne) {
   const timeline::Index first = hand.add_thread(1);
   const timeline::Index second = hand.add_thread(2);
   const timeline::Index subscription = hand.add_subscription(node, "/a");
+  hand.recording.timeline.publishers = {{node, 0}};
   for (int i = 0; i < 20; ++i) {
-    hand.send(1000 * i + 100, hand.run(subscription, i % 2 == 0 ? first : second, 1000 * i + 130, 1000 * i + 200));
+    hand.send(1000 * i + 100, hand.run(subscription, i % 2 == 0 ? first : second, 1000 * i + 130, 1000 * i + 200), 0);
   }
   hand.run(subscription, first, 20'100, 20'400);
   hand.run(subscription, second, 20'120, 20'400);
-  hand.send(20'300, hand.run(subscription, first, 29'000, 29'100));
+  hand.send(20'300, hand.run(subscription, first, 29'000, 29'100), 0);
   const std::vector<WayTimes> times = ways_in(hand);
   EXPECT_EQ(times[subscription].gaps.quantile(0.99), 30);
   EXPECT_EQ(times[subscription].delays.quantile(1), 8'700);
+  EXPECT_TRUE(times[subscription].near_delays.empty());
 }
 
 TEST(Delays, OfSeveralRunsBeforeItTheGapIsBehindTheLastOne) {
@@ -88,6 +90,28 @@ TEST(Delays, MessagesOfTheSameProcessHaveTimesOfTheirOwn) {
   const WayTimes ways = ways_in(hand)[subscription];
   EXPECT_EQ(ways.near_delays.values, Times{5});
   EXPECT_EQ(ways.delays.values, Times{60});
+}
+
+// The executor runs the callback that sends it.
+TEST(Delays, AMessageThatAlwaysWaitsForItsSenderNeedsTheGap) {
+  testing::HandRecording hand;
+  hand.add_process();
+  hand.add_process();
+  const timeline::Index here = hand.add_node("/here", 1);
+  const timeline::Index there = hand.add_node("/there", 0);
+  const timeline::Index timer = hand.add_timer(here, 10'000);
+  const timeline::Index subscription = hand.add_subscription(here, "/a");
+  const timeline::Index thread = hand.add_thread(2, 1);
+  hand.recording.timeline.publishers = {{here, 0}, {there, 0}};
+  for (const std::int64_t time : {10'000, 20'000}) {
+    hand.run(timer, thread, time, time + 100);
+    hand.send(time + 50, hand.run(subscription, thread, time + 107, time + 110), 0);
+    hand.send(time + 500, hand.run(subscription, thread, time + 900, time + 910), 1);
+  }
+  const WayTimes ways = ways_in(hand)[subscription];
+  EXPECT_EQ(ways.near_delays.values, (Times{7, 7}));
+  EXPECT_EQ(ways.delays.values, (Times{400, 400}));
+  EXPECT_EQ(ways.gaps.values, (Times{7, 7}));
 }
 
 TEST(Delays, ATimerIsCalledALittleLate) {

@@ -37,6 +37,8 @@ struct HandRecording {
     const timeline::Index callback = add_timer(node);
     recording.timeline.callbacks[callback].owner = Owner::kSubscription;
     recording.timeline.callbacks[callback].topic = static_cast<timeline::Index>(recording.timeline.topics.size() - 1);
+    recording.timeline.callbacks[callback].owner_id =
+        static_cast<timeline::Index>(recording.timeline.subscriptions.size());
     recording.timeline.subscriptions.push_back({node, recording.timeline.callbacks[callback].topic});
     recording.subscriptions.push_back({5, false, false});
     return callback;

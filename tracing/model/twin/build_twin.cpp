@@ -261,6 +261,15 @@ class Builder {
       callback_of_[index] = system_.callbacks.size();
       system_.callbacks.push_back(std::move(callback));
     }
+    for (const timeline::Message& message : timeline_.messages) {
+      if (message.receiving_instance != timeline::kNone && message.publisher != timeline::kNone &&
+          timeline_.instances[message.receiving_instance].intra_process) {
+        const Index node = node_of(timeline_.publishers[message.publisher].node);
+        if (node != kNone) {
+          system_.nodes[node].intra_process = true;
+        }
+      }
+    }
     set_call_delays(recording_, client_of_, system_);
   }
 

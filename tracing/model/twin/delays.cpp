@@ -122,6 +122,7 @@ std::vector<Way> ways_of(const timeline::Timeline& timeline, const RunTimes& run
 
 struct Samples {
   struct Busy {
+    bool is_near = false;
     std::int64_t waited_ns = 0;  // until the executor was free
     std::int64_t gap_ns = 0;     // then
   };
@@ -129,23 +130,34 @@ struct Samples {
   std::vector<std::int64_t> near_delays;
   std::vector<Busy> busy;
 
+  std::vector<std::int64_t>& delays_of(bool is_near) { return is_near ? near_delays : delays; }
   // If the executor was busy for a shorter time than a message takes at least, it did not keep the message.
   std::vector<std::int64_t> take_gaps() {
-    const std::int64_t least_ns = delays.empty() ? 0 : *std::min_element(delays.begin(), delays.end());
+    const auto least = [](const std::vector<std::int64_t>& times) {
+      return times.empty() ? 0 : *std::min_element(times.begin(), times.end());
+    };
+    const std::int64_t least_ns[] = {least(delays), least(near_delays)};
+    const bool is_never_free_for_near = near_delays.empty();
     std::vector<std::int64_t> gaps;
+    std::vector<Busy> kept;
     for (const Busy& one : busy) {
-      if (one.waited_ns >= least_ns) {
-        gaps.push_back(one.gap_ns);
-      } else {
-        delays.push_back(one.waited_ns + one.gap_ns);
+      if (one.waited_ns < least_ns[one.is_near ? 1 : 0]) {
+        delays_of(one.is_near).push_back(one.waited_ns + one.gap_ns);
+        continue;
+      }
+      gaps.push_back(one.gap_ns);
+      kept.push_back(one);
+      // What a message needs at least is in the gap. Often the callback that sends it keeps the executor.
+      if (one.is_near && is_never_free_for_near) {
+        near_delays.push_back(one.gap_ns);
       }
     }
-    std::erase_if(busy, [&](const Busy& one) { return one.waited_ns < least_ns; });
+    busy = std::move(kept);
     return gaps;
   }
   void add_busy_to_delays() {
     for (const Busy& one : busy) {
-      delays.push_back(one.waited_ns + one.gap_ns);
+      delays_of(one.is_near).push_back(one.waited_ns + one.gap_ns);
     }
   }
 };
@@ -173,18 +185,21 @@ std::vector<WayTimes> way_times(const Recording& recording, const FoundExecutors
     if (before > way.ready_ns || is_behind) {
       // Of several runs that it had to wait for, the last one.
       const std::int64_t free_ns = follows ? std::max(before, last->end_ns) : before;
-      of.busy.push_back({free_ns - way.ready_ns, std::max<std::int64_t>(0, instance.start_ns - free_ns)});
+      of.busy.push_back({way.is_near, free_ns - way.ready_ns, std::max<std::int64_t>(0, instance.start_ns - free_ns)});
     } else {
-      (way.is_near ? of.near_delays : of.delays).push_back(instance.start_ns - way.ready_ns);
+      of.delays_of(way.is_near).push_back(instance.start_ns - way.ready_ns);
     }
   }
   std::vector<WayTimes> times(samples.size());
   for (std::size_t index = 0; index < samples.size(); ++index) {
     Samples& of = samples[index];
+    std::vector<std::int64_t> gaps = of.take_gaps();
     if (of.delays.empty()) {
       of.delays.swap(of.near_delays);
+      for (Samples::Busy& one : of.busy) {
+        one.is_near = false;
+      }
     }
-    std::vector<std::int64_t> gaps = of.take_gaps();
     if (of.delays.empty()) {
       // The executor was never free. What a message needs at least is in the gap.
       of.delays = gaps;

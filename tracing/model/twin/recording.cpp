@@ -57,6 +57,26 @@ std::vector<std::string> callback_names(const timeline::Timeline& timeline) {
   return names;
 }
 
+void join_callbacks_of_subscriptions(timeline::Timeline& timeline) {
+  std::map<timeline::Index, timeline::Index> first;  // by subscription
+  std::vector<timeline::Index> joined(timeline.callbacks.size());
+  for (timeline::Index index = 0; index < timeline.callbacks.size(); ++index) {
+    timeline::Callback& callback = timeline.callbacks[index];
+    joined[index] = index;
+    if (callback.owner != CallbackResult::Owner::kSubscription || callback.owner_id == timeline::kNone) {
+      continue;
+    }
+    if (const auto [known, is_new] = first.try_emplace(callback.owner_id, index); !is_new) {
+      joined[index] = known->second;
+      callback.owner = CallbackResult::Owner::kUnknown;
+      callback.node = timeline::kNone;
+    }
+  }
+  for (timeline::Instance& instance : timeline.instances) {
+    instance.callback = joined[instance.callback];
+  }
+}
+
 void Recorder::on_executor_wait(const ExecutorWait& wait) {
   recording_.waits.push_back({wait.thread, wait.begin_ns, wait.end_ns});
 }
@@ -71,6 +91,7 @@ void Recorder::on_executor_look(const ExecutorLook& look) {
 
 Recording Recorder::finish(const TraceAnalysis& analysis, const TraceOverview& overview) {
   recording_.timeline = timeline_.finish(analysis, overview);
+  join_callbacks_of_subscriptions(recording_.timeline);
   const ObjectModel& objects = analysis.objects();
   for (const EndpointObject& end : objects.publishers()) {
     recording_.has_ext_events = recording_.has_ext_events || end.qos.has_value();

@@ -67,6 +67,11 @@ class Recorder : public ExecutionSink {
   std::unordered_map<ThreadId, std::size_t, HashThreadId> looks_;
 };
 
+// A subscription with intra-process communication has a callback for messages of its process and one for those of other
+// processes, which are the same function. What the later one ran becomes what the first one ran, and the later one has
+// no owner any more.
+void join_callbacks_of_subscriptions(timeline::Timeline& timeline);
+
 // Throws TraceReadError if the trace cannot be read to its end.
 Recording read_recording(const std::filesystem::path& directory);
 
