@@ -30,6 +30,8 @@ class ParamList final : public Verb {
     app.add_option("--param-prefixes", prefixes_, "only parameters below these names")->expected(1, 100);
     app.add_flag("--param-type", types_, "also print the types");
     app.add_option("--filter", filter_, "only names that begin like this regular expression");
+    app.add_option("--timeout", timeout_, "wait so many seconds for the node that is named")
+        ->check(CLI::PositiveNumber);
   }
 
   int run() override {
@@ -40,7 +42,7 @@ class ParamList final : public Verb {
       nodes = nodes_with_service(session, "/list_parameters", "rcl_interfaces/srv/ListParameters");
       std::erase_if(nodes, [this](const std::string& node) { return !hidden_ && is_hidden(node); });
     } else {
-      nodes.push_back(require_node(session, node_, look_.time()));
+      nodes.push_back(require_node(session, node_, timeout_ > 0 ? Seconds(timeout_) : look_.time()));
     }
     for (const std::string& node : nodes) {
       std::vector<std::string> names = parameter_names(session, node, prefixes_);
@@ -77,6 +79,7 @@ class ParamList final : public Verb {
   LookOptions look_;
   bool hidden_ = false;
   bool types_ = false;
+  double timeout_ = 0;
   std::vector<std::string> prefixes_;
 };
 
@@ -84,24 +87,78 @@ class ParamGet final : public ParameterVerb {
  public:
   void declare(CLI::App& app) override {
     declare_node(app);
-    app.add_option("parameter", parameter_, "name of the parameter")->required();
-    app.add_flag("--hide-type", hide_type_, "print the value alone");
+    app.add_option("parameters", parameters_,
+                   "names of the parameters; none: the first word is a parameter, which all nodes are asked for");
+    app.add_flag("--hide-type", hide_type_, "print the values alone");
   }
 
   int run() override {
     GraphSession session;
-    const std::string node = find_node(session);
-    const std::vector<ParameterReading> values = parameter_values(session, node, {parameter_});
-    if (values.empty() || values.front().type == 0) {
-      throw CommandError(fmt::format("parameter '{}' of '{}' is not set", parameter_, node),
-                         did_you_mean(parameter_, parameter_names(session, node, {})));
+    if (parameters_.empty()) {
+      if (node_.starts_with('/')) {
+        throw CommandError("no parameter is given", fmt::format("launch param get {} PARAMETER", node_));
+      }
+      return of_all_nodes(session, node_);
     }
-    const ParameterReading& value = values.front();
-    put(hide_type_ ? value.python() + "\n" : fmt::format("{} {}\n", kLabels[value.type], value.python()));
+    const std::string node = find_node(session);
+    const std::vector<ParameterReading> values = parameter_values(session, node, parameters_);
+    if (parameters_.size() > 1) {
+      return several(session, node, values);
+    }
+    if (values.empty() || values.front().type == 0) {
+      throw CommandError(fmt::format("parameter '{}' of '{}' is not set", parameters_.front(), node),
+                         did_you_mean(parameters_.front(), parameter_names(session, node, {})));
+    }
+    put(text(values.front()) + "\n");
     return 0;
   }
 
  private:
+  std::string text(const ParameterReading& value) const {
+    return hide_type_ || value.type == 0 ? (value.type == 0 ? kLabels[0] : value.python())
+                                         : fmt::format("{} {}", kLabels[value.type], value.python());
+  }
+
+  int several(GraphSession& session, const std::string& node, std::vector<ParameterReading> values) const {
+    if (values.size() != parameters_.size()) {  // a node that lacks one of them answers for none
+      values.clear();
+      for (const std::string& name : parameters_) {
+        const std::vector<ParameterReading> one = parameter_values(session, node, {name});
+        values.push_back(one.empty() ? ParameterReading() : one.front());
+      }
+    }
+    int exit_code = 0;
+    for (std::size_t i = 0; i < parameters_.size(); ++i) {
+      if (values[i].type != 0) {
+        put(fmt::format("{}:\n  {}\n", parameters_[i], text(values[i])));
+      } else {
+        fmt::print(stderr, "{}: parameter of '{}' is not set\n", parameters_[i], node);
+        exit_code = 1;
+      }
+    }
+    return exit_code;
+  }
+
+  int of_all_nodes(GraphSession& session, const std::string& parameter) const {
+    session.discover(look_time());
+    bool found = false;
+    for (const std::string& node : nodes_with_service(session, "/get_parameters", "rcl_interfaces/srv/GetParameters")) {
+      if (is_hidden(node)) {
+        continue;
+      }
+      const std::vector<ParameterReading> values = parameter_values(session, node, {parameter});
+      if (!values.empty() && values.front().type != 0) {
+        put(fmt::format("{}:\n  {}\n", node, text(values.front())));
+        found = true;
+      }
+    }
+    if (!found) {
+      throw CommandError(fmt::format("no node has a parameter '{}' that is set", parameter));
+    }
+    return 0;
+  }
+
+  std::vector<std::string> parameters_;
   bool hide_type_ = false;
 };
 
@@ -109,19 +166,28 @@ class ParamSet final : public ParameterVerb {
  public:
   void declare(CLI::App& app) override {
     declare_node(app);
-    app.add_option("parameter", parameter_, "name of the parameter")->required();
-    app.add_option("value", value_, "the value as YAML: 3, 1.5, true, text, [1, 2]")->required();
+    app.add_option("assignments", words_,
+                   "names and values in turn; a value is YAML: 3, 1.5, true, text, [1, 2]. NAME VALUE NAME VALUE …")
+        ->required();
   }
 
   int run() override {
+    if (words_.size() % 2 != 0) {
+      throw CommandError(fmt::format("parameter '{}' has no value", words_.back()), "names and values stand in turn");
+    }
     GraphSession session;
     const std::string node = find_node(session);
-    return report(set_parameter(session, node, parameter_, parameter_value_yaml(value_)), "Set parameter successful",
-                  "Setting parameter failed");
+    int exit_code = 0;
+    for (std::size_t i = 0; i < words_.size(); i += 2) {
+      const std::string prefix = words_.size() > 2 ? words_[i] + ": " : "";
+      exit_code |= report(set_parameter(session, node, words_[i], parameter_value_yaml(words_[i + 1])),
+                          prefix + "Set parameter successful", prefix + "Setting parameter failed");
+    }
+    return exit_code;
   }
 
  private:
-  std::string value_;
+  std::vector<std::string> words_;
 };
 
 class ParamDelete final : public ParameterVerb {

@@ -49,6 +49,7 @@ class ParameterVerb : public Verb {
   void declare_node(CLI::App& app);
   // Waits for the node. Returns its full name.
   std::string find_node(GraphSession& session) const;
+  std::optional<Seconds> look_time() const { return look_.time(); }
   // Prints the result, and returns the exit code.
   static int report(const SetResult& result, const std::string& good, const std::string& bad);
 

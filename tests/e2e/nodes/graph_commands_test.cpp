@@ -217,6 +217,20 @@ TEST(ParamCommand, ReadsAndWritesParameters) {
   EXPECT_EQ(load.out, "Set parameter count successful\n") << load.err;
   EXPECT_EQ(launch_command({"param", "get", "--hide-type", name, "count", "--timeout", "60"}).out, "9\n");
   EXPECT_EQ(launch_command({"complete", "param", "get", name, "cou"}).out, "count\n");
+  EXPECT_EQ(launch_command({"param", "set", name, "count", "5", "use_sim_time", "false", "--timeout", "60"}).out,
+            "count: Set parameter successful\nuse_sim_time: Set parameter successful\n");
+  const CommandResult several =
+      launch_command({"param", "get", name, "count", "nix", "use_sim_time", "--timeout", "60"});
+  EXPECT_EQ(several.out, "count:\n  Integer value is: 5\nuse_sim_time:\n  Boolean value is: False\n");
+  EXPECT_EQ(several.err, "nix: parameter of '/add_two_ints_server' is not set\n");
+  EXPECT_EQ(several.exit_code, 1);
+  EXPECT_EQ(launch_command({"param", "set", name, "count", "5", "x", "--timeout", "60"}).err,
+            "launch param set: error: parameter 'x' has no value\n      = help: names and values stand in turn\n");
+  EXPECT_EQ(ask_until({"param", "get", "count"}, "Integer").out, "/add_two_ints_server:\n  Integer value is: 5\n");
+  EXPECT_EQ(launch_command({"param", "get", name}).err,
+            "launch param get: error: no parameter is given\n"
+            "      = help: launch param get /add_two_ints_server PARAMETER\n");
+  EXPECT_THAT(launch_command({"param", "list", name, "--timeout", "60"}).out, HasSubstr("  count\n"));
   server.end_gently();
 }
 

@@ -43,6 +43,7 @@ TEST(RosProtocol, ValuesOfParametersKeepTheirTypes) {
       Scalars{1.0, 2.5, std::numeric_limits<double>::infinity()},
       Scalars{std::int64_t(1), std::int64_t(-2)},
       Scalars{std::string("x"), std::string()},
+      Scalars{std::byte{0}, std::byte{255}},
   };
   for (const ParameterValue& value : values) {
     node.parameters.push_back({"p", value});
