@@ -9,6 +9,7 @@
 #include <sstream>
 #include <string_view>
 #include <thread>
+#include <typeinfo>
 #include <utility>
 
 #include "nearest_name.hpp"
@@ -45,28 +46,35 @@ constexpr std::array<std::pair<std::string_view, SetOption>, 8> kExtraArguments 
      {"use_intra_process_comms", &rclcpp::NodeOptions::use_intra_process_comms}}};
 constexpr std::string_view kTypeDescriptions = "enable_type_description_service";
 
-// Sets an option of a component. Throws ComponentManagerException if there is none of that name, or for a wrong value.
+// Sets an option of a component, if there is one of that name. Throws ComponentManagerException for a wrong value.
 void apply(const rclcpp::Parameter& argument, rclcpp::NodeOptions& options) {
   if (argument.get_name() == kTypeDescriptions) {
     options.append_parameter_override("start_type_description_service", boolean(argument));
-    return;
   }
-  std::vector<std::string_view> names = {kTypeDescriptions};
   for (const auto& [name, set] : kExtraArguments) {
     if (argument.get_name() == name) {
       (options.*set)(boolean(argument));
-      return;
     }
+  }
+}
+
+// Throws ComponentManagerException if there is no extra argument of that name.
+void require_known(const std::string& argument) {
+  std::vector<std::string_view> names = {kTypeDescriptions};
+  for (const auto& [name, set] : kExtraArguments) {
     names.push_back(name);
   }
   std::sort(names.begin(), names.end());
-  std::string known = did_you_mean(argument.get_name(), names);
+  if (std::binary_search(names.begin(), names.end(), argument)) {
+    return;
+  }
+  std::string known = did_you_mean(argument, names);
   if (known.empty()) {
     for (const std::string_view name : names) {
       known += (known.empty() ? "; known are " : ", ") + std::string(name);
     }
   }
-  throw ComponentManagerException("Unknown extra component argument '" + argument.get_name() + "'" + known);
+  throw ComponentManagerException("Unknown extra component argument '" + argument + "'" + known);
 }
 
 // The name that ROS 2 uses for a component in its log.
@@ -151,6 +159,10 @@ std::shared_ptr<NodeFactory> ComponentManager::create_component_factory(const Co
   return nullptr;
 }
 
+bool ComponentManager::knows_all_extra_arguments() const {
+  return typeid(*this) == typeid(ComponentManager);
+}
+
 void ComponentManager::set_executor(const std::weak_ptr<rclcpp::Executor> executor) {
   executor_ = executor;
 }
@@ -173,6 +185,9 @@ rclcpp::NodeOptions ComponentManager::create_node_options(const std::shared_ptr<
   }
   auto options = rclcpp::NodeOptions().use_global_arguments(false).parameter_overrides(parameters).arguments(arguments);
 
+  if (request->log_level != 0) {
+    options.log_level(static_cast<rclcpp::Logger::Level>(request->log_level));
+  }
   for (const rcl_interfaces::msg::Parameter& message : request->extra_arguments) {
     apply(rclcpp::Parameter::from_parameter_msg(message), options);
   }
@@ -200,6 +215,11 @@ uint64_t ComponentManager::load_node(const std::shared_ptr<LoadNode::Request>& r
     if (!factory) {
       continue;
     }
+    if (knows_all_extra_arguments()) {
+      for (const rcl_interfaces::msg::Parameter& argument : request->extra_arguments) {
+        require_known(argument.name);
+      }
+    }
     const rclcpp::NodeOptions options = create_node_options(request);
     const uint64_t node_id = unique_id_++;
     try {
@@ -220,10 +240,6 @@ void ComponentManager::on_load_node(const std::shared_ptr<rmw_request_id_t>,
   try {
     const uint64_t node_id = load_node(request);
     const auto node = node_wrappers_.at(node_id).get_node_base_interface();
-    if (request->log_level != 0) {
-      rclcpp::get_logger(rcl_node_get_logger_name(node->get_rcl_node_handle()))
-          .set_level(static_cast<rclcpp::Logger::Level>(request->log_level));
-    }
     add_node_to_executor(node_id);
     response->full_node_name = node->get_fully_qualified_name();
     response->unique_id = node_id;

@@ -164,6 +164,31 @@ TEST_F(ComponentManagerTest, ExtraArgumentsAreOptionsOfTheComponent) {
   }
 }
 
+TEST_F(ComponentManagerTest, AClassOfAProgramMayHaveExtraArgumentsOfItsOwn) {
+  class Bridge : public rclcpp_components::ComponentManager {
+   public:
+    explicit Bridge(const std::weak_ptr<rclcpp::Executor>& executor) : ComponentManager(executor, "bridge") {}
+    rclcpp::NodeOptions create_node_options(const std::shared_ptr<LoadNode::Request> request) override {
+      for (const auto& argument : request->extra_arguments) {
+        names.push_back(argument.name);
+      }
+      return ComponentManager::create_node_options(request);
+    }
+    std::vector<std::string> names;
+  };
+  const auto bridge = std::make_shared<Bridge>(executor_);
+  executor_->add_node(bridge);
+  ContainerClient client(*executor_, node_, "/bridge");
+  LoadNode::Request request;
+  request.package_name = "tested";
+  request.plugin_name = "test_components::Plain";
+  request.extra_arguments = {parameter("to_domain", 3), parameter("use_intra_process_comms", true)};
+  EXPECT_EQ(client.load(request).error_message, "");
+  EXPECT_THAT(bridge->names, ElementsAre("to_domain", "use_intra_process_comms"));
+  EXPECT_TRUE(parameter_of("/plain", "intra").as_bool());
+  executor_->remove_node(bridge);
+}
+
 TEST_F(ComponentManagerTest, ErrorsAreInTheResponseAndTheContainerGoesOn) {
   EXPECT_EQ(error_of("nowhere", "test_components::Plain"), "Could not find requested resource in ament index");
   EXPECT_EQ(error_of("", "test_components::Plain"), "Could not find requested resource in ament index");

@@ -11,6 +11,7 @@
 
 #include "rclcpp/context.hpp"
 #include "rclcpp/contexts/default_context.hpp"
+#include "rclcpp/logger.hpp"
 #include "rclcpp/parameter.hpp"
 #include "rclcpp/publisher_options.hpp"
 #include "rclcpp/qos.hpp"
@@ -61,6 +62,10 @@ class NodeOptions {
   NodeOptions& enable_rosout(bool enable_rosout) { return set_for_rcl(enable_rosout_, enable_rosout); }
   const QoS& rosout_qos() const { return rosout_qos_; }
   NodeOptions& rosout_qos(const QoS& rosout_qos) { return set_for_rcl(rosout_qos_, rosout_qos); }
+
+  // The level of the node's logger from its creation on. Default Unset: that of the command line, or of the process.
+  Logger::Level log_level() const { return log_level_; }
+  NodeOptions& log_level(Logger::Level log_level) { return set(log_level_, log_level); }
 
   // Whether others can read and change the levels of the process's loggers, through two services. Default false.
   bool enable_logger_service() const { return enable_logger_service_; }
@@ -146,6 +151,7 @@ class NodeOptions {
   bool enable_topic_statistics_ = false;
   bool enable_rosout_ = true;
   QoS rosout_qos_ = RosoutQoS();
+  Logger::Level log_level_ = Logger::Level::Unset;
   bool enable_logger_service_ = false;
   bool start_parameter_services_ = true;
   bool start_parameter_event_publisher_ = true;

@@ -135,6 +135,9 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
   void clear_on_new_qos_event_callback(rcl_subscription_event_type_t event_type);
   void set_on_new_intra_process_message_callback(std::function<void(size_t)> callback);
   void clear_on_new_intra_process_message_callback();
+  // Without callbacks, messages are taken and forgotten; a callback that runs already ends in its time. Any thread.
+  void disable_callbacks();
+  void enable_callbacks();
   // Sets whether a wait set uses this subscription; returns the former state.
   bool exchange_in_use_by_wait_set_state(bool in_use_state) { return in_use_by_wait_set_.exchange(in_use_state); }
 
@@ -188,6 +191,7 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
   EventHandlers event_handlers_;
   detail::OnReadyCallback on_ready_;
   std::atomic_bool in_use_by_wait_set_{false};
+  std::atomic_bool has_callbacks_{true};
   std::uint64_t passed_over_ = 0;  // of the executor
   std::shared_ptr<topic_statistics::SubscriptionTopicStatistics> statistics_;
   const void* traced_callback_ = nullptr;  // set by trace_creation()

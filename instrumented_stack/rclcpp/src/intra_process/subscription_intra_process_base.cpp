@@ -35,7 +35,7 @@ std::shared_ptr<void> SubscriptionIntraProcessBase::take_data_by_entity_id(size_
 }
 
 void SubscriptionIntraProcessBase::execute(const std::shared_ptr<void>& data) {
-  if (!data) {
+  if (!data || !has_callbacks_) {
     return;
   }
   MessageInfo message_info;

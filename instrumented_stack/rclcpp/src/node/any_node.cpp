@@ -9,6 +9,20 @@
 
 namespace rclcpp::detail {
 
+namespace {
+
+// The level holds for what the other parts of the node log when they are made.
+std::shared_ptr<node_interfaces::NodeLogging> make_logging(
+    const node_interfaces::NodeBaseInterface::SharedPtr& node_base, Logger::Level level) {
+  auto logging = std::make_shared<node_interfaces::NodeLogging>(node_base);
+  if (level != Logger::Level::Unset) {
+    logging->get_logger().set_level(level);
+  }
+  return logging;
+}
+
+}  // namespace
+
 AnyNode::AnyNode(const std::string& node_name, const std::string& node_namespace, const NodeOptions& options)
     : AnyNode(node_name, node_namespace, options, *options.make_rcl_node_options()) {}
 
@@ -20,7 +34,7 @@ AnyNode::AnyNode(const std::string& node_name, const std::string& node_namespace
       node_base_(std::make_shared<node_interfaces::NodeBase>(node_name, node_namespace, options.context(), rcl_options,
                                                              options.use_intra_process_comms(),
                                                              options.enable_topic_statistics())),
-      node_logging_(std::make_shared<node_interfaces::NodeLogging>(node_base_)),
+      node_logging_(make_logging(node_base_, options.log_level())),
       node_graph_(std::make_shared<node_interfaces::NodeGraph>(node_base_)),
       node_timers_(std::make_shared<node_interfaces::NodeTimers>(node_base_)),
       node_topics_(std::make_shared<node_interfaces::NodeTopics>(node_base_, node_timers_)),

@@ -223,6 +223,9 @@ void SubscriptionBase::handle_message(const std::shared_ptr<void>& message, cons
 }
 
 [[gnu::hot]] void SubscriptionBase::dispatch(const std::shared_ptr<void>& message, const MessageInfo& message_info) {
+  if (!has_callbacks_) {
+    return;
+  }
   if (!statistics_) {
     callback().dispatch(message, message_info);
     return;
@@ -232,6 +235,20 @@ void SubscriptionBase::handle_message(const std::shared_ptr<void>& message, cons
       std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch());
   callback().dispatch(message, message_info);
   statistics_->handle_message(message_info.get_rmw_message_info(), Time(now.count(), RCL_SYSTEM_TIME));
+}
+
+void SubscriptionBase::disable_callbacks() {
+  has_callbacks_ = false;
+  if (intra_process_) {
+    intra_process_->set_has_callbacks(false);
+  }
+}
+
+void SubscriptionBase::enable_callbacks() {
+  has_callbacks_ = true;
+  if (intra_process_) {
+    intra_process_->set_has_callbacks(true);
+  }
 }
 
 void SubscriptionBase::set_topic_statistics(std::shared_ptr<topic_statistics::SubscriptionTopicStatistics> statistics) {

@@ -61,8 +61,13 @@ class ComponentManager : public rclcpp::Node {
   virtual void set_executor(const std::weak_ptr<rclcpp::Executor> executor);
 
  protected:
-  // The options for constructing a component. Throws ComponentManagerException for wrong extra arguments.
+  // The options for constructing a component. Throws ComponentManagerException for wrong values of extra arguments. A
+  // derived class may have more extra arguments, which are none of this class.
   virtual rclcpp::NodeOptions create_node_options(const std::shared_ptr<LoadNode::Request> request);
+
+  // Whether an extra argument that create_node_options() of this class does not know is refused: not in a class that a
+  // program has derived.
+  virtual bool knows_all_extra_arguments() const;
 
   // Called after a component was added to node_wrappers_, and before it is removed.
   virtual void add_node_to_executor(uint64_t node_id);

@@ -12,6 +12,7 @@
 #include <string>
 #include <thread>
 #include <type_traits>
+#include <typeinfo>
 #include <utility>
 
 #include "rclcpp_components/component_manager.hpp"
@@ -36,6 +37,8 @@ class ComponentManagerIsolated : public ComponentManager {
   }
 
  protected:
+  bool knows_all_extra_arguments() const override { return typeid(*this) == typeid(ComponentManagerIsolated); }
+
   void add_node_to_executor(uint64_t node_id) override {
     auto node = node_wrappers_.at(node_id).get_node_base_interface();
     const std::shared_ptr<ExecutorT> executor = make_executor();

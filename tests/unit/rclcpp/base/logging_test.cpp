@@ -115,4 +115,14 @@ TEST_F(RosoutTest, LogLevelComesFromTheCommandLine) {
   EXPECT_EQ(rclcpp::get_logger("other").get_effective_level(), rclcpp::Logger::Level::Error);
 }
 
+TEST_F(RosoutTest, LogLevelOfANodeComesFromItsOptions) {
+  init({"--ros-args", "--log-level", "error"});
+  const auto options = rclcpp::NodeOptions().log_level(rclcpp::Logger::Level::Debug);
+  EXPECT_EQ(options.log_level(), rclcpp::Logger::Level::Debug);
+  const auto loud = std::make_shared<rclcpp::Node>("loud", options);
+  const auto quiet = std::make_shared<rclcpp::Node>("quiet");
+  EXPECT_EQ(loud->get_logger().get_effective_level(), rclcpp::Logger::Level::Debug);
+  EXPECT_EQ(quiet->get_logger().get_effective_level(), rclcpp::Logger::Level::Error);
+}
+
 }  // namespace

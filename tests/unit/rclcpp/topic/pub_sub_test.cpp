@@ -5,6 +5,8 @@
 #include <functional>
 #include <memory>
 #include <std_msgs/msg/string.hpp>
+#include <string>
+#include <vector>
 
 #include "tests/unit/rclcpp/ros_test.hpp"
 
@@ -240,6 +242,31 @@ TEST_F(PubSubTest, PublishingAfterShutdownDoesNothing) {
   rclcpp::shutdown();
   EXPECT_NO_THROW(publisher->publish(message_with("late")));
   EXPECT_EQ(publisher->get_subscription_count(), 0u);
+}
+
+// Messages that come meanwhile are taken and forgotten, also those of the same process.
+TEST_F(PubSubTest, ASubscriptionMayHaveNoCallbacksForAWhile) {
+  for (const bool is_intra_process : {false, true}) {
+    const auto node = std::make_shared<rclcpp::Node>(is_intra_process ? "intra" : "inter",
+                                                     rclcpp::NodeOptions().use_intra_process_comms(is_intra_process));
+    executor_.add_node(node);
+    std::vector<std::string> received;
+    const auto subscription = node->create_subscription<String>(
+        "switched", 10, [&received](const String& message) { received.push_back(message.data); });
+    int others = 0;
+    const auto other = node->create_subscription<String>("switched", 10, [&others](const String&) { ++others; });
+    const auto publisher = node->create_publisher<String>("switched", 10);
+    ASSERT_TRUE(spin_until(executor_, [&] { return publisher->get_subscription_count() == 2; }));
+    subscription->disable_callbacks();
+    publisher->publish(message_with("unheard"));
+    ASSERT_TRUE(spin_until(executor_, [&] { return others == 1; }));
+    executor_.spin_all(std::chrono::seconds(0));
+    subscription->enable_callbacks();
+    publisher->publish(message_with("heard"));
+    ASSERT_TRUE(spin_until(executor_, [&] { return !received.empty(); }));
+    EXPECT_EQ(received, std::vector<std::string>{"heard"});
+    executor_.remove_node(node);
+  }
 }
 
 }  // namespace

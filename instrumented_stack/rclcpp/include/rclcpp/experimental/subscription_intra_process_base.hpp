@@ -3,6 +3,7 @@
 // subscription itself.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -55,6 +56,9 @@ class SubscriptionIntraProcessBase : public Waitable {
     statistics_ = std::move(statistics);
   }
 
+  // Without callbacks, messages are taken and forgotten.
+  void set_has_callbacks(bool has_callbacks) { has_callbacks_ = has_callbacks; }
+
   // Earlier messages are reported at once, at most as many as the queue holds.
   void set_on_ready_callback(std::function<void(size_t, int)> callback) override;
   void clear_on_ready_callback() override;
@@ -74,6 +78,7 @@ class SubscriptionIntraProcessBase : public Waitable {
   std::recursive_mutex callback_mutex_;  // recursive: the callback may replace itself
   std::function<void(size_t, int)> on_ready_;
   size_t unread_count_ = 0;
+  std::atomic_bool has_callbacks_{true};
   std::shared_ptr<topic_statistics::SubscriptionTopicStatistics> statistics_;
 };
 
