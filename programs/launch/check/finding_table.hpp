@@ -23,6 +23,10 @@ struct FindingInfo {
 // In the order of the ids.
 std::span<const FindingInfo> finding_table();
 
+// The parts of the table, each in a source of its own.
+std::span<const FindingInfo> findings_of_files();
+std::span<const FindingInfo> findings_of_systems();
+
 // "LF0101"
 std::string finding_id(Finding finding);
 // The finding with this id, in upper or lower case.
