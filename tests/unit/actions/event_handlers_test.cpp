@@ -123,7 +123,7 @@ TEST(EventHandlersText, SaysWhatIsWrongAtItsPlace) {
             "      |                       ^~\n"
             "      = help: write 0 or more");
   EXPECT_EQ(plan_error("<executable cmd=\"a\"><depends_on process=\"b\" condition=\"exite\"/></executable>"),
-            "/test/system.launch.xml:2:56: error: condition can be started, exited or output, got 'exite'\n"
+            "/test/system.launch.xml:2:56: error: condition can be started, exited, output or healthy, got 'exite'\n"
             "    2 | <executable cmd=\"a\"><depends_on process=\"b\" condition=\"exite\"/></executable>\n"
             "      |                                                        ^~~~~\n"
             "      = help: did you mean 'exited'?");
