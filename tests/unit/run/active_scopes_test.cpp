@@ -31,7 +31,7 @@ class ActiveScopesTest : public testing::Test {
   }
 
   FakeEventLoop loop_;
-  Journal journal_;
+  Diary journal_;
   std::vector<TimedStep> timing_;
   ActiveScopes scopes_{loop_, [](bool, const std::string&) {}, timing_};
 };

@@ -12,11 +12,11 @@
 
 namespace launch {
 
-using Journal = std::vector<std::string>;
+using Diary = std::vector<std::string>;
 
 class FakeScope : public RunScope {
  public:
-  FakeScope(std::string name, bool fails, SourceRange origin, Journal& journal)
+  FakeScope(std::string name, bool fails, SourceRange origin, Diary& journal)
       : name_(std::move(name)), fails_(fails), origin_(std::move(origin)), journal_(journal) {}
 
   // Its end fails, too.
@@ -52,7 +52,7 @@ class FakeScope : public RunScope {
   std::string name_;
   bool fails_;
   SourceRange origin_;
-  Journal& journal_;
+  Diary& journal_;
   bool fails_at_end_ = false;
   bool wants_records_ = false;
   bool hurried_ = false;

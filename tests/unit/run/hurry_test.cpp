@@ -45,7 +45,7 @@ class HurryTest : public testing::Test {
   FakeProcessRunner runner_{loop_};
   OutputRouter output_{{.screen_fd = -1}};
   ProcessSupervisor supervisor_{loop_, runner_, output_};
-  Journal journal_;
+  Diary journal_;
   std::vector<std::string> told_;
   std::vector<TimedStep> timing_;
   ActiveScopes scopes_{loop_, [](bool, const std::string&) {}, timing_};

@@ -16,7 +16,7 @@ namespace launch {
 
 class ScopeAction : public Action {
  public:
-  ScopeAction(const Fields& fields, Journal& journal)
+  ScopeAction(const Fields& fields, Diary& journal)
       : Action(fields.where(), fields.condition()),
         name_(fields.literal("name")),
         fails_(fields.literal("fails") == "true"),
@@ -30,7 +30,7 @@ class ScopeAction : public Action {
  private:
   std::string name_;
   bool fails_;
-  Journal& journal_;
+  Diary& journal_;
 };
 
 class LaunchServiceTest : public testing::Test {
@@ -70,7 +70,7 @@ class LaunchServiceTest : public testing::Test {
 
   RosClient* client = nullptr;                     // of the launch
   std::function<void(LaunchService&)> on_service;  // called before the launch runs
-  Journal journal_;
+  Diary journal_;
   std::vector<std::string> messages_;
   std::vector<std::string> errors_;
   Registry registry_;

@@ -45,7 +45,7 @@ class RecordingTest : public testing::Test {
   }
 
   FakeEventLoop loop_;
-  Journal scope_journal_;
+  Diary scope_journal_;
   std::vector<TimedStep> timing_;
   ActiveScopes scopes_{loop_, [](bool, const std::string&) {}, timing_};
   FakeRecorder recorder_;

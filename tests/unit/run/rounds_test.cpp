@@ -27,7 +27,7 @@ class RoundsTest : public testing::Test {
   }
 
   FakeEventLoop loop_;
-  Journal journal_;
+  Diary journal_;
   std::vector<TimedStep> timing_;
   bool starts_slowly_ = false;
   ActiveScopes scopes_{loop_, [](bool, const std::string&) {}, timing_};
