@@ -315,21 +315,16 @@ int unit_command(const Words& words) {
   if (verb == "status") {
     return status(rest);
   }
-  if (verb == "--help" || verb == "-h") {
-    fmt::print(
-        "Makes systemd start a launch with the machine.\n"
-        "Usage: launch unit VERB …\n\n"
-        "Verbs:\n"
-        "  install FILE [NAME:=VALUE ...]  make a unit, start it now and with the machine\n"
-        "  remove NAME                     end it and take it away\n"
-        "  status NAME                     say what it does\n\n"
-        "Each has a --help of its own.\n");
-    return 0;
+  std::string wanted;
+  Subcommand command(
+      "launch unit",
+      "Makes systemd start a launch with the machine. install FILE makes a unit, remove NAME takes it away, "
+      "status NAME says what it does. Each has a --help of its own.");
+  command.take_choice("VERB", wanted, {"install", "remove", "status"}, "what to do");
+  if (const auto exit_code = command.parse(words)) {
+    return *exit_code;
   }
-  fmt::print(stderr, "{}",
-             verb.empty() ? usage_error("launch unit", "a verb is missing: install, remove or status")
-                          : unexpected_word_error("launch unit", {verb}, {{}, {"install", "remove", "status"}},
-                                                  fmt::format("unknown verb '{}'", verb)));
+  fmt::print(stderr, "{}", usage_error("launch unit", "a verb is missing: install, remove or status"));
   return kWrongCommandLine;
 }
 

@@ -164,9 +164,8 @@ TEST_F(Unit, AFileWithAnErrorMakesNoUnit) {
   EXPECT_THAT(result.err, HasSubstr(file + ":2:2: error: "));
   const CommandResult unknown = run_command({LAUNCH_PROGRAM, "unit", "instal", file});
   EXPECT_EQ(unknown.exit_code, 2);
-  EXPECT_EQ(unknown.err,
-            "launch unit: error: unknown command 'instal'\n      = help: did you mean 'install'?\n"
-            "      = help: see 'launch unit --help'\n");
+  EXPECT_THAT(unknown.err,
+              HasSubstr("\n      = help: did you mean 'install'?\n      = help: see 'launch unit --help'\n"));
 }
 
 TEST_F(Unit, SystemdRunsItAndTheJournalKnowsWhereLinesComeFrom) {

@@ -144,7 +144,7 @@ TEST_F(WithoutRunning, CheckLeavesOutDisabledFindings) {
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_EQ(wrong.out, "");
   EXPECT_EQ(wrong.err,
-            "launch check: error: no finding has the id 'LF0511'\n      = help: did you mean 'LF0501'?\n"
+            "launch check: error: no finding has the id 'LF0511'\n      = help: did you mean 'LF0211'?\n"
             "      = help: see 'launch check --help'\n");
 }
 

@@ -173,7 +173,7 @@ TEST(SharedMemory, APortThatIsTakenAwayIsOpenedAgain) {
   fdds::DomainParticipantQos qos;
   const auto traffic = std::make_shared<DiscoveryTraffic>();
   traffic->introduce({});
-  rmw_fastrtps::use_default_transports(0, traffic, qos);
+  rmw_fastrtps::use_default_transports({}, 0, traffic, qos);
   ASSERT_EQ(qos.transport().user_transports.size(), 2U);
   const std::unique_ptr<rtps::TransportInterface> udp(qos.transport().user_transports.front()->create_transport());
   const std::unique_ptr<rtps::TransportInterface> reader(qos.transport().user_transports.back()->create_transport());
