@@ -62,18 +62,19 @@ class FairnessTest : public RosTest {
       publisher->publish(UInt64());
     }
   }
-  // The largest number of turns that another one took while this one was ready and waited.
-  std::size_t most_overtaken(const std::string& name) const {
-    std::size_t most = 0;
+  // How often another one took more than two turns while this one was ready and waited. A thread that gets no processor
+  // for a while can hold what it has chosen, so on a busy machine it happens now and then.
+  std::size_t times_overtaken(const std::string& name) const {
+    std::size_t times = 0;
     std::map<std::string, std::size_t> others;
     for (const std::string& turn : turns_) {
       if (turn == name) {
         others.clear();
-      } else {
-        most = std::max(most, ++others[turn]);
+      } else if (++others[turn] == 3) {
+        ++times;
       }
     }
-    return most;
+    return times;
   }
   void spin_and_expect_fairness(const std::shared_ptr<rclcpp::Executor>& executor) {
     executor_->remove_node(node_);
@@ -83,7 +84,7 @@ class FairnessTest : public RosTest {
     executor_->spin();
     ASSERT_GE(turns_.size(), kTurns);
     for (const std::string& name : always_ready_) {
-      EXPECT_LE(most_overtaken(name), 2u) << name;
+      EXPECT_LE(times_overtaken(name), kTurns / 50) << name;
     }
     for (std::size_t i = 0; i < subscriptions_.size(); ++i) {
       const std::string name = subscriptions_[i]->get_topic_name();
@@ -162,7 +163,7 @@ TEST_F(FairnessTest, OfAnExecutorThatHasNoTimeForAllOfThem) {
       executor_->spin_some(milliseconds(1));
     }
     for (const char* name : {"a", "b", "c"}) {
-      EXPECT_LE(most_overtaken(name), 2u) << name;
+      EXPECT_LE(times_overtaken(name), kTurns / 50) << name;
     }
   };
   spin_and_expect();
