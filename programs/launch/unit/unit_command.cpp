@@ -315,6 +315,12 @@ int unit_command(const Words& words) {
   if (verb == "status") {
     return status(rest);
   }
+  if (!verb.empty() && verb[0] != '-') {
+    fmt::print(stderr, "{}",
+               unexpected_word_error("launch unit", {verb}, {{}, {"install", "remove", "status"}},
+                                     fmt::format("unknown verb '{}'", verb)));
+    return kWrongCommandLine;
+  }
   std::string wanted;
   Subcommand command(
       "launch unit",
