@@ -94,7 +94,7 @@ class ComponentManagerIsolated : public ComponentManager {
     std::future<void> ended;  // set when spin() has returned
   };
 
-  const rclcpp::ExecutorOptions executor_options_;
+  const rclcpp::ExecutorOptions executor_options_{};
   const size_t number_of_threads_ = 0;
   std::map<uint64_t, Dedicated> dedicated_executors_;
 };
