@@ -20,7 +20,7 @@ ServiceStatus::ServiceStatus(const ServiceAddress& address, EventLoop& loop, Lau
 
 void ServiceStatus::show(const std::string& progress) {
   progress_ = progress;
-  const std::size_t count = supervisor_.alive().size();
+  const std::size_t count = supervisor_.active();
   manager_.status(!progress.empty() ? progress
                                     : fmt::format("{} {}", count, count == 1 ? "process runs" : "processes run"));
 }

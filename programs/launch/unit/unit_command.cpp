@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `launch unit install`, `remove` and `status`: a launch that systemd starts with the machine.
 #include <fmt/format.h>
+#include <pwd.h>
 #include <stdlib.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,9 +13,11 @@
 #include <fstream>
 #include <functional>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
+#include <variant>
 
 #include "actions/builtin_actions.hpp"
 #include "base/diagnostics/command_error.hpp"
@@ -28,6 +31,7 @@
 #include "programs/command_line/result_output.hpp"
 #include "programs/command_line/subcommand.hpp"
 #include "programs/launch/command_functions.hpp"
+#include "programs/launch/run/command_line.hpp"
 #include "programs/launch/unit/unit_file.hpp"
 
 namespace launch {
@@ -126,10 +130,49 @@ void check_name(const std::string& name) {
   }
 }
 
+// The options and the name of `launch unit remove` and `status`. Returns the exit code when there is nothing more to
+// do.
+struct NamedUnit {
+  std::optional<int> parse(const std::string& command_name, const std::string& description, const Words& words) {
+    Subcommand command(command_name, description);
+    command.take_text("NAME", name, "name of the unit");
+    command.take_flag("--user", user, "a unit of this user's service manager");
+    if (const auto exit_code = command.parse(words)) {
+      return exit_code;
+    }
+    if (name.empty()) {
+      fmt::print(stderr, "{}", usage_error(command_name, "the name of a unit is missing"));
+      return kWrongCommandLine;
+    }
+    check_name(name);
+    return std::nullopt;
+  }
+
+  std::string name;
+  bool user = false;
+};
+
 bool is_ours(const fs::path& path) {
   std::ifstream file(path);
   std::string line;
   return std::getline(file, line) && line == kUnitMark;
+}
+
+// systemd sets HOME for a user that the unit names, and nodes need it, so a unit of the system names one always.
+void choose_user(UnitFile& unit, const Environment& environment) {
+  if (unit.of_user) {
+    if (!unit.user.empty()) {
+      throw std::runtime_error("--as needs a unit of the system, which root installs");
+    }
+    return;
+  }
+  if (unit.user.empty()) {
+    const auto caller = environment.find("SUDO_USER");
+    unit.user = caller == environment.end() ? "root" : caller->second;
+  }
+  if (::getpwnam(unit.user.c_str()) == nullptr) {
+    throw std::runtime_error(fmt::format("there is no user '{}'", unit.user));
+  }
 }
 
 int install(const Words& words) {
@@ -164,24 +207,27 @@ int install(const Words& words) {
   }
   unit.of_user = manager.of_user;
   unit.description = fmt::format("launch {}", fs::path(files.front()).filename().string());
-  unit.command = {own_prefix() + "/bin/launch"};
-  unit.command.insert(unit.command.end(), options.begin(), options.end());
+  Words launch_words = options;
   for (const std::string& file : files) {
-    unit.command.push_back(fs::absolute(file).lexically_normal().string());
+    launch_words.push_back(fs::absolute(file).lexically_normal().string());
   }
   for (const auto& [argument, value] : target.arguments) {
-    unit.command.push_back(argument + ":=" + value);
+    launch_words.push_back(argument + ":=" + value);
   }
+  if (std::holds_alternative<ExitNow>(parse_command_line(launch_words))) {
+    return kWrongCommandLine;  // an --option that a launch does not have, or does not run with
+  }
+  unit.command = launch_words;
+  unit.command.insert(unit.command.begin(), own_prefix() + "/bin/launch");
   unit.directory = fs::current_path().string();
   const Environment environment = own_environment();
+  for (const std::string& variable : also) {
+    if (!environment.contains(variable)) {
+      throw std::runtime_error(fmt::format("there is no variable '{}' to take along", variable));
+    }
+  }
   unit.variables = variables_for_unit(environment, also);
-  if (const auto caller = environment.find("SUDO_USER");
-      unit.user.empty() && !manager.of_user && caller != environment.end()) {
-    unit.user = caller->second;
-  }
-  if (manager.of_user && !unit.user.empty()) {
-    throw std::runtime_error("--as needs a unit of the system, which root installs");
-  }
+  choose_user(unit, environment);
   name = name.empty() ? unit_name_of(files.front()) : name;
   check_name(name);
   const std::string text = unit_text(unit);
@@ -216,28 +262,21 @@ int install(const Words& words) {
 }
 
 int remove(const Words& words) {
-  std::string name;
-  bool user = false;
-  Subcommand command("launch unit remove", "Ends a launch that systemd runs, and takes its unit away.");
-  command.take_text("NAME", name, "name of the unit");
-  command.take_flag("--user", user, "a unit of this user's service manager");
-  if (const auto exit_code = command.parse(words)) {
+  NamedUnit unit;
+  if (const auto exit_code =
+          unit.parse("launch unit remove", "Ends a launch that systemd runs, and takes its unit away.", words)) {
     return *exit_code;
   }
-  check_name(name);
-  const Manager manager(user);
-  const fs::path path = manager.path_of(name);
+  const Manager manager(unit.user);
+  const std::string service = unit.name + ".service";
+  const fs::path path = manager.path_of(unit.name);
   if (!fs::exists(path)) {
     throw std::runtime_error(fmt::format("there is no '{}'", path.string()));
   }
   if (!is_ours(path)) {
     throw std::runtime_error(fmt::format("'{}' was not made by launch", path.string()));
   }
-  if (manager.runs()) {
-    tell_systemd(manager, {"disable", "--now", name + ".service"});
-  } else {
-    tell_systemd(manager, {"disable", name + ".service"});
-  }
+  tell_systemd(manager, manager.runs() ? Words{"disable", "--now", service} : Words{"disable", service});
   fs::remove(path);
   if (manager.runs()) {
     tell_systemd(manager, {"daemon-reload"});
@@ -247,17 +286,12 @@ int remove(const Words& words) {
 }
 
 int status(const Words& words) {
-  std::string name;
-  bool user = false;
-  Subcommand command("launch unit status", "Says what a launch does that systemd runs.");
-  command.take_text("NAME", name, "name of the unit");
-  command.take_flag("--user", user, "a unit of this user's service manager");
-  if (const auto exit_code = command.parse(words)) {
+  NamedUnit unit;
+  if (const auto exit_code = unit.parse("launch unit status", "Says what a launch does that systemd runs.", words)) {
     return *exit_code;
   }
-  check_name(name);
-  const Manager manager(user);
-  std::map<std::string, std::string> properties = properties_of(manager, name);
+  const std::string& name = unit.name;
+  std::map<std::string, std::string> properties = properties_of(Manager(unit.user), name);
   if (properties["LoadState"] != "loaded") {
     fmt::print(stderr, "{}", command_error("launch unit status", fmt::format("there is no unit '{}'", name)));
     return kNoSuchUnit;
@@ -275,7 +309,7 @@ int status(const Words& words) {
     text += fmt::format(", {}, exit code {}", properties["Result"], properties["ExecMainStatus"]);
   }
   if (properties["NRestarts"] != "0") {
-    text += fmt::format(", restarted {} times", properties["NRestarts"]);
+    text += fmt::format(", restarts: {}", properties["NRestarts"]);
   }
   fmt::print("{}\n", text);
   return active ? 0 : kNotActive;

@@ -11,9 +11,9 @@
 namespace launch {
 namespace {
 
-constexpr std::array<std::string_view, 16> kPrefixes = {
-    "ROS_",        "RMW_",   "AMENT_", "COLCON_", "RCUTILS_",         "RCL_",      "FASTRTPS_", "FASTDDS_", "CYCLONE",
-    "CYCLONEDDS_", "ZENOH_", "LTTNG_", "TRACE_",  "OVERRIDE_LAUNCH_", "IGNITION_", "GZ_"};
+constexpr std::array<std::string_view, 12> kPrefixes = {"ROS_",        "RMW_",   "AMENT_",    "COLCON_",
+                                                        "RCUTILS_",    "RCL_",   "FASTRTPS_", "FASTDDS_",
+                                                        "CYCLONEDDS_", "ZENOH_", "LTTNG_",    "OVERRIDE_LAUNCH_"};
 constexpr std::array<std::string_view, 7> kNames = {
     "PATH", "LD_LIBRARY_PATH", "PYTHONPATH", "CMAKE_PREFIX_PATH", "PKG_CONFIG_PATH", "PYTHONUNBUFFERED", "LANG"};
 

@@ -46,7 +46,7 @@ class ServiceManagerTest : public testing::Test {
     return all;
   }
 
-  std::string directory_ = "/tmp/service_manager_test.XXXXXX";
+  std::string directory_ = testing::TempDir() + "service_manager_test.XXXXXX";
   std::string path_;
   launch::UniqueFd socket_;
   launch::FakeEventLoop loop_;

@@ -326,10 +326,7 @@ class Builder {
     timer.runs = times.size();
     timer.run_times.values = {0};
     timer.group = add_group({node, executor_of_node(node), false});
-    Output output;
-    output.publisher = publisher;
-    output.client = client;
-    timer.outputs.push_back(output);
+    timer.outputs.push_back({.publisher = publisher, .client = client});
     miss(fmt::format("{} sent {} {} outside of its callbacks; a timer of {:.3g} ms stands for that", name, times.size(),
                      what, static_cast<double>(timer.period_ns) / 1e6));
     system_.callbacks.push_back(std::move(timer));

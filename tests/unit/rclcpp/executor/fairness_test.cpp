@@ -94,8 +94,12 @@ class FairnessTest : public RosTest {
   void spin_with_threads_and_expect_fairness() {
     for (const std::size_t threads : {1, 2, 4}) {
       SCOPED_TRACE(std::to_string(threads) + " threads");
-      spin_and_expect_fairness(
-          std::make_shared<rclcpp::executors::MultiThreadedExecutor>(rclcpp::ExecutorOptions(), threads));
+      {
+        SCOPED_TRACE("MultiThreadedExecutor");
+        spin_and_expect_fairness(
+            std::make_shared<rclcpp::executors::MultiThreadedExecutor>(rclcpp::ExecutorOptions(), threads));
+      }
+      SCOPED_TRACE("EventsCBGExecutor");
       spin_and_expect_fairness(
           std::make_shared<rclcpp::executors::EventsCBGExecutor>(rclcpp::ExecutorOptions(), threads));
     }

@@ -139,7 +139,7 @@ class Unit : public testing::Test {
 };
 
 TEST_F(Unit, PrintsAUnitOfTheFile) {
-  Command command{.argv = {LAUNCH_PROGRAM, "unit", "install", "--print", "--as", "ada", "--realtime",
+  Command command{.argv = {LAUNCH_PROGRAM, "unit", "install", "--print", "--as", "daemon", "--realtime",
                            write(R"xml(<arg name="word"/><executable cmd="sleep 1" sigterm_timeout="50"/>)xml"),
                            "word:=a b$c%d\"e"}};
   command.environment = {{"ROS_DOMAIN_ID", "7"}, {"AMENT_PREFIX_PATH", "/opt/100%"}, {"SECRET", "x"}};
@@ -149,7 +149,7 @@ TEST_F(Unit, PrintsAUnitOfTheFile) {
                               "Description=launch robot.launch.xml\n"));
   EXPECT_THAT(text, HasSubstr("ExecStart=\"" + std::string(LAUNCH_PROGRAM) + "\" \"" +
                               (sandbox_.directory() / "robot.launch.xml").string() + "\" \"word:=a b$$c%%d\\\"e\"\n"));
-  EXPECT_THAT(text, HasSubstr("\nUser=ada\n"));
+  EXPECT_THAT(text, HasSubstr("\nUser=daemon\n"));
   EXPECT_THAT(text, HasSubstr("\nEnvironment=\"ROS_DOMAIN_ID=7\"\n"));
   EXPECT_THAT(text, HasSubstr("\nEnvironment=\"AMENT_PREFIX_PATH=/opt/100%%\"\n"));
   EXPECT_THAT(text, Not(HasSubstr("SECRET")));
@@ -162,6 +162,26 @@ TEST_F(Unit, AFileWithAnErrorMakesNoUnit) {
   const CommandResult result = run_command({LAUNCH_PROGRAM, "unit", "install", file});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr(file + ":2:2: error: "));
+  const std::string good = write(R"xml(<executable cmd="true"/>)xml");
+  const auto error_of = [&](const std::vector<std::string>& words) {
+    std::vector<std::string> all = {LAUNCH_PROGRAM, "unit"};
+    all.insert(all.end(), words.begin(), words.end());
+    const CommandResult refused = run_command(Command{.argv = std::move(all)});
+    EXPECT_NE(refused.exit_code, 0);
+    EXPECT_EQ(refused.out, "");
+    return refused.err;
+  };
+  EXPECT_EQ(error_of({"install", "--print", "--env", "NOT_THERE", good}),
+            "launch unit: error: there is no variable 'NOT_THERE' to take along\n");
+  EXPECT_THAT(error_of({"install", "--print", "--option=--tarce", good}),
+              HasSubstr("launch: error: unknown option '--tarce'\n      = help: did you mean '--trace'?\n"));
+  EXPECT_EQ(error_of({"status"}),
+            "launch unit status: error: the name of a unit is missing\n"
+            "      = help: see 'launch unit status --help'\n");
+  if (::geteuid() == 0) {
+    EXPECT_EQ(error_of({"install", "--print", "--as", "no-such-user", good}),
+              "launch unit: error: there is no user 'no-such-user'\n");
+  }
   const CommandResult unknown = run_command({LAUNCH_PROGRAM, "unit", "instal", file});
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_THAT(unknown.err,
@@ -174,7 +194,7 @@ TEST_F(Unit, SystemdRunsItAndTheJournalKnowsWhereLinesComeFrom) {
   }
   const std::string file = write(
       R"xml(<executable name="first" shell="true" output="screen"
-                cmd="echo [WARN] careful; env | grep -c NOTIFY_SOCKET; touch here; cat &lt; begin; echo up; sleep 1000"/>
+                cmd="echo [WARN] careful; echo home $HOME; env | grep -c NOTIFY_SOCKET; touch here; cat &lt; begin; echo up; sleep 1000"/>
 <executable name="second" cmd="sleep 1000"><depends_on process="first" condition="output" pattern="up"/></executable>)xml");
   ASSERT_EQ(inside({"mkfifo", (sandbox_.directory() / "begin").string()}).exit_code, 0);
   const CommandResult installed = unit({"install", file});
@@ -197,6 +217,7 @@ TEST_F(Unit, SystemdRunsItAndTheJournalKnowsWhereLinesComeFrom) {
   EXPECT_EQ(careful.value("LAUNCH_PROCESS", ""), "first-1");
   EXPECT_EQ(careful.value("CODE_FILE", ""), file);
   EXPECT_EQ(careful.value("CODE_LINE", ""), "2");
+  EXPECT_EQ(lines.count("[first-1] home /root"), 1u) << "nodes need a home";
   EXPECT_EQ(lines.count("[first-1] 0"), 1u) << "processes must not get the socket of the launch";
 
   EXPECT_EQ(inside({"systemctl", "stop", "launch-robot"}).exit_code, 0);
