@@ -155,7 +155,9 @@ TEST_F(OtherSideTest, ProfilesAreReadFromBothVariables) {
   Command command{{kPing}};
   command.environment["FASTDDS_DEFAULT_PROFILES_FILE"] = file + ".none";
   RunningCommand ping(command);
-  EXPECT_TRUE(ping.wait_for_output(file + ".none")) << ping.out() << ping.err();
+  EXPECT_TRUE(ping.wait_for_output("FASTDDS_DEFAULT_PROFILES_FILE is '" + file +
+                                   ".none', whose profiles cannot be read; they have no effect"))
+      << ping.out() << ping.err();
 }
 
 }  // namespace

@@ -136,9 +136,10 @@ class LaunchTest(unittest.TestCase):
     def test_failures_and_errors(self):
         output, outcomes = self.outcomes('fails.py', code=1)
         # The program may get Ctrl-C before it can handle it: Python ends with 1 while it starts, by the signal later.
+        # SIGTERM follows where the machine was too busy for that.
         outcome, message = outcomes.pop('TestExit.test_exit_codes')
         self.assertEqual(outcome, 'failure')
-        self.assertRegex(message, '^AssertionError: Proc keep_alive_proc-1 exited with code (0|1|-2)$')
+        self.assertRegex(message, '^AssertionError: Proc keep_alive_proc-1 exited with code (0|1|-2|-15)$')
         self.assertEqual(outcomes, {
             'TestFailures.test_error': ('error', "KeyError: 'nothing'"),
             'TestFailures.test_failure': ('failure', "AssertionError: Waiting for output timed out: 'never'")})

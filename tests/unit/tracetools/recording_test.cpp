@@ -123,6 +123,7 @@ TEST_F(Recording, GoesOnWhileSessionsComeAndGo) {
   RunningCommand process(test_support::Command{.argv = {MESSAGES_COME_AND_GO}});
   ASSERT_TRUE(process.wait_for_output("ready"));
   constexpr int kSessions = 8;
+  std::size_t most_threads = 0;  // on a busy machine a session may end before each thread had its turn
   for (int i = 0; i < kSessions; ++i) {
     const std::string session = "session" + std::to_string(i);
     create(session);
@@ -149,8 +150,10 @@ TEST_F(Recording, GoesOnWhileSessionsComeAndGo) {
       }
       last = name;
     }
-    EXPECT_EQ(last_of_thread.size(), 3u) << text.out;
+    EXPECT_LE(last_of_thread.size(), 3u) << text.out;
+    most_threads = std::max(most_threads, last_of_thread.size());
   }
+  EXPECT_EQ(most_threads, 3u);
   process.close_input();
   EXPECT_EQ(process.wait().exit_code, 0);
 }

@@ -115,10 +115,7 @@ bool ForwardingTransport::is_reachable(const rtps::Locator& locator) const {
     return true;
   }
   struct stat port {};
-  if (stat(shared_memory_port_file(locator.port).c_str(), &port) != 0) {
-    return RMW_FASTDDS_MAJOR >= 3;
-  }
-  return port.st_uid == geteuid();
+  return stat(shared_memory_port_file(locator.port).c_str(), &port) == 0 && port.st_uid == geteuid();
 }
 
 std::string shared_memory_port_file(std::uint32_t port) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "participant/participant.hpp"
 
+#include <unistd.h>
+
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
@@ -138,13 +140,19 @@ void load_profiles(fdds::DomainParticipantFactory& factory) {
     const char* value = std::getenv(name);
     return value != nullptr && *value != '\0' ? value : nullptr;
   };
-  const char* const read_by_fast_dds = file_of(names[RMW_FASTDDS_MAJOR >= 3 ? 1 : 0]);
+  const char* const of_fast_dds = names[RMW_FASTDDS_MAJOR >= 3 ? 1 : 0];
   const char* const other = names[RMW_FASTDDS_MAJOR >= 3 ? 0 : 1];
-  if (const char* const file = file_of(other); file != nullptr && read_by_fast_dds == nullptr) {
-    if (factory.load_XML_profiles_file(file) != rmw_fastrtps::return_code::kOk) {
-      rcutils_log(nullptr, RCUTILS_LOG_SEVERITY_ERROR, "rmw_fastrtps",
-                  "%s is '%s', whose profiles cannot be read; they have no effect", other, file);
-    }
+  const char* name = of_fast_dds;
+  const char* file = file_of(name);
+  bool is_read = true;
+  if (file != nullptr) {
+    is_read = access(file, R_OK) == 0;  // not every release of Fast DDS names the file that it misses
+  } else if (name = other, file = file_of(name); file != nullptr) {
+    is_read = factory.load_XML_profiles_file(file) == rmw_fastrtps::return_code::kOk;
+  }
+  if (!is_read) {
+    rcutils_log(nullptr, RCUTILS_LOG_SEVERITY_ERROR, "rmw_fastrtps",
+                "%s is '%s', whose profiles cannot be read; they have no effect", name, file);
   }
   factory.load_profiles();
 }
