@@ -186,6 +186,7 @@ int print_report(const Arguments& arguments) {
     reader.read(analysis);
     report.results = analysis.finish();
   } catch (const tracing::TraceReadError& error) {
+    analysis.doubt_all();
     report.results = analysis.finish();
     if (report.results.overview.events == 0) {
       throw;

@@ -293,11 +293,13 @@ TEST_P(PingPong, KillOfTheLauncherLeavesNoProcessNoSessionAndAWholeTrace) {
   EXPECT_EQ(read.err, "");
   EXPECT_THAT(read.out, HasSubstr("ros2:callback_end"));
   // On a busy machine the launcher may be killed before the session daemon knows it. Nothing else may be missing.
-  EXPECT_THAT(read_file(only_trace(sandbox_) / "verdict.json"),
-              AnyOf(HasSubstr("\"complete\": true"),
-                    HasSubstr("\"cut_short\": false,\n  \"damage\": \"\",\n  \"absent\": [\n    \"the launcher's own events are "
-                              "missing: the session daemon had not registered the launcher when the launch ended\"\n  ],\n"
-                              "  \"discarded_events\": 0,\n  \"lost_packets\": 0,")));
+  EXPECT_THAT(
+      read_file(only_trace(sandbox_) / "verdict.json"),
+      AnyOf(
+          HasSubstr("\"complete\": true"),
+          HasSubstr("\"cut_short\": false,\n  \"damage\": \"\",\n  \"absent\": [\n    \"the launcher's own events are "
+                    "missing: the session daemon had not registered the launcher when the launch ended\"\n  ],\n"
+                    "  \"discarded_events\": 0,\n  \"lost_packets\": 0,")));
 }
 
 TEST(PingPongPlan, DryRunStartsNothingAndShowsBothNodes) {

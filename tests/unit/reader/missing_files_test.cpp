@@ -115,8 +115,9 @@ TEST_F(MissingFiles, TheMetadataOfOneHalf) {
 
 TEST_F(MissingFiles, APacketThatIsGoneWithItsIndex) {
   const auto verdict = [this](const std::string& bytes, const std::string& more = "") {
-    std::ofstream(directory_.path() / "verdict.json") << R"({"channels": [{"counted_by": "packets", "bytes": )" << bytes
-                                                      << R"(}, {"counted_by": "x", "bytes": 9999999}])" << more << "}";
+    std::ofstream(directory_.path() / "verdict.json")
+        << R"({"channels": [{"domain": "ust", "counted_by": "packets", "bytes": )" << bytes
+        << R"(}, {"domain": "ust", "counted_by": "daemon", "bytes": 9999999}])" << more << "}";
   };
   testing::RecordingSink sink;
   verdict("1");
@@ -125,8 +126,11 @@ TEST_F(MissingFiles, APacketThatIsGoneWithItsIndex) {
   EXPECT_THROW(TraceReader(directory_.path()).read(sink), TraceReadError);
   verdict("9999999", R"(, "reasons": ["it does not know"])");
   TraceReader(directory_.path()).read(sink);
+  verdict("1", R"(, "reasons": ["a signal"], "bytes": {"ust": 9999999})");
+  EXPECT_THROW(TraceReader(directory_.path()).read(sink), TraceReadError);
   std::ofstream(directory_.path() / "verdict.json") << "{";
-  TraceReader(directory_.path()).read(sink);
+  EXPECT_THAT(damage(directory_.path()), ElementsAre("'" + (directory_.path() / "verdict.json").string() +
+                                                     "' is broken, so nothing tells what else is missing"));
 }
 
 TEST_F(MissingFiles, AnIndexThatIsNoneTellsNothing) {

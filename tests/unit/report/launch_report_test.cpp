@@ -142,11 +142,40 @@ TEST_F(LaunchReport, WhatTheVerdictCountsAndTheTraceLacksIsDamage) {
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.out, HasSubstr(what + "\n"));
   EXPECT_THAT(outcome.out, HasSubstr("\nDamaged    "));
-  EXPECT_THAT(outcome.out, HasSubstr("\nLosses     unknown, as a part of the trace is missing\n"));
+  EXPECT_THAT(
+      outcome.out,
+      HasSubstr("\nLosses     unknown, as a part of the trace is missing; results marked with * may be wrong\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("\n  /pong, subscription /ping *"));
   EXPECT_THAT(outcome.err, HasSubstr(what));
   EXPECT_EQ(launch_report(path_ + " --summary").exit_code, 1);
   write_verdict(bytes);
   EXPECT_EQ(launch_report(path_).exit_code, 0);
+}
+
+// Each domain has its own size: what the kernel recorded does not stand for what processes recorded.
+TEST_F(LaunchReport, ADomainThatLacksBytesIsDamageWhateverAnotherHas) {
+  const fs::path trace = directory_.path() / "ust/uid/0/64-bit";
+  TraceWriter writer(trace);
+  write_ping_pong(writer);
+  writer.finish();
+  TraceReader reader(trace);
+  reader.next();
+  const std::uint64_t bytes = reader.content_bytes().value_or(0);
+  std::ofstream(directory_.path() / "verdict.json") << fmt::format(
+      R"json({{"damage": "", "channels": [{{"domain": "ust", "counted_by": "packets", "bytes": {}}},
+                                       {{"domain": "kernel", "counted_by": "kernel recorder", "bytes": 500}}]}})json",
+      bytes);
+  EXPECT_THAT(launch_report(path_).err,
+              HasSubstr("lacks 500 of the 500 bytes that the session recorded in domain kernel"));
+
+  std::ofstream(directory_.path() / "verdict.json")
+      << fmt::format(R"json({{"reasons": ["a signal"], "damage": "", "bytes": {{"ust": {}}}}})json", bytes + 7);
+  const Outcome snapshot = launch_report(path_ + " --fail-on incomplete");
+  EXPECT_THAT(snapshot.err, HasSubstr(fmt::format("lacks 7 of the {} bytes that the session recorded", bytes + 7)));
+  EXPECT_NE(snapshot.exit_code, 0);
+
+  std::ofstream(directory_.path() / "verdict.json") << "{";
+  EXPECT_THAT(launch_report(path_).err, HasSubstr("verdict.json' is broken, so nothing tells what else is missing"));
 }
 
 TEST_F(LaunchReport, WhatWasOverwrittenOrOnlyTheDaemonCountedIsSaid) {

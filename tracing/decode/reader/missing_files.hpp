@@ -6,7 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -19,8 +19,11 @@ std::vector<std::string> missing_packets(const std::filesystem::path& trace);
 // A line for each directory at or below this one that has stream files but no metadata, and that nobody is writing to.
 std::vector<std::string> missing_metadata(const std::filesystem::path& directory);
 
-// How many bytes the packets of the trace had together when it was recorded, by its verdict.json. nullopt: it has none,
-// or does not know all packets.
-std::optional<std::uint64_t> recorded_bytes(const std::filesystem::path& trace);
+// How many bytes the packets of each domain ("ust", "kernel") had together when it was recorded, by its verdict.json.
+// A domain is not there when the verdict does not know all of its packets.
+std::map<std::string, std::uint64_t> recorded_bytes(const std::filesystem::path& trace);
+
+// A line if there is a verdict.json that can't be read; else empty.
+std::string broken_verdict(const std::filesystem::path& trace);
 
 }  // namespace tracing

@@ -39,6 +39,11 @@ TraceReader::TraceReader(const std::vector<std::filesystem::path>& directories, 
   std::erase_if(traces, [&seen](const std::filesystem::path& trace) {
     return !seen.insert(std::filesystem::weakly_canonical(trace)).second;
   });
+  for (const std::filesystem::path& directory : directories) {
+    if (std::string line = broken_verdict(directory); !line.empty()) {
+      missing.push_back(std::move(line));
+    }
+  }
   std::vector<std::filesystem::path>& open = implementation_->open_directories;
   for (const std::filesystem::path& trace : traces) {
     if (is_being_written(trace)) {

@@ -212,6 +212,7 @@ TraceOverview OverviewCounter::overview() const {
   }
   for (const Row& row : rows()) {
     ProcessResult process{.name = row.name, .host = row.host};
+    process.doubtful = doubts_all_;
     process.folded = row.of_kernel_alone ? row.processes.size() : 0;
     if (row.processes.size() == 1) {
       process.vpid = processes_.processes()[row.processes.front()].vpid;

@@ -24,6 +24,8 @@ class OverviewCounter : public TraceSink {
   void on_event(const Event& event) override { count(event); }
   void on_loss(const Loss& loss) override;
 
+  // Nobody knows which processes had the events that are missing.
+  void doubt_all() { doubts_all_ = true; }
   TraceOverview overview() const;
 
   // For one that also needs the process of each event: counts the event and returns its process. kNoProcess: it is the
@@ -99,6 +101,7 @@ class OverviewCounter : public TraceSink {
   std::vector<CountedClass> classes_;            // by EventClass::id
   std::map<std::string, CountedClass> loggers_;  // by the name in the overview
   std::map<std::string, CountedLoss> losses_;    // by stream
+  bool doubts_all_ = false;
 };
 
 }  // namespace tracing

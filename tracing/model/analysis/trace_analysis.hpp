@@ -34,6 +34,8 @@ class TraceAnalysis : public TraceSink {
   void on_event(const Event& event) override;
   void on_loss(const Loss& loss) override;
 
+  // Before finish(): a part of the trace could not be read or is missing, so that all results may be wrong.
+  void doubt_all() { overview_.doubt_all(); }
   // To be called once, at the end. Tells the sink what was not finished.
   TraceResults finish();
 

@@ -7,6 +7,7 @@
 #include <bit>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
@@ -270,6 +271,7 @@ void write_snapshot_verdict(const std::filesystem::path& directory, const std::s
   std::uint64_t lost = 0;
   std::uint64_t begin = std::numeric_limits<std::uint64_t>::max();
   std::uint64_t end = 0;
+  std::map<std::string, std::uint64_t> bytes;
   for (const Stream& stream : streams) {
     const PacketLosses losses = losses_of(stream);
     discarded += losses.discarded_events;
@@ -277,6 +279,7 @@ void write_snapshot_verdict(const std::filesystem::path& directory, const std::s
     for (const Packet& packet : stream.packets) {
       begin = std::min(begin, packet.begin);
       end = std::max(end, packet.end);
+      bytes[stream.domain] += packet.bytes;
     }
   }
   const bool complete = discarded == 0 && lost == 0 && account.absences.empty() && account.unwritten.empty();
@@ -287,6 +290,7 @@ void write_snapshot_verdict(const std::filesystem::path& directory, const std::s
                                  {"absent", nlohmann::ordered_json::array()},
                                  {"discarded_events", discarded},
                                  {"lost_packets", lost},
+                                 {"bytes", bytes},
                                  {"begin_ns", std::min(begin, end)},
                                  {"end_ns", end}};
   for (const Absence& absence : account.absences) {

@@ -49,6 +49,7 @@ compare::RunSummary read_run(const std::vector<fs::path>& directories) {
     reader.read(analysis);
     results = analysis.finish();
   } catch (const TraceReadError& failure) {
+    analysis.doubt_all();
     results = analysis.finish();
     if (results.overview.events == 0) {
       throw;

@@ -59,6 +59,7 @@ TracedSystem read_system(const std::vector<std::filesystem::path>& directories, 
       throw;
     }
     system.error = error.what();
+    analysis.doubt_all();
   }
   system.results = analysis.finish();
   if (system.error.empty()) {

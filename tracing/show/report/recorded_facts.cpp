@@ -71,7 +71,7 @@ std::optional<std::uint64_t> content_bytes(const nlohmann::json& verdict) {
   }
   std::uint64_t bytes = 0;
   for (const nlohmann::json& channel : verdict["channels"]) {
-    if (channel.is_object() && text(channel, "counted_by") == "packets") {
+    if (channel.is_object() && text(channel, "counted_by") != "daemon") {
       bytes += static_cast<std::uint64_t>(number(channel, "bytes"));
     }
   }

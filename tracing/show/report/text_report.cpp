@@ -62,9 +62,9 @@ std::string head(const Report& report, bool color) {
   }
   text += fmt::format("Events     {} of {}\n", overview.events, processes_phrase(overview));
   text += cost_line(report);
-  const bool doubtful = !overview.losses.empty();
+  const bool doubtful = !overview.losses.empty() || !report.error.empty();
   const RecordedVerdict& verdict = report.verdict;
-  const bool counts_none = !doubtful && verdict.discarded_events == 0 && verdict.lost_packets == 0;
+  const bool counts_none = overview.losses.empty() && verdict.discarded_events == 0 && verdict.lost_packets == 0;
   const bool none = counts_none && report.error.empty();
   const std::string losses = counts_none && !none                  ? "unknown, as a part of the trace is missing"
                              : none && verdict.overwritten.empty() ? "no events lost"

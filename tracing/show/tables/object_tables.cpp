@@ -80,7 +80,7 @@ void add_object_tables(const TracedSystem& system, std::vector<Table>& tables) {
           const ProcessResult* result = result_of(all, process);
           return result == nullptr ? Cell{} : number(result->doubtful);
         },
-        "1: a buffer that the process may have used lost events"}}));
+        "1: a buffer that the process may have used lost events, or a part of the trace is missing"}}));
   tables.push_back(table_of<timeline::Thread>(
       "threads", "those that ran callbacks, published or waited for work", system, timeline.threads,
       {{"process", kInteger, [](System, const auto& thread) { return reference(thread.process); }, "in `processes`"},

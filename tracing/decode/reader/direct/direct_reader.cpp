@@ -229,10 +229,12 @@ void DirectReader::open_trace(Trace& trace) {
       note(fmt::format("'{}': {}", path.string(), gone.message()));
     }
   }
+  std::uint64_t& bytes_of_domain = bytes_of_domains_[std::string(descriptions_[trace.number].text("domain"))];
   for (auto& [key, stream] : found) {
     put_in_order(stream.packets);
     for (const ctf::Packet& packet : stream.packets) {
       content_bytes_ += packet.content_bits / 8;
+      bytes_of_domain += packet.content_bits / 8;
     }
     Stream description{stream.name, trace.number, trace.declarations.environment_number("vpid")};
     streams_.push_back(std::make_unique<OpenStream>(trace, *trace.stream_classes.at(std::get<0>(key)),
@@ -277,9 +279,14 @@ void DirectReader::find_streams() {
   for (const auto& trace : traces_) {
     open_trace(*trace);
   }
-  if (expected_bytes_ && content_bytes_ < *expected_bytes_ && damage_.empty()) {
-    note(fmt::format("'{}' lacks {} of the {} bytes that the session recorded", directory_.string(),
-                     *expected_bytes_ - content_bytes_, *expected_bytes_));
+  if (damage_.empty()) {
+    for (const auto& [domain, expected] : expected_bytes_) {
+      if (const std::uint64_t there = bytes_of_domains_[domain]; there < expected) {
+        note(fmt::format("'{}' lacks {} of the {} bytes that the session recorded{}", directory_.string(),
+                         expected - there, expected,
+                         expected_bytes_.size() == 1 ? "" : fmt::format(" in domain {}", domain)));
+      }
+    }
   }
   // What all streams have in memory is bounded as long as there are not too many of them.
   constexpr std::size_t kOfAll = 2 << 20;  // bytes

@@ -5,9 +5,11 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tracing/decode/reader/event_counts.hpp"
@@ -26,8 +28,10 @@ class DirectReader {
 
   // Adds a line to damage().
   void note(const std::string& damage);
-  // Notes it when the packets have fewer bytes.
-  void expect_bytes(std::optional<std::uint64_t> bytes) { expected_bytes_ = bytes; }
+  // Notes it when the packets of a domain have fewer bytes.
+  void expect_bytes(std::map<std::string, std::uint64_t> bytes_of_domains) {
+    expected_bytes_ = std::move(bytes_of_domains);
+  }
   // Gives all items, and throws nothing of its own.
   void read(TraceSink& sink);
   // As in TraceReader.
@@ -63,7 +67,8 @@ class DirectReader {
   std::vector<std::string> clock_notes_;
   bool lacks_descriptions_ = false;
   std::uint64_t content_bytes_ = 0;
-  std::optional<std::uint64_t> expected_bytes_;
+  std::map<std::string, std::uint64_t> bytes_of_domains_;
+  std::map<std::string, std::uint64_t> expected_bytes_;
 };
 
 }  // namespace tracing

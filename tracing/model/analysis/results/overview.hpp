@@ -26,7 +26,8 @@ inline constexpr Field<ProcessResult> ProcessResult::kFields[] = {
      "how many processes of this name have events of the kernel alone; these stand behind the others. 0: one process "
      "with events of its own",
      trait::kNotOnPage},
-    {"doubtful", &ProcessResult::doubtful, "a buffer that the process may have used lost events"},
+    {"doubtful", &ProcessResult::doubtful,
+     "a buffer that the process may have used lost events, or a part of the trace is missing"},
 };
 
 // The place of a process in TraceOverview::processes.

@@ -27,7 +27,8 @@ function openFinding({kind, callback, topic}) {
 
 function overviewView(data) {
   const {overview} = data;
-  const lost = lossText(overview);
+  const counted = lossText(overview);
+  const lost = counted === 'none' && data.error ? 'unknown' : counted;
   const nodes = data.nodes.length;
   const topics = data.topics.filter(name => !isInternalTopic(name)).length;
   const found = data.findings;
@@ -39,7 +40,7 @@ function overviewView(data) {
       `from ${formatTime(-data.whole.begin)} on. launch report --html FILE --from +SECONDS --to +SECONDS chooses another part. Findings, chains, and the numbers of events and losses are those of the whole trace.`) : null,
     element('div', {class: 'tiles'},
       tile(formatDuration(data.duration), 'recorded'), tile(formatCount(overview.events), 'events'),
-      tile(lost, lost === 'none' ? 'events lost' : 'lost', lost === 'none' ? 'good' : 'bad'),
+      tile(lost, lost === 'none' || lost === 'unknown' ? 'events lost' : 'lost', lost === 'none' ? 'good' : 'bad'),
       tile(formatCount(data.processes.filter(process => process.events > 0).length), ofKernel === 0 ? 'processes' : `processes, ${formatCount(ofKernel)} more of the kernel's events`), tile(formatCount(nodes), 'nodes'), tile(formatCount(topics), 'topics'),
       tile(formatCount(data.instances.count), 'callbacks run'), tile(formatCount(data.messages.count), 'messages')),
     data.absences.length + data.unseen_chains.length + data.overwritten.length === 0 ? null : panel('Not there', element('ul', {class: 'absences'},
