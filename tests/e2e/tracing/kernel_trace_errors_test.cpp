@@ -46,6 +46,28 @@ TEST_F(KernelTrace, ContextFieldsThatTracefsDoesNotTellAreAnErrorAtTheTrace) {
                                     "install lttng-modules-dkms"));
 }
 
+// The kernel's numbers are others than those in a container: a thread of the machine must not be taken for a node's.
+TEST_F(KernelTrace, InAContainerProcessesHaveTheirNamespace) {
+  const fs::path path = sandbox_.directory() / "system.launch.xml";
+  write_file(path, "<launch>\n<trace session-name=\"" + session_ + R"(" events-kernel="sched_switch"/>
+<executable cmd="sh -c ')" TRACED_APP R"( 3 10 &lt;/dev/null'"/>
+</launch>
+)");
+  const CommandResult result =
+      run_command({"unshare", "--pid", "--fork", "--kill-child", "--mount-proc", LAUNCH_PROGRAM, path});
+  EXPECT_THAT(result.out + result.err,
+              HasSubstr("this launch has a namespace of process ids: the kernel's events have other numbers for its "
+                        "threads, so they do not tell where the time of its callbacks goes; LTTng's modules know both "
+                        "numbers"));
+  std::size_t of_nodes = 0;
+  for (const std::string& line : lines_of(sandbox_.trace_directory() / session_)) {
+    const bool is_of_kernel = line.find(" sched_switch: ") != std::string::npos;
+    EXPECT_EQ(line.find("pid_ns = ") == std::string::npos, is_of_kernel) << line;
+    of_nodes += is_of_kernel ? 0 : 1;
+  }
+  EXPECT_GT(of_nodes, 0U);
+}
+
 TEST_F(KernelTrace, WhoIsNotRootIsToldWhatToDo) {
   const std::vector<std::string> as_nobody = {"setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"};
   std::vector<std::string> reach = as_nobody;

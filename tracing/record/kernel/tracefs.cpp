@@ -15,6 +15,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "tracing/record/kernel/pid_namespace.hpp"
+
 namespace tracing::kernel {
 namespace {
 
@@ -191,9 +193,8 @@ std::vector<EventFormat> TracefsInstance::formats() const {
 
 void TracefsInstance::leave_out(const std::vector<std::string>& processes) {
   constexpr const char* kFile = "set_event_notrace_pid";
-  constexpr const char* kFirstNamespace = "pid:[4026531836]";
   std::error_code error;
-  if (fs::read_symlink("/proc/self/ns/pid", error) != kFirstNamespace || !fs::exists(directory_ / kFile, error)) {
+  if (!is_in_first_pid_namespace() || !fs::exists(directory_ / kFile, error)) {
     return;
   }
   write("options/event-fork", "1");

@@ -20,6 +20,7 @@
 #include "tracing/record/checks/kernel_checks.hpp"
 #include "tracing/record/checks/setup_checks.hpp"
 #include "tracing/record/kernel/kernel_recorder.hpp"
+#include "tracing/record/kernel/pid_namespace.hpp"
 #include "tracing/record/lttng/channels.hpp"
 #include "tracing/record/lttng/consumer_priority.hpp"
 #include "tracing/record/lttng/daemons_kept_going.hpp"
@@ -167,6 +168,19 @@ std::vector<ChannelPlan> take_kernel_channels_without_modules(const TraceConfig&
                      "name some in events-ust; LTTng's own kernel tracer is in lttng-modules-dkms");
   }
   warnings.push_back(fmt::format("{}; they are recorded through tracefs instead", why));
+  if (!is_in_first_pid_namespace()) {
+    // Else a thread of the machine would be taken for the thread of a node that has the same number here.
+    for (ChannelPlan& channel : channels) {
+      const auto& fields = channel.context_fields;
+      if (!channel.python && std::find(fields.begin(), fields.end(), "pid_ns") == fields.end()) {
+        channel.context_fields.emplace_back("pid_ns");
+      }
+    }
+    warnings.emplace_back(
+        "this launch has a namespace of process ids: the kernel's events have other numbers for its threads, so they "
+        "do "
+        "not tell where the time of its callbacks goes; LTTng's modules know both numbers");
+  }
   return kernel;
 }
 
