@@ -165,8 +165,13 @@ std::string NodeProcess::request(LaunchContext& context) const {
   find_faults_of_named_files(spec.argv, 1, arguments_end, fields_.where("args"), context);
   find_faults_of_named_files(spec.argv, arguments_end, ros_arguments_end, fields_.where("ros_args"), context);
   append_global_parameters(spec, context);
+  for (const GlobalParameter& parameter : scope.global_parameters) {
+    if (const auto* const named = std::get_if<NamedParameter>(&parameter)) {
+      node.parameters.push_back(*named);
+    }
+  }
   for (const Parameters& parameters : parameters_) {
-    parameters.append_to(spec, context, full_name);
+    parameters.append_to(spec, context, full_name, node);
   }
   for (const auto& [from, to] : scope.global_remaps) {
     remap(from + ":=" + to);

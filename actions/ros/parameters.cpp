@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 #include "actions/values/quirks.hpp"
 #include "base/diagnostics/read_source_file.hpp"
@@ -154,7 +156,8 @@ void Parameters::append_to(std::vector<NamedParameter>& parameters, LaunchContex
       context, parameters);
 }
 
-void Parameters::append_to(ProcessSpec& spec, LaunchContext& context, const std::string& qualified_name) const {
+void Parameters::append_to(ProcessSpec& spec, LaunchContext& context, const std::string& qualified_name,
+                           NodeDescription& node) const {
   Scope& scope = context.scope();
   std::string content;
   if (tree_) {
@@ -167,6 +170,8 @@ void Parameters::append_to(ProcessSpec& spec, LaunchContext& context, const std:
       content.append("    ").append(quote_yaml_if_needed(parameter.name));
       content.append(": ").append(to_yaml(parameter.value)).append("\n");
     }
+    node.value_files.push_back(spec.files.size());
+    std::ranges::move(parameters, std::back_inserter(node.parameters));
   } else {
     const std::string path = file_->perform(scope);
     if (!allow_substitutions_) {

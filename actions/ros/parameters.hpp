@@ -24,7 +24,9 @@ class Parameters {
 
   // Appends --params-file and its file to a node's argv: the named file, or one to be generated. `qualified_name` is
   // the name of the node, or empty when it isn't known; the parameters then hold for any name of the node.
-  void append_to(ProcessSpec& spec, LaunchContext& context, const std::string& qualified_name) const;
+  // Notes in `node` what it gives by name.
+  void append_to(ProcessSpec& spec, LaunchContext& context, const std::string& qualified_name,
+                 NodeDescription& node) const;
   // Appends typed values, as nodes that are loaded into a container get them; files are read now.
   void append_to(std::vector<NamedParameter>& parameters, LaunchContext& context, const KnownNodeName& node) const;
 

@@ -30,7 +30,7 @@ struct KindName {
   Kind kind;
   const char* name;
 };
-constexpr std::array<KindName, 9> kKinds{{{Kind::kInfo, "info"},
+constexpr std::array<KindName, 10> kKinds{{{Kind::kInfo, "info"},
                                           {Kind::kPs, "ps"},
                                           {Kind::kStop, "stop"},
                                           {Kind::kStart, "start"},
@@ -38,7 +38,8 @@ constexpr std::array<KindName, 9> kKinds{{{Kind::kInfo, "info"},
                                           {Kind::kSignal, "signal"},
                                           {Kind::kShutdown, "shutdown"},
                                           {Kind::kEvents, "events"},
-                                          {Kind::kOutput, "output"}}};
+                                          {Kind::kOutput, "output"},
+                                          {Kind::kReload, "reload"}}};
 
 // Names and lines of programs may hold any bytes.
 std::string dump(const Json& json) {
@@ -279,6 +280,13 @@ ControlRequest parse_control_request(std::string_view line) {
                                request.kind == Kind::kRestart || request.kind == Kind::kSignal;
   if (names_processes && request.processes.empty()) {
     refuse("\"processes\" is missing, it names the processes");
+  }
+  for (const auto& [key, flag] : {std::pair{"dry_run", &request.dry_run}, {"restart", &request.restart}}) {
+    const Json value = json.value(key, Json(false));
+    if (!value.is_boolean()) {
+      refuse(fmt::format("\"{}\" must be true or false", key));
+    }
+    *flag = value.get<bool>();
   }
   if (request.kind == Kind::kSignal) {
     request.signal = signal_of(json.value("signal", Json()));

@@ -31,11 +31,13 @@ struct LaunchFacts {
 };
 
 struct ControlRequest {
-  enum class Kind { kInfo, kPs, kStop, kStart, kRestart, kSignal, kShutdown, kEvents, kOutput };
+  enum class Kind { kInfo, kPs, kStop, kStart, kRestart, kSignal, kShutdown, kEvents, kOutput, kReload };
 
   Kind kind = Kind::kInfo;
   Steering::Patterns processes;
   int signal = 0;
+  bool dry_run = false;  // of kReload
+  bool restart = false;  // of kReload: not by setting parameters
 };
 
 // Throws std::runtime_error, with a sentence for the client, for any other text.

@@ -7,6 +7,8 @@
 #include <system_error>
 #include <utility>
 
+#include "launcher/control/reload_lines.hpp"
+
 namespace launch {
 namespace {
 
@@ -24,13 +26,13 @@ LaunchControl::LaunchControl(EventLoop& loop, int listener, ProcessSupervisor& s
                [this](ClientId client) { tell_dropped(client); }, [this](ClientId client) { forget(client); },
                [](std::string_view why) { return error_line(why); }}) {
   supervisor_.observe([this](const ProcessEvent& event) { on_event(event); });
-  steering_.observe_end([this](const std::string& reason) {
-    for (auto& [client, follower] : followers_) {
-      if (follower.events) {
-        offer(client, follower, ending_line(reason));
-      }
-    }
-  });
+  steering_.observe_end([this](const std::string& reason) { tell_followers(ending_line(reason)); });
+}
+
+void LaunchControl::use_reloads(Reloads& reloads) {
+  reloads_ = &reloads;
+  reloads.observe([this](const ReloadReport& report) { tell_followers(reload_line(report)); },
+                  [this](const ReloadEnd& end) { tell_followers(reloaded_line(end)); });
 }
 
 LaunchControl::~LaunchControl() {
@@ -64,6 +66,10 @@ std::string LaunchControl::answer(ClientId client, std::string_view line) {
     case Kind::kShutdown:
       steering_.shutdown();
       return done_line();
+    case Kind::kReload:
+      return reloads_ == nullptr
+                 ? error_line("this launch can't read its launch file again")
+                 : reload_answer_line(reloads_->ask({.only_show = request.dry_run, .restart = request.restart}));
     case Kind::kEvents:
     case Kind::kOutput:
       return follow(client, std::move(request));
@@ -104,6 +110,14 @@ void LaunchControl::tell_dropped(ClientId client) {
 void LaunchControl::offer(ClientId client, Follower& follower, std::string_view line) {
   if (!server_.offer(client, line)) {
     ++follower.dropped;
+  }
+}
+
+void LaunchControl::tell_followers(std::string_view line) {
+  for (auto& [client, follower] : followers_) {
+    if (follower.events) {
+      offer(client, follower, line);
+    }
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "launcher/control/control_protocol.hpp"
 #include "launcher/control/control_server.hpp"
+#include "launcher/run/reload/reloads.hpp"
 
 namespace launch {
 
@@ -18,6 +19,8 @@ class LaunchControl {
   // `listener` is the socket of the launch. It and all references must outlive this object. Throws std::system_error.
   LaunchControl(EventLoop& loop, int listener, ProcessSupervisor& supervisor, Steering& steering, LaunchFacts facts);
   ~LaunchControl();
+  // Without this, a reload is refused. It must outlive this object.
+  void use_reloads(Reloads& reloads);
   LaunchControl(const LaunchControl&) = delete;
   LaunchControl& operator=(const LaunchControl&) = delete;
 
@@ -38,6 +41,7 @@ class LaunchControl {
   void tell_dropped(ClientId client);
   void offer(ClientId client, Follower& follower, std::string_view line);
   void on_event(const ProcessEvent& event);
+  void tell_followers(std::string_view line);
   void on_line(const ProcessSpec& spec, ProcessId id, const std::string& label, OutputStream stream,
                std::string_view line);
   void watch_output();
@@ -45,6 +49,7 @@ class LaunchControl {
 
   ProcessSupervisor& supervisor_;
   Steering& steering_;
+  Reloads* reloads_ = nullptr;
   LaunchFacts facts_;
   std::map<ClientId, Follower> followers_;
   bool watches_output_ = false;

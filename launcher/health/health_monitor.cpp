@@ -33,6 +33,7 @@ void HealthMonitor::expect(const ProcessSpec& spec) {
 }
 
 void HealthMonitor::prepare(ProcessSpec& spec, ProcessId id) {
+  processes_.erase(id);  // it may have had other watches
   if (spec.watches.empty() || is_over_) {
     return;
   }

@@ -40,7 +40,7 @@ class HealthMonitor {
 
   // The process will start: from now on, its lines may be wanted.
   void expect(const ProcessSpec& spec);
-  // To be called before the process with this number starts for the first time, and before scopes change its spec.
+  // To be called before the process with this number starts with a new spec, and before scopes change the spec.
   void prepare(ProcessSpec& spec, ProcessId id);
   void on_event(const ProcessEvent& event);
   void on_line(ProcessId id, OutputStream stream, std::string_view line);

@@ -76,8 +76,13 @@ void Supervision::spawn(Supervised& process) {
   if (process.spec.start_limit.starts > 0) {
     process.starts.push_back(loop.now());
   }
+  const bool is_new = process.state == ProcessState::kStarting || process.next;
+  if (process.next) {
+    process.spec = process.next();
+    process.next = nullptr;
+  }
   try {
-    if (process.state == ProcessState::kStarting) {
+    if (is_new) {
       files.write(process.spec, process.id);
       process.spec.mark = guardian == nullptr ? "" : guardian->mark(process.label, process.spec);
     }
@@ -325,6 +330,32 @@ void ProcessSupervisor::restart(ProcessId id) {
 
 void ProcessSupervisor::restart_unhealthy(ProcessId id) {
   impl_->handle(*impl_->processes.at(id - 1), Event::kUnhealthy);
+}
+
+void ProcessSupervisor::adopt(ProcessId id, const ProcessSpec& spec) {
+  Supervised& process = *impl_->processes.at(id - 1);
+  ProcessSpec& now = process.spec;
+  now.python_action = spec.python_action;
+  now.other_names = spec.other_names;
+  now.respawn = spec.respawn;
+  now.start_limit = spec.start_limit;
+  now.shutdown_on_exit = spec.shutdown_on_exit;
+  now.required = spec.required;
+  now.allowed_exits = spec.allowed_exits;
+  now.sigterm_timeout = spec.sigterm_timeout;
+  now.sigkill_timeout = spec.sigkill_timeout;
+  now.origin = spec.origin;
+  if (impl_->guardian != nullptr && process.unreaped) {
+    impl_->guardian->note(id, process.process.pid, process.label, now);
+  }
+}
+
+void ProcessSupervisor::replace(ProcessId id, ProcessSpec spec, std::function<void(ProcessSpec&)> prepare) {
+  adopt(id, spec);
+  impl_->processes.at(id - 1)->next = [spec = std::move(spec), prepare = std::move(prepare)]() mutable {
+    prepare(spec);
+    return std::move(spec);
+  };
 }
 
 ProcessRunner& ProcessSupervisor::runner() const {

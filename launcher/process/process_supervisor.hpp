@@ -122,6 +122,13 @@ class ProcessSupervisor {
   // Does the same because the process is unhealthy: the start counts for its limit of starts, and may not come.
   void restart_unhealthy(ProcessId id);
 
+  // Takes over from another spec what is no matter of the start of a process: how it respawns, its timeouts, which ends
+  // are failures, its further names and its place.
+  void adopt(ProcessId id, const ProcessSpec& spec);
+  // Does so, and takes over the rest at the next start of the process. Before that, `prepare` may change the spec. The
+  // name must be the same.
+  void replace(ProcessId id, ProcessSpec spec, std::function<void(ProcessSpec&)> prepare);
+
   // By which others start helpers of a process, such as the command of a watch.
   ProcessRunner& runner() const;
 

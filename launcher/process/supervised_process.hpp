@@ -74,6 +74,7 @@ struct Supervised {
   const ProcessId id;
   const std::string label;
   ProcessSpec spec;
+  std::function<ProcessSpec()> next;  // the spec from the next start on; null: the same
   ProcessState state = ProcessState::kStarting;
   std::int64_t retries = 0;
   int requested_signal = 0;  // of the kSignal event being handled

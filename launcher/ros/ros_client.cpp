@@ -16,6 +16,7 @@ struct Describe {
   std::string operator()(const ListNodes& call) const { return service(call.container, "_container/list_nodes"); }
   std::string operator()(const ChangeState& call) const { return service(call.node, "change_state"); }
   std::string operator()(const GetState& call) const { return service(call.node, "get_state"); }
+  std::string operator()(const SetParameters& call) const { return service(call.node, "set_parameters_atomically"); }
   std::string operator()(const NodePresent& wait) const { return fmt::format("the node '{}'", wait.node); }
   std::string operator()(const TopicPresent& wait) const { return fmt::format("a publisher of '{}'", wait.topic); }
   std::string operator()(const ServicePresent& wait) const { return fmt::format("the '{}' service", wait.service); }

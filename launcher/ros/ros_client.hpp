@@ -40,6 +40,12 @@ struct GetState {
   std::string node;
 };
 
+// All of them or none.
+struct SetParameters {
+  std::string node;
+  std::vector<NamedParameter> parameters;
+};
+
 // Conditions. Each is answered when it holds; at once if it holds already.
 struct NodePresent {
   std::string node;
@@ -76,7 +82,7 @@ struct WatchMessages {
 };
 
 using RosRequest =
-    std::variant<LoadNode, UnloadNode, ListNodes, ChangeState, GetState, NodePresent, TopicPresent, ServicePresent,
+    std::variant<LoadNode, UnloadNode, ListNodes, ChangeState, GetState, SetParameters, NodePresent, TopicPresent, ServicePresent,
                  MessagePublished, StateReached, ParameterReached, WatchTransitions, WatchMessages>;
 
 struct RosAnswer {

@@ -120,6 +120,9 @@ struct Write {
     return {{"do", "change_state"}, {"node", r.node}, {"transition", r.transition}};
   }
   Json operator()(const GetState& r) const { return {{"do", "get_state"}, {"node", r.node}}; }
+  Json operator()(const SetParameters& r) const {
+    return {{"do", "set_parameters"}, {"node", r.node}, {"parameters", to_json(r.parameters)}};
+  }
   Json operator()(const NodePresent& r) const { return {{"do", "wait_node"}, {"node", r.node}}; }
   Json operator()(const TopicPresent& r) const { return {{"do", "wait_topic"}, {"topic", r.topic}}; }
   Json operator()(const ServicePresent& r) const { return {{"do", "wait_service"}, {"service", r.service}}; }
@@ -165,6 +168,9 @@ RosRequest request_from(const std::string& what, const Json& json) {
   }
   if (what == "get_state") {
     return GetState{text("node")};
+  }
+  if (what == "set_parameters") {
+    return SetParameters{text("node"), parameters_from(json.at("parameters"))};
   }
   if (what == "wait_node") {
     return NodePresent{text("node")};

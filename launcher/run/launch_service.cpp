@@ -69,7 +69,11 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
       handlers_(
           loop, [this](const Invocation& invocation) { visit(invocation); }, [this] { check_finished(); },
           [this](const LaunchError& error) { fail(error); }),
-      timers_(loop, [this](TimerRequest timer) { visit(std::move(timer.scope), timer.actions); }),
+      timers_(loop, [this](TimerRequest timer) { visit(std::move(timer)); }),
+      reloads_({context, loop, supervisor, processes_, handlers_, timers_, steering_},
+               {[this] { return rounds_.empty() && handlers_.idle(); },
+                [this](Requests requests) { carry_out(std::move(requests), Asker::kFile); }, errors_,
+                [this] { post_check(); }}),
       coroutines_(
           context, loop, [this] { on_coroutine_step(); }, [this](const LaunchError& error) { fail(error); }),
       ros_tasks_(
@@ -96,9 +100,10 @@ void LaunchService::use_guardian(Guardian& guardian) {
 
 int LaunchService::run(const LaunchDescription& description) {
   signals_.listen();
+  context_.keep_beginning();
   loop_.post([this, &description] {
     const Duration before = loop_.now();
-    traverse({description.file, 0, 0}, [&] {
+    traverse({description.file, 0, 0}, Asker::kFile, [&] {
       context_.visit(description);
       timing_.push_back({"visit", loop_.now() - before});
     });
@@ -146,7 +151,10 @@ void LaunchService::on_process_event(const ProcessEvent& event) {
   processes_.on_event(event);
   test_.on_event(event);
   steering_.on_event(event);
-  handlers_.on_event(event);
+  if (!reloads_.has_asked_for(event)) {
+    handlers_.on_event(event);
+  }
+  reloads_.on_event(event);
   on_end_of_required(event);
   ros_tasks_.on_process_event(event);
   check_started();
@@ -171,23 +179,28 @@ void LaunchService::on_coroutine_step() {
   if (requests.empty()) {
     check_finished();
   } else {
-    carry_out(std::move(requests));
+    carry_out(std::move(requests), Asker::kHandler);
   }
 }
 
 // A traversal, from the visit to the start of its processes.
 
-void LaunchService::visit(Scope scope, const std::vector<ActionPtr>& actions) {
-  traverse(actions.empty() ? SourceRange() : actions.front()->where(),
-           [&] { context_.visit_in(std::move(scope), actions); });
+void LaunchService::visit(TimerRequest timer) {
+  const std::vector<ActionPtr>& actions = timer.actions;
+  traverse(actions.empty() ? SourceRange() : actions.front()->where(), timer.by_handler ? Asker::kHandler : Asker::kFile,
+           [&] { context_.visit_in(std::move(timer.scope), actions); });
 }
 
 void LaunchService::visit(const Invocation& invocation) {
   const std::vector<ActionPtr>& actions = invocation.handler->actions;
-  traverse(actions.empty() ? SourceRange() : actions.front()->where(), [&] { context_.visit(invocation); });
+  const EventHandler& handler = *invocation.handler;
+  reloads_.note(invocation);
+  traverse(actions.empty() ? SourceRange() : actions.front()->where(),
+           std::holds_alternative<OnceReady>(handler.event) && !handler.by_handler ? Asker::kFile : Asker::kHandler,
+           [&] { context_.visit(invocation); });
 }
 
-void LaunchService::traverse(const SourceRange& where, const std::function<void()>& traversal) {
+void LaunchService::traverse(const SourceRange& where, Asker asker, const std::function<void()>& traversal) {
   const std::int64_t begin = monotonic_time();
   try {
     traversal();
@@ -198,10 +211,14 @@ void LaunchService::traverse(const SourceRange& where, const std::function<void(
   }
   Requests requests = context_.take_requests();
   recording_.record_visit(begin, where, requests);
-  carry_out(std::move(requests));
+  if (asker == Asker::kHandler) {
+    std::for_each(requests.timers.begin(), requests.timers.end(), [](TimerRequest& timer) { timer.by_handler = true; });
+    std::for_each(requests.handlers.begin(), requests.handlers.end(), [](EventHandler& each) { each.by_handler = true; });
+  }
+  carry_out(std::move(requests), asker);
 }
 
-void LaunchService::carry_out(Requests requests) {
+void LaunchService::carry_out(Requests requests, Asker asker) {
   if (phase_ != Phase::kRunning) {
     check_finished();
     return;
@@ -212,6 +229,9 @@ void LaunchService::carry_out(Requests requests) {
   } catch (const LaunchError& error) {
     fail(error);
     return;
+  }
+  if (asker == Asker::kFile) {
+    reloads_.note(round);
   }
   rounds_.add(std::move(round));
 }
@@ -292,106 +312,6 @@ void LaunchService::prepare(ProcessSpec& spec, ProcessId id) {
   test_.prepare(spec, id);
   ros_tasks_.name_process(id, spec.other_names);
   record({.kind = LaunchRecord::Kind::kSpawn, .name = spec.name, .where = spec.origin, .time = monotonic_time()});
-}
-
-// The end: a farewell, then the processes, then the scopes.
-
-void LaunchService::fail(const LaunchError& error) {
-  outcome_.on_error();
-  errors_(error);
-  shutdown("an error");
-}
-
-void LaunchService::shutdown(const std::string& reason) {
-  if (phase_ == Phase::kRunning) {
-    phase_ = Phase::kFarewell;
-    test_.on_shutdown();
-    health_.monitor.shutdown();
-    steering_.tell_end(reason);
-    rounds_.close();
-    timers_.shutdown();
-    processes_.shutdown();
-    std::vector<Invocation> farewell = handlers_.shutdown(reason);
-    coroutines_.cancel();
-    ros_tasks_.shutdown();
-    farewell_.say(std::move(farewell));
-  }
-  check_finished();
-}
-
-Requests LaunchService::visit_farewell(const Invocation& invocation) {
-  try {
-    context_.visit(invocation);
-    Requests requests = context_.take_requests();
-    check_farewell(requests, invocation.handler->live);
-    processes_.check(requests.commands);
-    return requests;
-  } catch (const LaunchError& error) {
-    context_.take_requests();
-    fail(error);
-    return {};
-  }
-}
-
-void LaunchService::stop_processes() {
-  phase_ = Phase::kStopping;
-  supervisor_.shutdown();
-  check_finished();
-}
-
-bool LaunchService::is_idle() const {
-  return !(phase_ == Phase::kRunning && steering_.holds()) && rounds_.empty() && timers_.empty() && handlers_.idle() &&
-         !processes_.waiting() && supervisor_.active() == 0 && coroutines_.idle() && ros_tasks_.idle();
-}
-
-void LaunchService::check_started() {
-  if (on_started_ && phase_ == Phase::kRunning && rounds_.empty() && !processes_.waiting()) {
-    std::exchange(on_started_, nullptr)();
-  }
-}
-
-void LaunchService::check_finished() {
-  check_started();
-  if (!is_idle()) {
-    return;
-  }
-  if (phase_ == Phase::kRunning && handlers_.has_on_shutdown()) {
-    shutdown("idle");
-  } else if (phase_ == Phase::kRunning || phase_ == Phase::kStopping) {
-    end_scopes();
-  }
-}
-
-void LaunchService::post_check() {
-  if (!check_posted_) {
-    check_posted_ = true;
-    loop_.post([this] {
-      check_posted_ = false;
-      check_finished();
-    });
-  }
-}
-
-void LaunchService::end_scopes() {
-  if (phase_ == Phase::kRunning) {
-    steering_.tell_end("idle");
-  }
-  phase_ = Phase::kEndingScopes;
-  ros_tasks_.shutdown();
-  test_.on_end();
-  recording_.end();
-  scopes_.end(
-      [this](const LaunchError& error) {
-        outcome_.on_error();
-        errors_(error);
-      },
-      [this, last_exit = loop_.now()] {
-        crashes_.finish([this, last_exit] {
-          phase_ = Phase::kDone;
-          timing_.push_back({"end, from the last exit", loop_.now() - last_exit});
-          loop_.quit();
-        });
-      });
 }
 
 }  // namespace launch

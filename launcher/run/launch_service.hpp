@@ -26,6 +26,7 @@
 #include "launcher/run/handlers/handlers.hpp"
 #include "launcher/run/handlers/timers.hpp"
 #include "launcher/run/health/health_care.hpp"
+#include "launcher/run/reload/reloads.hpp"
 #include "launcher/run/scopes/active_scopes.hpp"
 #include "launcher/run/scopes/recording.hpp"
 #include "launcher/run/start/processes.hpp"
@@ -91,6 +92,11 @@ class LaunchService {
   // For those who ask the launch from outside.
   Steering& steering() { return steering_; }
 
+  // Reads the launch file again while it runs.
+  Reloads& reloads() { return reloads_; }
+  // From now on SIGHUP reads the launch file again, and does not end the launch. To be called before run().
+  void reload_on_hangup() { signals_.take_hangup([this] { reloads_.ask({}); }); }
+
   // The durations of the steps up to the last start, and of the steps after the last exit, in order.
   const std::vector<TimedStep>& timing() const { return timing_; }
 
@@ -104,6 +110,9 @@ class LaunchService {
     kDone
   };
 
+  // Whose requests they are: those of the launch file, also by a timer, can be compared with another reading of it.
+  enum class Asker { kFile, kHandler };
+
   // The events in the course of the launch.
   // Tells whether the guardian has been killed since the last call. It is the process that a user has started, so to
   // kill it is to ask for the end.
@@ -115,10 +124,10 @@ class LaunchService {
   void on_coroutine_step();
 
   // A traversal: visits, then carries out the requests. An error of the visit carries out nothing and ends the launch.
-  void visit(Scope scope, const std::vector<ActionPtr>& actions);
+  void visit(TimerRequest timer);
   void visit(const Invocation& invocation);
-  void traverse(const SourceRange& where, const std::function<void()>& traversal);
-  void carry_out(Requests requests);
+  void traverse(const SourceRange& where, Asker asker, const std::function<void()>& traversal);
+  void carry_out(Requests requests, Asker asker);
   void start(Round given);
   void observe_output();
   void prepare(ProcessSpec& spec, ProcessId id);
@@ -160,6 +169,7 @@ class LaunchService {
   Steering steering_;
   Handlers handlers_;
   Timers timers_;
+  Reloads reloads_;
   Coroutines coroutines_;
   RosTasks ros_tasks_;
   Farewell farewell_;

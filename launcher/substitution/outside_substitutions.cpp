@@ -125,6 +125,13 @@ std::string anon(const SubstitutionCall& call) {
   if (const auto found = configurations.find(key); found != configurations.end()) {
     return found->second;
   }
+  AnonymousNames* const names = call.scope().anonymous_names.get();
+  if (names != nullptr) {
+    const std::vector<std::string>& made = names->made[name];
+    if (const std::size_t used = names->used[name]++; used < made.size()) {
+      return configurations.emplace(key, made[used]).first->second;
+    }
+  }
   std::array<char, 256> host{};
   ::gethostname(host.data(), host.size() - 1);
   std::random_device random;
@@ -133,6 +140,9 @@ std::string anon(const SubstitutionCall& call) {
     if (character == '.' || character == '-' || character == ':') {
       character = '_';
     }
+  }
+  if (names != nullptr) {
+    names->made[name].push_back(unique);
   }
   return configurations.emplace(key, unique).first->second;
 }

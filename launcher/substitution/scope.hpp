@@ -2,6 +2,7 @@
 // The state of a launch at one moment, as substitutions see it.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <memory>
@@ -17,6 +18,12 @@ namespace launch {
 
 class PackageIndex;
 struct UnrunCommands;
+
+// The names that $(anon) has made, in their order. Another reading of the launch file gets the same ones.
+struct AnonymousNames {
+  std::map<std::string, std::vector<std::string>> made;
+  std::map<std::string, std::size_t> used;  // of them, in this reading
+};
 
 // Copied when a scoped group begins and put back when it ends (launcher/visit/launch_context.hpp).
 struct Scope {
@@ -35,6 +42,8 @@ struct Scope {
   std::string log_directory;
   // Finds packages by AMENT_PREFIX_PATH of `environment`, never null while visiting.
   std::shared_ptr<PackageIndex> packages;
+  // May be null.
+  std::shared_ptr<AnonymousNames> anonymous_names;
   // Tells the user what is suspicious but no error, with its place. May be empty.
   std::function<void(const SourceRange& where, const std::string& text)> warn;
   // Learns which files besides launch files had their substitutions performed. May be empty.

@@ -40,6 +40,7 @@ LaunchContext::LaunchContext(const Registry& registry, Environment environment, 
       messages_(std::move(messages)) {
   scope_.environment = initial_environment_;
   scope_.packages = std::make_shared<PackageIndex>(own_prefix_);
+  scope_.anonymous_names = std::make_shared<AnonymousNames>();
   scope_.warn = [this](const SourceRange& where, const std::string& text) {
     message(LogLevel::kWarning, "launch", fmt::format("{}: {}", to_string(where), text));
   };
@@ -96,6 +97,9 @@ void LaunchContext::visit(const LaunchDescription& description, const std::funct
   }
   AtExit restore([this, outer = scope_.current_file] { scope_.current_file = outer; });
   scope_.current_file = description.file;
+  if (description.file != nullptr) {
+    files_.insert(description.file->path());
+  }
   for (const auto& [name, value] : description.environment_changes) {
     if (value) {
       scope_.environment.insert_or_assign(name, *value);
@@ -166,6 +170,33 @@ void LaunchContext::visit_left_out(const Action& action) {
   }
   scope_.forget_left_out_command();
   exploration_.tell_left_out(std::move(requests_));
+}
+
+LaunchContext::State LaunchContext::begin_again(MessageSink messages) {
+  State before{std::move(scope_),
+               std::move(requests_),
+               std::move(nodes_),
+               std::move(pushed_environments_),
+               std::move(pushed_configurations_),
+               std::move(messages_)};
+  scope_ = *beginning_;
+  scope_.packages = std::make_shared<PackageIndex>(own_prefix_);
+  scope_.anonymous_names->used.clear();
+  requests_ = Requests{};
+  nodes_.clear();
+  pushed_environments_.clear();
+  pushed_configurations_.clear();
+  messages_ = std::move(messages);
+  return before;
+}
+
+void LaunchContext::put_back(State state) {
+  scope_ = std::move(state.scope);
+  requests_ = std::move(state.requests);
+  nodes_ = std::move(state.nodes);
+  pushed_environments_ = std::move(state.pushed_environments);
+  pushed_configurations_ = std::move(state.pushed_configurations);
+  messages_ = std::move(state.messages);
 }
 
 Requests LaunchContext::take_requests() {

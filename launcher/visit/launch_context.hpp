@@ -8,6 +8,8 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -85,6 +87,27 @@ class LaunchContext {
   // Visits the actions of a handler whose event has happened; `planned` if it only might happen.
   void visit(const Invocation& invocation, bool planned = false);
 
+  // What a visit has changed.
+  struct State {
+    Scope scope;
+    Requests requests;
+    std::unordered_map<std::string, int> nodes;
+    std::vector<Scope> pushed_environments;
+    std::vector<Scope> pushed_configurations;
+    MessageSink messages;
+  };
+  // begin_again() comes back to what is now.
+  void keep_beginning() { beginning_ = scope_; }
+  // Prepares another visit of the whole launch, whose messages go to the sink. Returns what was. The names of $(anon)
+  // stay, and packages are searched for anew. keep_beginning() must have been called.
+  State begin_again(MessageSink messages);
+  // Throws a visit away.
+  void put_back(State state);
+  void put_back(MessageSink messages) { messages_ = std::move(messages); }
+
+  // The launch files that were visited, by their paths.
+  const std::set<std::string>& files() const { return files_; }
+
   Requests& requests() { return requests_; }
   Requests take_requests();
 
@@ -119,6 +142,8 @@ class LaunchContext {
   std::vector<Scope> pushed_configurations_;
   RosClient* ros_client_ = nullptr;
   std::unordered_map<std::string, int> nodes_;
+  std::optional<Scope> beginning_;
+  std::set<std::string> files_;
 };
 
 }  // namespace launch

@@ -26,6 +26,32 @@ TrackedProcess& ProcessTable::add(const ProcessSpec& spec) {
   return process;
 }
 
+void ProcessTable::rename(TrackedProcess& process, const ProcessSpec& spec) {
+  process.is_watched = !spec.watches.empty();
+  std::vector<std::string> names = names_of(spec);
+  if (names == process.names) {
+    return;
+  }
+  for (const std::string& name : process.names) {
+    std::erase(by_name_[name], &process);
+  }
+  process.names = std::move(names);
+  for (const std::string& name : process.names) {
+    by_name_[name].push_back(&process);
+  }
+}
+
+void ProcessTable::forget(TrackedProcess& process) {
+  process.is_gone = true;
+  for (const std::string& name : process.names) {
+    if (const auto found = by_name_.find(name); found != by_name_.end() && std::erase(found->second, &process) != 0 &&
+                                                found->second.empty()) {
+      by_name_.erase(found);
+    }
+  }
+  std::erase_if(by_label_, [&](const auto& entry) { return entry.second == &process; });
+}
+
 void ProcessTable::bind(TrackedProcess& process, ProcessId id, const std::string& label) {
   process.id = id;
   by_id_.emplace(id, &process);
@@ -57,7 +83,7 @@ TrackedProcess* ProcessTable::find(ProcessId id) {
 }
 
 std::vector<TrackedProcess*> ProcessTable::find(const std::string& name) const {
-  if (const auto named = by_name_.find(name); named != by_name_.end()) {
+  if (const auto named = by_name_.find(name); named != by_name_.end() && !named->second.empty()) {
     return named->second;
   }
   const auto labelled = by_label_.find(name);
@@ -67,7 +93,9 @@ std::vector<TrackedProcess*> ProcessTable::find(const std::string& name) const {
 std::vector<std::string> ProcessTable::names() const {
   std::vector<std::string> names;
   for (const auto& [name, processes] : by_name_) {
-    names.push_back(name);
+    if (!processes.empty()) {
+      names.push_back(name);
+    }
   }
   std::sort(names.begin(), names.end());
   return names;

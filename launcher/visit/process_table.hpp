@@ -24,6 +24,7 @@ struct TrackedProcess {
   std::optional<int> exit_code;    // of the last run that has ended
   bool is_watched = false;         // for its health
   bool is_healthy = false;
+  bool is_gone = false;  // the launch file has it no longer
 };
 
 class ProcessTable {
@@ -34,6 +35,11 @@ class ProcessTable {
   void bind(TrackedProcess& process, ProcessId id, const std::string& label);
   // Takes note of an event of a bound process, and returns the process; null for a process that was not added.
   TrackedProcess* note(const ProcessEvent& event);
+
+  // From now on the process has the names of this spec.
+  void rename(TrackedProcess& process, const ProcessSpec& spec);
+  // From now on no name means this process.
+  void forget(TrackedProcess& process);
 
   TrackedProcess* find(ProcessId id);
   // The processes of this name, in the order in which they were asked for.

@@ -19,6 +19,7 @@
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/process_spec.hpp"
 #include "launcher/python/interpreter/python_runtime.hpp"
+#include "launcher/substitution/parameter.hpp"
 #include "launcher/substitution/scope.hpp"
 #include "launcher/visit/composable_node.hpp"
 #include "launcher/visit/dependency.hpp"
@@ -41,6 +42,7 @@ struct TimerRequest {
   bool cancel_on_shutdown = true;
   std::vector<ActionPtr> actions;
   Scope scope;  // the scope at the place of the timer
+  bool by_handler = false;  // an event handler has asked for it, or a timer of one
 };
 
 struct ShutdownRequest {
@@ -54,6 +56,8 @@ struct NodeDescription {
   std::string executable;
   std::optional<std::string> name;
   std::optional<std::string> name_space;
+  std::vector<NamedParameter> parameters{};  // that the launch file gives by name, in order
+  std::vector<std::size_t> value_files{};    // which generated files of the process hold nothing else
 };
 
 // Event handlers to forget.

@@ -23,6 +23,7 @@ int unit_command(const Words& words);
 int events_command(const Words& words);
 int logs_command(const Words& words);
 int ps_command(const Words& words);
+int reload_command(const Words& words);
 int restart_command(const Words& words);
 int shutdown_command(const Words& words);
 int signal_command(const Words& words);

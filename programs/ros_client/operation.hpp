@@ -71,6 +71,7 @@ std::unique_ptr<Operation> call(const UnloadNode& request, rclcpp::Node& node, O
 std::unique_ptr<Operation> call(const ListNodes& request, rclcpp::Node& node, Operation::Answer answer);
 std::unique_ptr<Operation> call(const ChangeState& request, rclcpp::Node& node, Operation::Answer answer);
 std::unique_ptr<Operation> call(const GetState& request, rclcpp::Node& node, Operation::Answer answer);
+std::unique_ptr<Operation> call(const SetParameters& request, rclcpp::Node& node, Operation::Answer answer);
 std::unique_ptr<Operation> wait_for(const NodePresent& request, rclcpp::Node& node, Operation::Answer answer);
 std::unique_ptr<Operation> wait_for(const TopicPresent& request, rclcpp::Node& node, Operation::Answer answer);
 std::unique_ptr<Operation> wait_for(const ServicePresent& request, rclcpp::Node& node, Operation::Answer answer);

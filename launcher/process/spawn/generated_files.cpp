@@ -50,6 +50,7 @@ void GeneratedFiles::write(ProcessSpec& spec, ProcessId id) {
     std::string name = file.name;
     std::replace(name.begin(), name.end(), '/', '_');
     const std::string path = fmt::format("{}/{}-{}-{}", directory(), id, i, name);
+    ::unlink(path.c_str());  // of an earlier start with another spec
     write_file(path, file.content);
     spec.argv.at(file.argument) = path;
   }

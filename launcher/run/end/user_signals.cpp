@@ -45,9 +45,16 @@ UserSignals::UserSignals(EventLoop& loop, ProcessSupervisor& supervisor, Acts ac
 void UserSignals::listen() {
   std::vector<int> ending;
   for (const int signal : kEndingSignals) {
-    if (signal != SIGHUP || !is_ignored(SIGHUP)) {
+    if (signal != SIGHUP || (!is_ignored(SIGHUP) && !on_hangup_)) {
       ending.push_back(signal);
     }
+  }
+  if (on_hangup_ && !is_ignored(SIGHUP)) {
+    hangup_ = loop_.on_signal({SIGHUP}, [this](EventLoop::Signal) {
+      if (!acts_.intercept()) {
+        on_hangup_();
+      }
+    });
   }
   ending_ = loop_.on_signal(ending, [this](EventLoop::Signal signal) { on_signal(signal); });
   if (!is_ignored(SIGTSTP)) {

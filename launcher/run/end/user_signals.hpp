@@ -31,6 +31,9 @@ class UserSignals {
   // Called before the system stops by Ctrl-Z and after it goes on.
   void observe_suspension(std::function<void(bool stops)> observer) { on_suspension_ = std::move(observer); }
 
+  // SIGHUP asks for something else than the end. To be called before listen().
+  void take_hangup(std::function<void()> on_hangup) { on_hangup_ = std::move(on_hangup); }
+
   // Calls the acts from now on, as long as this object lives.
   void listen();
 
@@ -48,6 +51,8 @@ class UserSignals {
   Acts acts_;
   std::function<void(bool stops)> on_suspension_;
   std::optional<Duration> counted_;  // when the last signal came that counted
+  std::function<void()> on_hangup_;
+  EventLoop::SourcePtr hangup_;
   EventLoop::SourcePtr ending_;
   EventLoop::SourcePtr stopping_;
 };

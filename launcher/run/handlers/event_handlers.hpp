@@ -22,6 +22,8 @@ class EventHandlers {
   // Forgets the handlers of that name; false when there is none.
   bool remove(const std::string& name);
 
+  void clear() { by_process_.clear(); }
+
   std::vector<Invocation> on_event(const ProcessEvent& event);
   std::vector<Invocation> on_line(const ProcessSpec& spec, const std::string& label, OutputStream stream,
                                   std::string_view line);

@@ -35,6 +35,12 @@ void Handlers::unregister(const std::vector<UnregisterRequest>& requests,
   }
 }
 
+void Handlers::clear() {
+  events_.clear();
+  states_.clear();
+  conditions_.clear();
+}
+
 bool Handlers::remove(const std::string& name) {
   queue_.forget(name);
   const bool of_events = events_.remove(name);

@@ -32,6 +32,9 @@ class Handlers {
   void unregister(const std::vector<UnregisterRequest>& requests,
                   const std::function<void(const std::string& text)>& warn);
 
+  // Forgets all handlers.
+  void clear();
+
   void on_event(const ProcessEvent& event) { queue_.add(events_.on_event(event)); }
   void on_line(const ProcessSpec& spec, const std::string& label, OutputStream stream, std::string_view line) {
     queue_.add(events_.on_line(spec, label, stream, line));

@@ -20,6 +20,10 @@ class Timers {
   void start(TimerRequest request);
   // Forgets the timers that a shutdown cancels. The others still fire.
   void shutdown();
+  // Forgets those of the launch file itself.
+  void clear_declared() {
+    timers_.remove_if([](const Timer& timer) { return !timer.request.by_handler; });
+  }
   // Forgets all timers.
   void clear() { timers_.clear(); }
   bool empty() const { return timers_.empty(); }

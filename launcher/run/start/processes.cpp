@@ -94,6 +94,9 @@ void Processes::for_each(
     }
   }
   for (const TrackedProcess& process : table_.all()) {
+    if (process.is_gone && (process.is_over || process.id == 0)) {
+      continue;
+    }
     const auto found = waiting.find(&process);
     tell(process, found == waiting.end() ? nullptr : found->second);
   }
@@ -137,6 +140,24 @@ void Processes::start_slice() {
     }
   }
   over.started();
+}
+
+void Processes::adopt(TrackedProcess& process, const ProcessSpec& spec) {
+  table_.rename(process, spec);
+  if (process.id != 0) {
+    supervisor_.adopt(process.id, spec);
+  }
+}
+
+void Processes::replace(TrackedProcess& process, ProcessSpec spec) {
+  table_.rename(process, spec);
+  supervisor_.replace(process.id, std::move(spec),
+                      [this, id = process.id](ProcessSpec& next) { callbacks_.starting(next, id); });
+}
+
+void Processes::forget(TrackedProcess& process) {
+  order_.withdraw(process);
+  table_.forget(process);
 }
 
 bool Processes::drop(const TrackedProcess& process) {

@@ -54,6 +54,14 @@ class Processes {
   TrackedProcess* find(ProcessId id) { return table_.find(id); }
   // Carries out a command. Reports a command that no process could get.
   void execute(const ProcessCommand& command);
+  // Another reading of the launch file says this of the process: it has other names, and what is no matter of its start
+  // holds at once. With replace() the rest holds from its next start on.
+  void adopt(TrackedProcess& process, const ProcessSpec& spec);
+  void replace(TrackedProcess& process, ProcessSpec spec);
+  // The launch file has it no longer: no name means it any more. One that waits never starts; nobody is told.
+  void forget(TrackedProcess& process);
+  // The processes for which it waits.
+  std::vector<const TrackedProcess*> targets(const TrackedProcess& process) const { return order_.targets(process); }
   // The process must never start. Returns whether it waited.
   bool drop(const TrackedProcess& process);
   // In the order in which they were asked for. `waiting` is null for a process that does not wait for something, nor

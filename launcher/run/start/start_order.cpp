@@ -111,6 +111,27 @@ bool StartOrder::drop(const TrackedProcess& process) {
   return true;
 }
 
+void StartOrder::withdraw(const TrackedProcess& process) {
+  const auto found = std::find_if(waiting_.begin(), waiting_.end(),
+                                  [&](const WaitingPtr& candidate) { return candidate->process == &process; });
+  if (found != waiting_.end()) {
+    const WaitingPtr waiting = *found;
+    end(*waiting);
+  }
+}
+
+std::vector<const TrackedProcess*> StartOrder::targets(const TrackedProcess& process) const {
+  std::vector<const TrackedProcess*> targets;
+  for (const WaitingPtr& waiting : waiting_) {
+    for (const Watch& watch : waiting->watches) {
+      if (waiting->process == &process && watch.dependency.target != nullptr) {
+        targets.push_back(watch.dependency.target);
+      }
+    }
+  }
+  return targets;
+}
+
 void StartOrder::clear() {
   for (const WaitingPtr& waiting : waiting_) {
     waiting->ended = true;

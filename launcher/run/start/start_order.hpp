@@ -45,6 +45,10 @@ class StartOrder {
 
   // The process must never start. Returns whether it waited.
   bool drop(const TrackedProcess& process);
+  // Forgets a process that waits, without a word to those that wait for it.
+  void withdraw(const TrackedProcess& process);
+  // The processes for which it waits.
+  std::vector<const TrackedProcess*> targets(const TrackedProcess& process) const;
   // No process must start any more.
   void clear();
 

@@ -72,6 +72,10 @@ class Steering {
 
   // Whether a process was stopped that may be started again. Until then the launch has something to wait for.
   bool holds() const { return !stopped_.empty(); }
+  // Whether this process was stopped so.
+  bool is_stopped(ProcessId id) const { return stopped_.contains(id); }
+  // It need not be waited for any more.
+  void forget(ProcessId id) { stopped_.erase(id); }
   void on_event(const ProcessEvent& event);
 
  private:

@@ -75,6 +75,10 @@ std::variant<CommandLine, ExitNow> parse_command_line(const std::vector<std::str
                "put the launch into a process namespace: the kernel ends what is left, whoever is killed");
   app.add_flag("--ignore-failures", command.ignore_failures,
                "exit with 0 also if processes have failed, as ros2 launch does");
+  app.add_flag("--reload-on-hup", command.reload_on_hangup,
+               "read the launch file again on SIGHUP, as launch reload does, instead of ending");
+  app.add_flag("--watch", command.watch,
+               "read the launch file again whenever it changes, or a file that it includes");
   app.add_flag("--timestamps", command.timestamps, "put the time in front of every line on the screen");
   app.add_option("--log-level", log_levels,
                  "debug, info, warn, error or fatal for the loggers of all nodes; NODE:=LEVEL for those of one")
@@ -134,6 +138,11 @@ std::variant<CommandLine, ExitNow> parse_command_line(const std::vector<std::str
   }
   if (int(!dry_run.empty()) + int(show_arguments) + int(print) > 1) {
     return wrong_use("--dry-run, --show-args and --print exclude each other");
+  }
+  if ((command.watch || command.reload_on_hangup) &&
+      std::find(command.target.begin(), command.target.end(), "-") != command.target.end()) {
+    return wrong_use(fmt::format("{} needs a launch file, standard input can't be read again",
+                                 command.watch ? "--watch" : "--reload-on-hup"));
   }
   if (!command.launch_prefix_filter.empty() && command.launch_prefix.empty()) {
     return wrong_use("--launch-prefix-filter needs --launch-prefix");

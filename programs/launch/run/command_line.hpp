@@ -28,6 +28,8 @@ struct CommandLine {
   bool isolate = false;  // give the launch a network and shared memory of its own
   bool contain = false;  // put the launch into a process namespace
   bool timestamps = false;
+  bool reload_on_hangup = false;
+  bool watch = false;  // reload when a launch file changes
   std::uint64_t log_size = 0;  // bytes; 0: no limit
   int log_files = 5;
   std::vector<std::pair<std::string, std::string>> log_levels;  // of nodes: name or "", level

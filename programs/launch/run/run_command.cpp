@@ -7,9 +7,11 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -37,6 +39,7 @@
 #include "launcher/python/interpreter/python_module.hpp"
 #include "launcher/ros/ros_client_process.hpp"
 #include "launcher/run/launch_service.hpp"
+#include "launcher/run/reload/file_watch.hpp"
 #include "launcher/run/scopes/launch_tracepoints.hpp"
 #include "launcher/run/user/status_line.hpp"
 #include "launcher/visit/launch_plan.hpp"
@@ -104,6 +107,12 @@ void set_arguments(const CommandLine& command, LaunchContext& context) {
   }
 }
 
+std::shared_ptr<const LaunchDescription> load(const CommandLine& command, const Registry& registry,
+                                              LaunchContext& context, const std::vector<std::string>& files) {
+  std::shared_ptr<const LaunchDescription> description = load_launch_files(files, registry, context.scope());
+  return command.trace || command.report ? with_trace(*description, registry) : description;
+}
+
 // Throws LaunchError if a problem with the launch arguments is an error, else warns.
 void report_arguments(const CommandLine& command, const LaunchDescription& description, const ArgumentList& declared) {
   const Severity severity = command.strict_arguments ? Severity::kError : Severity::kWarning;
@@ -153,11 +162,45 @@ void tell_isolation(const Isolation& isolation, OutputRouter& output) {
   }
 }
 
+// Watches the launch files that were visited, and those with an error, and lets the launch reload when one has changed.
+class WatchedFiles {
+ public:
+  // The references must outlive this object. Throws std::system_error.
+  WatchedFiles(EventLoop& loop, LaunchService& service, const LaunchContext& context, OutputRouter& output)
+      : context_(context), output_(output), watch_(loop, [&service] {
+          if (!service.reloads().has_queued()) {
+            service.reloads().ask({});
+          }
+        }) {
+    loop.post([this, &loop] { loop.post([this] { add({}); }); });  // behind the first visit
+    service.reloads().observe([this](const ReloadReport& report) { add(report.errors); }, [](const ReloadEnd&) {});
+  }
+
+ private:
+  void add(const std::vector<Diagnostic>& errors) {
+    std::set<std::string> files = context_.files();
+    for (const Diagnostic& error : errors) {
+      if (error.where) {
+        files.insert(error.where.file->path());
+      }
+    }
+    try {
+      watch_.add(files);
+    } catch (const std::system_error& error) {
+      output_.message(LogLevel::kWarning, "launch", fmt::format("--watch misses files: {}", error.what()));
+    }
+  }
+
+  const LaunchContext& context_;
+  OutputRouter& output_;
+  FileWatch watch_;
+};
+
 // Makes everything that a run needs. The order is that of destruction, backwards.
 int run(const CommandLine& command, const Registry& registry, const Environment& environment,
         const std::shared_ptr<const LaunchDescription>& description, const std::vector<std::string>& files,
         Guardian& guardian, const Isolation& isolation, const std::optional<ServiceAddress>& service_manager,
-        TimedStep load, LaunchRecord load_record) {
+        TimedStep load_step, LaunchRecord load_record) {
   // A signal that was ignored when we started would never arrive. Shells ignore some for programs in the background.
   // nohup(1) ignores SIGHUP, which stays so.
   for (const int signal : {SIGINT, SIGQUIT, SIGTERM}) {
@@ -234,6 +277,20 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   if (service_manager) {
     service_status.emplace(*service_manager, *loop, service, supervisor);
   }
+  const bool from_standard_input = std::find(files.begin(), files.end(), "-") != files.end();
+  if (!files.empty() && !from_standard_input) {
+    service.reloads().use([&] { return load(command, registry, context, files); });
+  }
+  if (control) {
+    control->use_reloads(service.reloads());
+  }
+  if (command.reload_on_hangup) {
+    service.reload_on_hangup();
+  }
+  std::optional<WatchedFiles> watched;
+  if (command.watch) {
+    watched.emplace(*loop, service, context, output);
+  }
   std::optional<StatusLine> status;
   if (service_status || output.can_show_status()) {
     status.emplace(*loop, supervisor, service.steering(), [&](const std::string& line) {
@@ -248,7 +305,7 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   const int exit_code = service.run(*description);
   output.show_status("");
   if (command.timing) {
-    std::vector<TimedStep> steps = {std::move(load)};
+    std::vector<TimedStep> steps = {std::move(load_step)};
     steps.insert(steps.end(), service.timing().begin(), service.timing().end());
     print_timing(steps);
   }

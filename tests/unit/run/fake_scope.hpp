@@ -42,7 +42,7 @@ class FakeScope : public RunScope {
   bool wants_records() const override { return wants_records_; }
   void record(const LaunchRecord& record) override { records.push_back(record.name); }
   std::string kind() const override { return "fake"; }
-  std::vector<ShownSetting> describe() const override { return {}; }
+  std::vector<ShownSetting> describe() const override { return {{"name", name_}}; }
   std::vector<TimedStep> timing() const override { return {}; }
   const SourceRange& origin() const override { return origin_; }
 
