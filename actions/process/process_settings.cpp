@@ -233,6 +233,9 @@ const std::vector<Setting<ProcessSpec>>& process_settings() {
                      "shutdown: when the process is given up, the whole system ends", true},
        .perform = perform_on_start_limit,
        .checks_literal = true},
+      {.attribute = {"scalable", Type::kBoolean, false, "false",
+                     "true: several of it may run side by side, see launch scale", true},
+       .place = place_of(&ProcessSpec::scalable)},
       {.attribute = {"required", Type::kBoolean, false, "false",
                      "true: when the process ends, the whole system ends with its exit code", true},
        .perform = perform_required},
@@ -383,6 +386,7 @@ void request_process(const Fields& fields, LaunchContext& context, ProcessSpec s
   }
   spec.limits.core_files = !spec.crash_directory.empty();
   spec.origin = fields.where();
+  spec.groups = scope.groups;
   for (const Fields* watch : fields.items("watch")) {
     WatchItem::perform(*watch, context, spec);
   }

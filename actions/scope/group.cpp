@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // <group>: actions in a scope of their own.
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "actions/values/pair_items.hpp"
 #include "actions/values/ros_names.hpp"
 #include "launcher/language/fields.hpp"
@@ -34,15 +40,30 @@ class Group : public Action {
     if (fields_.has("ns")) {
       push_namespace(fields_.text("ns"), inner);
     }
+    if (fields_.has("name")) {
+      inner.groups.push_back(name(inner));
+    }
     if (scoped) {
       context.visit_in(std::move(inner), fields_.actions());
     } else {
+      const std::vector<std::string> outer = context.scope().groups;
       context.scope() = std::move(inner);
       context.visit(fields_.actions());
+      context.scope().groups = outer;
     }
   }
 
  private:
+  std::string name(Scope& scope) const {
+    std::string text = fields_.text("name").perform(scope);
+    if (text.empty() || text.find_first_of(" \t\n*?[,") != std::string::npos) {
+      throw LaunchError(fmt::format("'{}' is no name for a group", text), fields_.text("name").where(),
+                        "use a name without blanks, commas and the characters of shell patterns",
+                        Finding::kInvalidName);
+    }
+    return text;
+  }
+
   Fields fields_;
 };
 
@@ -56,7 +77,9 @@ ActionType group_action() {
                       "restore configurations and environment at the end"},
                      {"forwarding", AttributeType::kBoolean, false, "true",
                       "false: start without configurations and with the launcher's own environment"},
-                     {"ns", AttributeType::kText, false, "", "namespace of every node in the group", true}},
+                     {"ns", AttributeType::kText, false, "", "namespace of every node in the group", true},
+                     {"name", AttributeType::kText, false, "",
+                      "name by which launch stop --group and others refer to the processes in the group", true}},
       .items = {pair_item("keep", "a configuration to set inside, evaluated outside", "name of the configuration")},
       .holds_actions = true,
       .make = [](Fields fields) { return std::make_shared<Group>(std::move(fields)); },

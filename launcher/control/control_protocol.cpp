@@ -19,6 +19,7 @@
 #include "base/diagnostics/diagnostic.hpp"
 #include "base/processes/outside_number.hpp"
 #include "launcher/language/exit_code_filter.hpp"
+#include "launcher/run/user/scaling.hpp"
 
 namespace launch {
 namespace {
@@ -30,7 +31,7 @@ struct KindName {
   Kind kind;
   const char* name;
 };
-constexpr std::array<KindName, 10> kKinds{{{Kind::kInfo, "info"},
+constexpr std::array<KindName, 11> kKinds{{{Kind::kInfo, "info"},
                                           {Kind::kPs, "ps"},
                                           {Kind::kStop, "stop"},
                                           {Kind::kStart, "start"},
@@ -39,7 +40,8 @@ constexpr std::array<KindName, 10> kKinds{{{Kind::kInfo, "info"},
                                           {Kind::kShutdown, "shutdown"},
                                           {Kind::kEvents, "events"},
                                           {Kind::kOutput, "output"},
-                                          {Kind::kReload, "reload"}}};
+                                          {Kind::kReload, "reload"},
+                                          {Kind::kScale, "scale"}}};
 
 // Names and lines of programs may hold any bytes.
 std::string dump(const Json& json) {
@@ -129,6 +131,9 @@ void append_process(std::string& text, const SteeredProcess& process, const Proc
     append_json_string(text, name);
   }
   text += ']';
+  if (!process.groups.empty()) {
+    text += ",\"groups\":" + dump(Json(process.groups));
+  }
   if (process.id == 0) {
     fmt::format_to(to, ",\"state\":\"{}\"", process.waits ? "waiting" : "skipped");
   } else {
@@ -246,6 +251,15 @@ Kind kind_of(const Json& name) {
   refuse(fmt::format("\"do\": \"{}\" is unknown; there are {}", text, fmt::join(known, ", ")));
 }
 
+std::vector<std::string> names_of(const Json& json, const char* key) {
+  const Json names = json.value(key, Json::array());
+  if (!names.is_array() ||
+      !std::all_of(names.begin(), names.end(), [](const Json& name) { return name.is_string(); })) {
+    refuse(fmt::format("\"{}\" must be a list of names", key));
+  }
+  return names.get<std::vector<std::string>>();
+}
+
 int signal_of(const Json& signal) {
   const int number = signal.is_string() ? signal_number(signal.get<std::string>()) : 0;
   if (number == 0) {
@@ -266,19 +280,11 @@ ControlRequest parse_control_request(std::string_view line) {
     refuse(fmt::format("\"version\" must be {}", kControlVersion));
   }
   ControlRequest request{.kind = kind_of(json.value("do", Json()))};
-  const Json processes = json.value("processes", Json::array());
-  if (!processes.is_array()) {
-    refuse("\"processes\" must be a list of names");
-  }
-  for (const Json& name : processes) {
-    if (!name.is_string()) {
-      refuse("\"processes\" must be a list of names");
-    }
-    request.processes.push_back(name.get<std::string>());
-  }
+  request.processes = names_of(json, "processes");
+  request.groups = names_of(json, "groups");
   const bool names_processes = request.kind == Kind::kStop || request.kind == Kind::kStart ||
                                request.kind == Kind::kRestart || request.kind == Kind::kSignal;
-  if (names_processes && request.processes.empty()) {
+  if (names_processes && request.processes.empty() && request.groups.empty()) {
     refuse("\"processes\" is missing, it names the processes");
   }
   for (const auto& [key, flag] : {std::pair{"dry_run", &request.dry_run}, {"restart", &request.restart}}) {
@@ -287,6 +293,13 @@ ControlRequest parse_control_request(std::string_view line) {
       refuse(fmt::format("\"{}\" must be true or false", key));
     }
     *flag = value.get<bool>();
+  }
+  if (request.kind == Kind::kScale) {
+    const Json count = json.value("count", Json());
+    if (request.processes.size() != 1 || !count.is_number_unsigned() || count == 0U || count > Scaling::kMost) {
+      refuse(fmt::format("\"processes\" must hold one name, and \"count\" be a number from 1 to {}", Scaling::kMost));
+    }
+    request.count = count.get<std::size_t>();
   }
   if (request.kind == Kind::kSignal) {
     request.signal = signal_of(json.value("signal", Json()));

@@ -31,11 +31,13 @@ struct LaunchFacts {
 };
 
 struct ControlRequest {
-  enum class Kind { kInfo, kPs, kStop, kStart, kRestart, kSignal, kShutdown, kEvents, kOutput, kReload };
+  enum class Kind { kInfo, kPs, kStop, kStart, kRestart, kSignal, kShutdown, kEvents, kOutput, kReload, kScale };
 
   Kind kind = Kind::kInfo;
   Steering::Patterns processes;
+  std::vector<std::string> groups;  // of kPs, kStop, kStart, kRestart and kSignal
   int signal = 0;
+  std::size_t count = 0;  // of kScale
   bool dry_run = false;  // of kReload
   bool restart = false;  // of kReload: not by setting parameters
 };

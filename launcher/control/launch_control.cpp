@@ -52,20 +52,22 @@ std::string LaunchControl::answer(ClientId client, std::string_view line) {
       return info_line(facts_, steering_.is_ending());
     case Kind::kPs: {
       SteeringOutcome outcome;
-      const std::vector<SteeredProcess> found = steering_.find(request.processes, outcome);
+      const std::vector<SteeredProcess> found = steering_.find({request.processes, request.groups}, outcome);
       return outcome.error.empty() ? ps_line(facts_, steering_.is_ending(), found, supervisor_) : outcome_line(outcome);
     }
     case Kind::kStop:
-      return outcome_line(steering_.ask(Steering::Request::kStop, request.processes));
+      return outcome_line(steering_.ask(Steering::Request::kStop, {request.processes, request.groups}));
     case Kind::kStart:
-      return outcome_line(steering_.ask(Steering::Request::kStart, request.processes));
+      return outcome_line(steering_.ask(Steering::Request::kStart, {request.processes, request.groups}));
     case Kind::kRestart:
-      return outcome_line(steering_.ask(Steering::Request::kRestart, request.processes));
+      return outcome_line(steering_.ask(Steering::Request::kRestart, {request.processes, request.groups}));
     case Kind::kSignal:
-      return outcome_line(steering_.ask(Steering::Request::kSignal, request.processes, request.signal));
+      return outcome_line(steering_.ask(Steering::Request::kSignal, {request.processes, request.groups}, request.signal));
     case Kind::kShutdown:
       steering_.shutdown();
       return done_line();
+    case Kind::kScale:
+      return scale(request);
     case Kind::kReload:
       return reloads_ == nullptr
                  ? error_line("this launch can't read its launch file again")
@@ -77,6 +79,14 @@ std::string LaunchControl::answer(ClientId client, std::string_view line) {
   return done_line();
 }
 
+std::string LaunchControl::scale(const ControlRequest& request) {
+  if (scaling_ == nullptr || steering_.is_ending()) {
+    return error_line(scaling_ == nullptr ? "the processes of this launch can't be scaled"
+                                          : "the launch is ending, nothing can start any more");
+  }
+  return outcome_line(scaling_->scale(request.processes.front(), request.count));
+}
+
 std::string LaunchControl::follow(ClientId client, ControlRequest request) {
   if (request.kind == ControlRequest::Kind::kEvents) {
     followers_[client].events = true;
@@ -84,7 +94,7 @@ std::string LaunchControl::follow(ClientId client, ControlRequest request) {
   }
   SteeringOutcome outcome;
   if (!request.processes.empty()) {
-    steering_.find(request.processes, outcome);
+    steering_.find({.patterns = request.processes}, outcome);
     if (!outcome.error.empty()) {
       return outcome_line(outcome);
     }

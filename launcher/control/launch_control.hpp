@@ -21,6 +21,8 @@ class LaunchControl {
   ~LaunchControl();
   // Without this, a reload is refused. It must outlive this object.
   void use_reloads(Reloads& reloads);
+  // Without this, processes can't be scaled. It must outlive this object.
+  void use_scaling(Scaling& scaling) { scaling_ = &scaling; }
   LaunchControl(const LaunchControl&) = delete;
   LaunchControl& operator=(const LaunchControl&) = delete;
 
@@ -36,6 +38,7 @@ class LaunchControl {
   };
 
   std::string answer(ClientId client, std::string_view line);
+  std::string scale(const ControlRequest& request);
   std::string follow(ClientId client, ControlRequest request);
   void forget(ClientId client);
   void tell_dropped(ClientId client);
@@ -50,6 +53,7 @@ class LaunchControl {
   ProcessSupervisor& supervisor_;
   Steering& steering_;
   Reloads* reloads_ = nullptr;
+  Scaling* scaling_ = nullptr;
   LaunchFacts facts_;
   std::map<ClientId, Follower> followers_;
   bool watches_output_ = false;

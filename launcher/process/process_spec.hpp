@@ -83,6 +83,7 @@ struct ProcessSpec {
   std::string name;           // label without its number; the supervisor appends "-N"
   std::string python_action;  // the name of the action of a Python launch file that asked for it; empty: another file
   std::vector<std::string> other_names;  // further names for it, such as the name of its ROS node
+  std::vector<std::string> groups;       // names of the groups of the launch file around it, the outermost first
   std::vector<std::string> argv;  // never empty; argv[0] is searched on PATH of `environment` when it has no slash
   Environment environment;        // complete, not a difference
   std::string working_directory;  // empty: the launcher's
@@ -95,6 +96,7 @@ struct ProcessSpec {
   StartLimit start_limit;
   std::vector<HealthWatch> watches;  // for observers: how its health is told; empty: it is not watched
   bool shutdown_on_exit = false;     // for observers: the whole system shall end when this process does
+  bool scalable = false;             // for observers: several of it may run side by side
   bool required = false;             // for observers: the launch ends as this process did
   AllowedExits allowed_exits;
   std::string crash_directory;  // for observers: where a bundle of each crash is made; empty: nowhere

@@ -337,6 +337,8 @@ void ProcessSupervisor::adopt(ProcessId id, const ProcessSpec& spec) {
   ProcessSpec& now = process.spec;
   now.python_action = spec.python_action;
   now.other_names = spec.other_names;
+  now.groups = spec.groups;
+  now.scalable = spec.scalable;
   now.respawn = spec.respawn;
   now.start_limit = spec.start_limit;
   now.shutdown_on_exit = spec.shutdown_on_exit;

@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
+
+#include "launcher/ros/ros_protocol.hpp"
 
 namespace launch {
 
@@ -80,6 +83,62 @@ void RosTasks::start(std::vector<LoadRequest> loads, std::vector<TransitionReque
   }
 }
 
+void RosTasks::forget(const std::string& container, const ComposableNode& node, const Environment& environment,
+                      bool unload, std::function<void()> done) {
+  const std::string owner = absolute(container);
+  const std::string text = text_of(node);
+  const auto drop_from = [&](LoadRequest& load) {
+    const auto found = std::find_if(load.nodes.begin(), load.nodes.end(),
+                                    [&](const ComposableNode& each) { return text_of(each) == text; });
+    return found != load.nodes.end() && (load.nodes.erase(found), true);
+  };
+  for (Request& request : repeated_[owner]) {
+    if (auto* const load = std::get_if<LoadRequest>(&request); load != nullptr && drop_from(*load)) {
+      break;
+    }
+  }
+  const auto loaded = loaded_.extract({owner, identity_of(node)});
+  if (!unload || loaded.empty() || context_.ros_client() == nullptr) {
+    done();
+    return;
+  }
+  const auto place = unloads_.insert(unloads_.end(), nullptr);
+  *place = context_.ros_client()->ask(
+      UnloadNode{owner, loaded.mapped()}, environment, kPatience,
+      [this, place, name = node.name, container, done = std::move(done)](const RosAnswer& answer) {
+        const EventLoop::SourcePtr answered = std::move(*place);
+        const std::function<void()> then = done;
+        if (!answer.ok) {
+          context_.message(LogLevel::kWarning, kLoadLogger,
+                           fmt::format("Failed to unload node '{}' from container '{}': {}", name, container,
+                                       without_line_end(answer.error)));
+        }
+        unloads_.erase(place);
+        then();
+        if (idle()) {
+          idle_();
+        }
+      });
+}
+
+void RosTasks::forget(const TransitionRequest& transition) {
+  const auto found = repeated_.find(node_of(transition));
+  if (found != repeated_.end()) {
+    std::erase_if(found->second, [&](const Request& request) {
+      const auto* const known = std::get_if<TransitionRequest>(&request);
+      return known != nullptr && known->transitions == transition.transitions;
+    });
+  }
+}
+
+std::string text_of(const ComposableNode& node) {
+  return to_line(RosRequestLine{0, LoadNode{"", node}, Duration(0)}) + (node.autostart ? "autostart" : "");
+}
+
+std::string identity_of(const ComposableNode& node) {
+  return fmt::format("{} {} {} {}", node.package, node.plugin, node.name_space, node.name);
+}
+
 void RosTasks::name_process(ProcessId process, const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     if (name.starts_with('/')) {
@@ -136,7 +195,7 @@ void RosTasks::next(TaskPlace task) {
 
 void RosTasks::end(TaskPlace task) {
   tasks_.erase(task);
-  if (tasks_.empty()) {
+  if (idle()) {
     idle_();
   }
 }
@@ -168,6 +227,7 @@ bool RosTasks::report(const LoadRequest& request, std::size_t step, const RosAns
     note_failure(fmt::format("component '{}' of type '{}' was not loaded", node.name, node.plugin), node.origin);
     return true;  // a component that can't be loaded doesn't prevent the loading of the others
   }
+  loaded_.insert_or_assign({node_of(request), identity_of(node)}, answer.unique_id);
   context_.message(LogLevel::kInfo, kLoadLogger,
                    fmt::format("Loaded node '{}' in container '{}'", answer.node, request.target));
   if (node.autostart) {
@@ -245,6 +305,7 @@ void RosTasks::shutdown() {
         task.request);
   }
   tasks_.clear();
+  unloads_.clear();
   repeated_.clear();
   if (RosClient* const client = context_.ros_client()) {
     client->close();

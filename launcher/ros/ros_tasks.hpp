@@ -7,12 +7,14 @@
 // dropped.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <list>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -38,6 +40,13 @@ class RosTasks {
 
   void start(std::vector<LoadRequest> loads, std::vector<TransitionRequest> transitions);
 
+  // Another reading of the launch file does not ask for this component any more: it is not loaded again, and unloaded
+  // if it is there and `unload` is set. Calls `done` when that is over.
+  void forget(const std::string& container, const ComposableNode& node, const Environment& environment, bool unload,
+              std::function<void()> done);
+  // Nor for these transitions.
+  void forget(const TransitionRequest& transition);
+
   // Gives the names of a process. A fully qualified name is the name of its node.
   void name_process(ProcessId process, const std::vector<std::string>& names);
   void on_process_event(const ProcessEvent& event);
@@ -47,7 +56,7 @@ class RosTasks {
   // Drops all tasks under way.
   void shutdown();
 
-  bool idle() const { return tasks_.empty(); }
+  bool idle() const { return tasks_.empty() && unloads_.empty(); }
 
  private:
   void note_failure(const std::string& what, const SourceRange& where) const;
@@ -79,9 +88,16 @@ class RosTasks {
   std::function<void(const LaunchError&)> failed_;
 
   std::list<Task> tasks_;
+  std::list<EventLoop::SourcePtr> unloads_;
+  std::map<std::pair<std::string, std::string>, std::uint64_t> loaded_;  // by container and component: its number there
   std::map<ProcessId, std::string> nodes_;
   std::map<std::string, std::vector<Request>> repeated_;  // by node: the requests for each start of its process
   std::set<std::string> restarting_;                      // nodes whose process will start again
 };
+
+// What a container is asked to load, as a text: equal texts load the same.
+std::string text_of(const ComposableNode& node);
+// The component behind it, however it is loaded: package, plugin, namespace and name.
+std::string identity_of(const ComposableNode& node);
 
 }  // namespace launch

@@ -32,6 +32,7 @@
 #include "launcher/run/start/processes.hpp"
 #include "launcher/run/start/rounds.hpp"
 #include "launcher/run/system_test/system_test.hpp"
+#include "launcher/run/user/scaling.hpp"
 #include "launcher/run/user/steering.hpp"
 #include "launcher/visit/launch_context.hpp"
 
@@ -92,6 +93,8 @@ class LaunchService {
   // For those who ask the launch from outside.
   Steering& steering() { return steering_; }
 
+  // Changes how many of a process run.
+  Scaling& scaling() { return scaling_; }
   // Reads the launch file again while it runs.
   Reloads& reloads() { return reloads_; }
   // From now on SIGHUP reads the launch file again, and does not end the launch. To be called before run().
@@ -169,6 +172,7 @@ class LaunchService {
   Steering steering_;
   Handlers handlers_;
   Timers timers_;
+  Scaling scaling_;
   Reloads reloads_;
   Coroutines coroutines_;
   RosTasks ros_tasks_;

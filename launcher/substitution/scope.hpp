@@ -36,6 +36,8 @@ struct Scope {
   std::vector<std::pair<std::string, std::string>> global_remaps;  // from, to
   // Variables of the enclosing `for` and `for_each`: what $(index i) and $(for-var x) read.
   std::map<std::string, std::string> loop_variables;
+  // The names of the groups around the action that is visited, the outermost first.
+  std::vector<std::string> groups;
   // The launch file being visited: what $(dirname) and $(filename) give. Null outside any file.
   std::shared_ptr<const SourceFile> current_file;
   // This run's log directory.

@@ -130,6 +130,12 @@ void add_command(const ProcessSpec& spec, const NodeDescription* node, FileConte
   for (const NamedParameter& parameter : declared.parameters) {
     known.insert(parameter.name + ":=" + to_argument(parameter.value));
   }
+  std::set<std::size_t> of_values;  // words: --params-file and the file of values behind it
+  if (node != nullptr) {
+    for (const std::size_t file : node->value_files) {
+      of_values.insert({spec.files.at(file).argument - 1, spec.files.at(file).argument});
+    }
+  }
   Sum words;
   Sum others;
   Sum contents;
@@ -141,9 +147,9 @@ void add_command(const ProcessSpec& spec, const NodeDescription* node, FileConte
     if (i > 0 && spec.argv[i - 1] == "--params-file" && !word.empty()) {
       contents.add(files.of(word));
     }
-    const bool is_parameter = node != nullptr && ((word == "-p" && i + 1 < spec.argv.size() && known.contains(spec.argv[i + 1])) ||
-                                                  (i > 0 && spec.argv[i - 1] == "-p" && known.contains(word)));
-    if (!is_parameter) {
+    const bool is_parameter = (word == "-p" && i + 1 < spec.argv.size() && known.contains(spec.argv[i + 1])) ||
+                              (i > 0 && spec.argv[i - 1] == "-p" && known.contains(word));
+    if (!is_parameter && !of_values.contains(i)) {
       others.add(std::string_view(word));
     }
   }

@@ -20,11 +20,14 @@ int schema_command(const Words& words);
 int unit_command(const Words& words);
 
 // These ask a running launch, and throw ControlError.
+int gdb_command(const Words& words);
+int stack_command(const Words& words);
 int events_command(const Words& words);
 int logs_command(const Words& words);
 int ps_command(const Words& words);
 int reload_command(const Words& words);
 int restart_command(const Words& words);
+int scale_command(const Words& words);
 int shutdown_command(const Words& words);
 int signal_command(const Words& words);
 int start_command(const Words& words);

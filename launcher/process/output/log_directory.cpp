@@ -9,8 +9,10 @@
 #include <chrono>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 #include "base/environment/home_directory.hpp"
+#include "launcher/process/output/old_logs.hpp"
 #include "launcher/process/output/output_router.hpp"
 
 namespace launch {
@@ -67,7 +69,8 @@ LogDirectory LogDirectory::create(const std::map<std::string, std::string>& envi
     const std::string name = run_name();
     const fs::path directory = base / name;
     if (::mkdir(directory.c_str(), 0777) == 0) {
-      return {directory.string(), renew_latest(base, name)};
+      UniqueFd running = mark_log_directory(directory.string());
+      return {directory.string(), renew_latest(base, name), std::move(running)};
     }
     if (errno != EEXIST) {  // else another run began in the same microsecond
       fail(directory, {errno, std::system_category()});

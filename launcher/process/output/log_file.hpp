@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A log file that whole lines are appended to. It is created with the first one. When it would get too large it becomes
-// PATH.1, the former PATH.1 becomes PATH.2 and so on.
+// PATH.1, the former PATH.1 becomes PATH.2 and so on. The first line of the next file says so.
 #pragma once
 
 #include <cstdint>
@@ -40,6 +40,7 @@ class LogFile {
   Limits limits_;
   UniqueFd fd_;
   std::uint64_t size_ = 0;
+  bool has_lines_ = false;  // beside that first line
   bool failure_told_ = false;
 };
 

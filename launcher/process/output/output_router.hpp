@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/files/unique_fd.hpp"
 #include "launcher/process/output/journal.hpp"
 #include "launcher/process/output/message_format.hpp"
 #include "launcher/process/output/screen.hpp"
@@ -27,6 +28,7 @@ enum class LogLevel { kDebug, kInfo, kWarning, kError, kCritical };
 struct LogDirectory {
   std::string path;
   std::string warning;  // why BASE/latest was not updated; empty when it was
+  UniqueFd running;     // as long as it is open, no other launch removes the directory (old_logs.hpp)
 
   // BASE by ROS_LOG_DIR, else ROS_HOME/log, else ~/.ros/log. Throws std::system_error.
   static LogDirectory create(const std::map<std::string, std::string>& environment);

@@ -64,6 +64,7 @@ void Reloads::note(const Round& round) {
     traces_ = texts_of(round.requests.scopes);
     coroutines_ = round.requests.coroutines.size();
   }
+  components_.note(round.requests);
   std::vector<DeclaredProcess> declared = declared_processes(round.requests);
   for (std::size_t i = 0; i < declared.size(); ++i) {
     known_.push_back({std::move(declared[i]), round.processes[i]});
@@ -114,6 +115,7 @@ void Reloads::reload(const Queued& queued) {
     report.took = parts_.loop.now() - begin;
     tell(report);
     if (!queued.wish.only_show) {
+      reading.keep();
       say(report);
       carry_out(queued.number, std::move(plan), reading);
     }
@@ -159,6 +161,7 @@ ReloadReport Reloads::report_of(const Queued& queued, const ReloadPlan& plan, co
   for (const std::string& label : plan.gone_labels) {
     report.ends.push_back({label, {}, {}});
   }
+  components_.compare(requests, report);
   if (texts_of(requests.scopes) != traces_) {
     report.notes.emplace_back(
         "the trace of the launch file has changed: what is recorded goes on as it began; restart the launch to change "
@@ -175,7 +178,6 @@ ReloadReport Reloads::report_of(const Queued& queued, const ReloadPlan& plan, co
 }
 
 void Reloads::carry_out(ReloadNumber number, ReloadPlan plan, FileReading& reading) {
-  reading.keep();
   work_.emplace();
   work_->end.number = number;
   Requests& requests = reading.requests();
@@ -183,6 +185,12 @@ void Reloads::carry_out(ReloadNumber number, ReloadPlan plan, FileReading& readi
   parts_.timers.clear_declared();
   for (TrackedProcess* const process : plan.gone) {
     end_process(*process);
+  }
+  std::set<std::string> new_containers;  // whose process ends or starts again
+  for (const KnownProcess& known : known_) {
+    if (known.process->is_gone) {
+      new_containers.insert(known.declared.node);
+    }
   }
   known_.clear();
   Requests rest;
@@ -205,13 +213,18 @@ void Reloads::carry_out(ReloadNumber number, ReloadPlan plan, FileReading& readi
     } else {
       parts_.processes.adopt(*planned.process, spec);
     }
+    if (planned.needs_new_spec || parts_.processes.scalable(*planned.process) == nullptr) {
+      parts_.scaling.replace_copies(*planned.process);
+    }
     if (planned.fate == Fate::kRestarts) {
       restart(id, planned.label);
+      new_containers.insert(plan.declared[i].node);
     } else if (planned.fate == Fate::kSets) {
       set_parameters(planned, plan.declared[i], environment);
     }
     known_.push_back({std::move(plan.declared[i]), planned.process});
   }
+  components_.take_over(requests, [&](const std::string& name) { return new_containers.contains(name); });
   for (NodeDescription& node : requests.nodes) {
     if (moved[node.process]) {
       node.process = *moved[node.process];
@@ -235,6 +248,7 @@ void Reloads::carry_out(ReloadNumber number, ReloadPlan plan, FileReading& readi
 
 // Its end is no end of the launch, whatever the launch file said of it before.
 void Reloads::end_process(TrackedProcess& process) {
+  parts_.scaling.end_copies(process);
   parts_.processes.forget(process);
   parts_.steering.forget(process.id);
   if (process.id == 0 || process.is_over) {

@@ -23,10 +23,12 @@
 #include "launcher/run/handlers/handlers.hpp"
 #include "launcher/run/handlers/timers.hpp"
 #include "launcher/run/reload/file_reading.hpp"
+#include "launcher/run/reload/known_components.hpp"
 #include "launcher/run/reload/reload_plan.hpp"
 #include "launcher/run/reload/reload_report.hpp"
 #include "launcher/run/start/processes.hpp"
 #include "launcher/run/start/rounds.hpp"
+#include "launcher/run/user/scaling.hpp"
 #include "launcher/run/user/steering.hpp"
 #include "launcher/visit/launch_context.hpp"
 
@@ -45,6 +47,8 @@ class Reloads {
     Handlers& handlers;
     Timers& timers;
     Steering& steering;
+    Scaling& scaling;
+    RosTasks& ros_tasks;
   };
   struct Callbacks {
     std::function<bool()> quiet;                      // nothing is being started or visited
@@ -57,7 +61,7 @@ class Reloads {
     bool restart = false;  // nodes whose parameters have changed are started again
   };
 
-  Reloads(Parts parts, Callbacks callbacks) : parts_(parts), callbacks_(std::move(callbacks)) {}
+  Reloads(Parts parts, Callbacks callbacks) : parts_(parts), callbacks_(std::move(callbacks)), components_(parts.ros_tasks) {}
 
   // Without this, no reload is possible.
   void use(FileReading::Load load) { load_ = std::move(load); }
@@ -128,6 +132,7 @@ class Reloads {
   std::vector<KnownProcess> known_;
   std::vector<std::string> traces_;
   std::size_t coroutines_ = 0;
+  KnownComponents components_;
   HandledOnce handled_;
   std::optional<Work> work_;
   std::list<Setting> settings_;

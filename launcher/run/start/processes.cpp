@@ -144,6 +144,7 @@ void Processes::start_slice() {
 
 void Processes::adopt(TrackedProcess& process, const ProcessSpec& spec) {
   table_.rename(process, spec);
+  note_scalable(process, spec);
   if (process.id != 0) {
     supervisor_.adopt(process.id, spec);
   }
@@ -151,6 +152,7 @@ void Processes::adopt(TrackedProcess& process, const ProcessSpec& spec) {
 
 void Processes::replace(TrackedProcess& process, ProcessSpec spec) {
   table_.rename(process, spec);
+  note_scalable(process, spec);
   supervisor_.replace(process.id, std::move(spec),
                       [this, id = process.id](ProcessSpec& next) { callbacks_.starting(next, id); });
 }
@@ -158,6 +160,20 @@ void Processes::replace(TrackedProcess& process, ProcessSpec spec) {
 void Processes::forget(TrackedProcess& process) {
   order_.withdraw(process);
   table_.forget(process);
+  scalable_.erase(&process);
+}
+
+const ProcessSpec* Processes::scalable(const TrackedProcess& process) const {
+  const auto found = scalable_.find(&process);
+  return found == scalable_.end() ? nullptr : &found->second;
+}
+
+void Processes::note_scalable(const TrackedProcess& process, const ProcessSpec& spec) {
+  if (spec.scalable) {
+    scalable_.insert_or_assign(&process, spec);
+  } else {
+    scalable_.erase(&process);
+  }
 }
 
 bool Processes::drop(const TrackedProcess& process) {
@@ -194,6 +210,7 @@ void Processes::start_last(ProcessSpec spec) {
 void Processes::start(ProcessSpec spec, TrackedProcess& process) {
   const ProcessId id = supervisor_.next_id();
   table_.bind(process, id, fmt::format("{}-{}", spec.name, id));
+  note_scalable(process, spec);
   callbacks_.starting(spec, id);
   supervisor_.start(std::move(spec));
 }

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -60,6 +61,8 @@ class Processes {
   void replace(TrackedProcess& process, ProcessSpec spec);
   // The launch file has it no longer: no name means it any more. One that waits never starts; nobody is told.
   void forget(TrackedProcess& process);
+  // What a scalable process has been started with last, before anything was added to it; null if it is not scalable.
+  const ProcessSpec* scalable(const TrackedProcess& process) const;
   // The processes for which it waits.
   std::vector<const TrackedProcess*> targets(const TrackedProcess& process) const { return order_.targets(process); }
   // The process must never start. Returns whether it waited.
@@ -97,6 +100,7 @@ class Processes {
   };
 
   void start(ProcessSpec spec, TrackedProcess& process);
+  void note_scalable(const TrackedProcess& process, const ProcessSpec& spec);
   void start_slice();
 
   EventLoop& loop_;
@@ -104,6 +108,7 @@ class Processes {
   Callbacks callbacks_;
   ProcessTable table_;
   StartOrder order_;
+  std::map<const TrackedProcess*, ProcessSpec> scalable_;
   std::optional<Starting> starting_;
   bool shut_down_ = false;
 };

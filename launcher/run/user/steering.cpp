@@ -12,6 +12,15 @@
 #include "base/diagnostics/diagnostic.hpp"
 
 namespace launch {
+namespace {
+
+// Whether the process is in a group of this name, or in a group within it.
+bool is_in(const std::string& group, const SteeredProcess& process) {
+  return std::any_of(process.groups.begin(), process.groups.end(),
+                     [&](const std::string& name) { return ::fnmatch(group.c_str(), name.c_str(), 0) == 0; });
+}
+
+}  // namespace
 
 const char* name_of(Steering::Request request) {
   switch (request) {
@@ -44,18 +53,31 @@ std::vector<SteeredProcess> Steering::processes() const {
       const ProcessView view = supervisor_.view(tracked.id);
       process.name = view.label;
       process.origin = view.spec.origin;
+      process.groups = view.spec.groups;
     } else {
       process.waits = waiting != nullptr;
       process.skipped = waiting == nullptr;
       process.origin = waiting == nullptr ? SourceRange() : waiting->origin;
+      process.groups = waiting == nullptr ? std::vector<std::string>() : waiting->groups;
     }
   });
   return all;
 }
 
-std::vector<SteeredProcess> Steering::find(const Patterns& patterns, SteeringOutcome& outcome) const {
+std::vector<SteeredProcess> Steering::find(const Wanted& wanted, SteeringOutcome& outcome) const {
   std::vector<SteeredProcess> all = processes();
-  for (const std::string& pattern : patterns) {
+  for (const std::string& group : wanted.groups) {
+    if (std::none_of(all.begin(), all.end(), [&](const auto& process) { return is_in(group, process); })) {
+      std::vector<std::string> names;
+      for (const SteeredProcess& process : all) {
+        names.insert(names.end(), process.groups.begin(), process.groups.end());
+      }
+      outcome.error = fmt::format("no group with processes is named '{}'", group);
+      outcome.help = names.empty() ? "<group name=\"…\"> of the launch file names one" : did_you_mean(group, names);
+      return {};
+    }
+  }
+  for (const std::string& pattern : wanted.patterns) {
     if (std::none_of(all.begin(), all.end(), [&](const auto& process) { return matches(pattern, process); })) {
       std::vector<std::string> names;
       for (const SteeredProcess& process : all) {
@@ -67,18 +89,20 @@ std::vector<SteeredProcess> Steering::find(const Patterns& patterns, SteeringOut
       return {};
     }
   }
-  if (!patterns.empty()) {
+  if (!wanted.empty()) {
     std::erase_if(all, [&](const SteeredProcess& process) {
-      return std::none_of(patterns.begin(), patterns.end(),
-                          [&](const std::string& pattern) { return matches(pattern, process); });
+      return std::none_of(wanted.patterns.begin(), wanted.patterns.end(),
+                          [&](const std::string& pattern) { return matches(pattern, process); }) &&
+             std::none_of(wanted.groups.begin(), wanted.groups.end(),
+                          [&](const std::string& group) { return is_in(group, process); });
     });
   }
   return all;
 }
 
-SteeringOutcome Steering::ask(Request request, const Patterns& patterns, int signal) {
+SteeringOutcome Steering::ask(Request request, const Wanted& wanted, int signal) {
   SteeringOutcome outcome;
-  const std::vector<SteeredProcess> found = find(patterns, outcome);
+  const std::vector<SteeredProcess> found = find(wanted, outcome);
   if (!outcome.error.empty()) {
     return outcome;
   }

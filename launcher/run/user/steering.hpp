@@ -23,6 +23,7 @@ struct SteeredProcess {
   std::vector<std::string> names;  // further names for it
   bool waits = false;              // for what its `depends_on` names
   bool skipped = false;            // it will never start
+  std::vector<std::string> groups; // of the launch file around it, the outermost first
   SourceRange origin;
 };
 
@@ -54,10 +55,17 @@ class Steering {
 
   // In the order in which they were asked for.
   std::vector<SteeredProcess> processes() const;
-  // Those that one of the patterns matches; all without patterns. Sets `error` and `help` when a pattern matches none.
-  std::vector<SteeredProcess> find(const Patterns& patterns, SteeringOutcome& outcome) const;
+  // Which processes are meant: those that a pattern matches, and those in one of the groups, also in a group within it.
+  // Without both all are.
+  struct Wanted {
+    Patterns patterns{};
+    std::vector<std::string> groups{};  // shell patterns, too
+    bool empty() const { return patterns.empty() && groups.empty(); }
+  };
+  // Sets `error` and `help` when a pattern matches none.
+  std::vector<SteeredProcess> find(const Wanted& wanted, SteeringOutcome& outcome) const;
 
-  SteeringOutcome ask(Request request, const Patterns& patterns, int signal = 0);
+  SteeringOutcome ask(Request request, const Wanted& wanted, int signal = 0);
   // Ends the launch as a first Ctrl-C does.
   void shutdown();
   bool is_ending() const { return callbacks_.ending(); }

@@ -87,13 +87,16 @@ std::variant<CommandLine, ExitNow> parse_command_line(const std::vector<std::str
       ->expected(1)
       ->allow_extra_args(false);
   app.add_option("--log-size", command.log_size,
-                 "begin a new log file when one has this size: bytes, or with K, M or G")
+                 "begin a new log file when one has this size: bytes, or with K, M or G; 64M by default, 0: never")
       ->type_name("SIZE")
       ->transform(CLI::AsSizeValue(false));
   app.add_option("--log-files", command.log_files, "how many files of each log are kept, 5 by default")
       ->type_name("N")
-      ->check(CLI::Range(1, 1000))
-      ->needs("--log-size");
+      ->check(CLI::Range(1, 1000));
+  app.add_option("--keep-logs", command.keep_logs,
+                 "how many log directories of earlier launches are kept, how long, and of which size; 200,90d,4G by "
+                 "default, or all")
+      ->type_name("LIMITS");
   app.add_option("--crash-dir", command.crash_directory,
                  "make a directory in DIR for each crash: core, backtrace, last output, command")
       ->type_name("DIR");

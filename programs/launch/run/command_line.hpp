@@ -30,7 +30,8 @@ struct CommandLine {
   bool timestamps = false;
   bool reload_on_hangup = false;
   bool watch = false;  // reload when a launch file changes
-  std::uint64_t log_size = 0;  // bytes; 0: no limit
+  std::uint64_t log_size = std::uint64_t{64} << 20;  // bytes; 0: no limit
+  std::string keep_logs;                             // of earlier launches (old_logs.hpp)
   int log_files = 5;
   std::vector<std::pair<std::string, std::string>> log_levels;  // of nodes: name or "", level
   std::string crash_directory;

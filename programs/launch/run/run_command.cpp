@@ -11,7 +11,6 @@
 #include <chrono>
 #include <filesystem>
 #include <optional>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -34,56 +33,26 @@
 #include "launcher/process/guardian/containment.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/isolation/namespaces.hpp"
+#include "launcher/process/output/old_logs.hpp"
 #include "launcher/process/process_messages.hpp"
 #include "launcher/process/service_manager.hpp"
 #include "launcher/python/interpreter/python_module.hpp"
 #include "launcher/ros/ros_client_process.hpp"
 #include "launcher/run/launch_service.hpp"
-#include "launcher/run/reload/file_watch.hpp"
 #include "launcher/run/scopes/launch_tracepoints.hpp"
 #include "launcher/run/user/status_line.hpp"
 #include "launcher/visit/launch_plan.hpp"
 #include "programs/command_line/result_output.hpp"
 #include "programs/command_line/subcommand.hpp"
 #include "programs/launch/commands.hpp"
+#include "programs/launch/run/log_cleaner.hpp"
+#include "programs/launch/run/output_options.hpp"
 #include "programs/launch/run/service_status.hpp"
+#include "programs/launch/run/watched_files.hpp"
 
 namespace launch {
 
 namespace {
-
-// Throws std::invalid_argument with a sentence.
-std::optional<MessageFormat> message_format(const Environment& environment, const char* variable) {
-  const auto found = environment.find(variable);
-  if (found == environment.end() || found->second.empty()) {
-    return std::nullopt;
-  }
-  try {
-    return MessageFormat(found->second);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(fmt::format("{}: {}", variable, error.what()));
-  }
-}
-
-OutputRouter::Options output_options(const CommandLine& command, const Environment& environment,
-                                     const std::string& log_directory, EventLoop& loop) {
-  OutputRouter::Options options;
-  options.log_directory = log_directory;
-  if (const auto name = environment.find("OVERRIDE_LAUNCH_LOG_FILE_NAME");
-      name != environment.end() && !name->second.empty()) {
-    options.log_name = std::filesystem::path(name->second).filename().string();
-  }
-  options.screen_level = command.debug ? LogLevel::kDebug : LogLevel::kInfo;
-  options.colour = shows_colour(STDOUT_FILENO);
-  options.timestamps = command.timestamps;
-  options.screen_format = message_format(environment, "OVERRIDE_LAUNCH_SCREEN_FORMAT");
-  options.log_format = message_format(environment, "OVERRIDE_LAUNCH_LOG_FORMAT");
-  options.rotation = {command.log_size, command.log_files};
-  options.error_fd = STDERR_FILENO;
-  options.journal = Journal::behind(STDOUT_FILENO, environment);
-  options.loop = &loop;
-  return options;
-}
 
 void set_arguments(const CommandLine& command, LaunchContext& context) {
   std::vector<LaunchContext::NodeLogLevel> levels;
@@ -162,40 +131,6 @@ void tell_isolation(const Isolation& isolation, OutputRouter& output) {
   }
 }
 
-// Watches the launch files that were visited, and those with an error, and lets the launch reload when one has changed.
-class WatchedFiles {
- public:
-  // The references must outlive this object. Throws std::system_error.
-  WatchedFiles(EventLoop& loop, LaunchService& service, const LaunchContext& context, OutputRouter& output)
-      : context_(context), output_(output), watch_(loop, [&service] {
-          if (!service.reloads().has_queued()) {
-            service.reloads().ask({});
-          }
-        }) {
-    loop.post([this, &loop] { loop.post([this] { add({}); }); });  // behind the first visit
-    service.reloads().observe([this](const ReloadReport& report) { add(report.errors); }, [](const ReloadEnd&) {});
-  }
-
- private:
-  void add(const std::vector<Diagnostic>& errors) {
-    std::set<std::string> files = context_.files();
-    for (const Diagnostic& error : errors) {
-      if (error.where) {
-        files.insert(error.where.file->path());
-      }
-    }
-    try {
-      watch_.add(files);
-    } catch (const std::system_error& error) {
-      output_.message(LogLevel::kWarning, "launch", fmt::format("--watch misses files: {}", error.what()));
-    }
-  }
-
-  const LaunchContext& context_;
-  OutputRouter& output_;
-  FileWatch watch_;
-};
-
 // Makes everything that a run needs. The order is that of destruction, backwards.
 int run(const CommandLine& command, const Registry& registry, const Environment& environment,
         const std::shared_ptr<const LaunchDescription>& description, const std::vector<std::string>& files,
@@ -208,6 +143,7 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   }
   ::signal(SIGPIPE, SIG_IGN);
 
+  const LogLimits limits_of_logs = log_limits(command, environment);
   const LogDirectory log_directory = LogDirectory::create(environment);
   const std::unique_ptr<EventLoop> loop = make_sd_event_loop();
   const OutputRouter::Options options = output_options(command, environment, log_directory.path, *loop);
@@ -283,6 +219,7 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   }
   if (control) {
     control->use_reloads(service.reloads());
+    control->use_scaling(service.scaling());
   }
   if (command.reload_on_hangup) {
     service.reload_on_hangup();
@@ -301,6 +238,7 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
     });
     service.observe_suspension([&status](bool stops) { status->suspend(stops); });
   }
+  const LogCleaner cleaner(*loop, log_directory, limits_of_logs, output);
   guardian.wait_until_ready();
   const int exit_code = service.run(*description);
   output.show_status("");

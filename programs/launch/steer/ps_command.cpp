@@ -106,10 +106,12 @@ std::vector<ControlClient> launches(const Environment& environment, const std::s
 int ps_command(const std::vector<std::string>& words) {
   ::signal(SIGPIPE, SIG_DFL);
   std::vector<std::string> names;
+  std::vector<std::string> groups;
   std::string wanted;
   bool as_json = false;
   Subcommand command("launch ps", "Lists the processes of the launches that run.");
   command.take_words("NAME", names, false, "processes, also as patterns such as 'camera*'; all if there is none");
+  command.take_texts("--group", groups, "only processes in this <group name=\"…\"> of the launch file");
   command.take_text("--launch", wanted, "number or file of the launch; all if it is missing");
   command.take_flag("--json", as_json, "print JSON, see docs/control.md");
   if (const auto exit_code = command.parse(words)) {
@@ -121,7 +123,7 @@ int ps_command(const std::vector<std::string>& words) {
   int exit_code = asked.empty() ? 1 : 0;
   for (ControlClient& launch : asked) {
     try {
-      const Json request{{"do", "ps"}, {"processes", names}};
+      const Json request{{"do", "ps"}, {"processes", names}, {"groups", groups}};
       if (as_json) {
         Json answer = launch.ask(request);
         add_usage(answer["processes"]);

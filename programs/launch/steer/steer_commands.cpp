@@ -6,8 +6,11 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <charconv>
+#include <cstddef>
 #include <cstdio>
 #include <set>
+#include <system_error>
 #include <utility>
 
 #include "base/diagnostics/diagnostic.hpp"
@@ -24,6 +27,7 @@ namespace {
 
 using Json = ControlClient::Json;
 
+constexpr std::size_t kMostCopies = 1000;
 constexpr const char* kNamesHelp = "names of processes or their nodes, also as patterns such as 'camera*'";
 
 std::string description_of(const std::string& name) {
@@ -70,20 +74,26 @@ bool tell(const std::string& name, const std::string& process, const Json& event
 
 int steer(const std::string& name, const std::vector<std::string>& words) {
   std::vector<std::string> names;
+  std::vector<std::string> groups;
   std::string wanted;
   bool no_wait = false;
   Subcommand command("launch " + name, description_of(name));
-  command.take_words("NAME", names, true, kNamesHelp);
+  command.take_words("NAME", names, false, kNamesHelp);
+  command.take_texts("--group", groups, "processes in this <group name=\"…\"> of the launch file, and in groups within it");
   command.take_text("--launch", wanted, kLaunchHelp);
   command.take_flag("--no-wait", no_wait, "only ask, don't wait until it has happened");
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;
   }
+  if (names.empty() && groups.empty()) {
+    fmt::print(stderr, "{}", usage_error("launch " + name, "NAME is required, or --group"));
+    return kWrongCommandLine;
+  }
   ControlClient launch = choose_launch(own_environment(), wanted);
   if (!no_wait) {
     launch.ask("events");
   }
-  const Json outcome = launch.ask({{"do", name}, {"processes", names}});
+  const Json outcome = launch.ask({{"do", name}, {"processes", names}, {"groups", groups}});
   const int exit_code = report(name, outcome);
   bool failed = false;
   std::set<std::string> pending;
@@ -115,6 +125,37 @@ int start_command(const std::vector<std::string>& words) {
 
 int restart_command(const std::vector<std::string>& words) {
   return steer("restart", words);
+}
+
+int scale_command(const std::vector<std::string>& words) {
+  std::string process;
+  std::string number;
+  std::string wanted;
+  Subcommand command("launch scale",
+                     "Lets so many of a process run that is declared scalable=\"true\": starts copies, or ends the last ones.");
+  command.take_text("NAME", process, "name of a process or its node");
+  command.take_text("N", number, "how many shall run, the first one included");
+  command.take_text("--launch", wanted, kLaunchHelp);
+  if (const auto exit_code = command.parse(words)) {
+    return *exit_code;
+  }
+  std::size_t count = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), count);
+  if (process.empty() || number.empty() || error != std::errc() || end != number.data() + number.size() || count == 0 ||
+      count > kMostCopies) {
+    fmt::print(stderr, "{}",
+               process.empty() || number.empty()
+                   ? usage_error("launch scale", "NAME and N are required")
+                   : usage_error("launch scale", fmt::format("N is a number from 1 to {}, not '{}'", kMostCopies, number),
+                                 number == "0" ? "launch stop ends a process" : ""));
+    return kWrongCommandLine;
+  }
+  ControlClient launch = choose_launch(own_environment(), wanted);
+  const Json outcome = launch.ask({{"do", "scale"}, {"processes", {process}}, {"count", count}});
+  for (const Json& done : outcome["done"]) {
+    fmt::print("{}\n", done.get<std::string>());
+  }
+  return 0;
 }
 
 int signal_command(const std::vector<std::string>& words) {

@@ -2,8 +2,10 @@
 // How users set what a launch prints and logs (docs/logging.md).
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
@@ -117,6 +119,30 @@ TEST_F(OutputOptions, LogFilesHaveALimitedSizeAndNumber) {
     EXPECT_FALSE(fs::exists(logs / (name + ".3"))) << name;
   }
   EXPECT_THAT(read_file(logs / "launch.log"), HasSubstr("process has finished cleanly"));
+  EXPECT_THAT(read_file(logs / "a-1.log"),
+              StartsWith("[launch] lines before this one are in a-1.log.1; of this log, the newest 3 files of 10240 bytes "
+                         "are kept\n"));
+}
+
+TEST_F(OutputOptions, LogsOfEarlierLaunchesAreRemoved) {
+  const std::string file = write(R"xml(<executable cmd="true"/>)xml");
+  std::vector<fs::path> logs;
+  for (int i = 0; i < 3; ++i) {
+    logs.push_back(log_directory(run_command({LAUNCH_PROGRAM, file})));
+    for (const fs::directory_entry& entry : fs::directory_iterator(logs.back())) {
+      fs::last_write_time(entry, fs::file_time_type::clock::now() - std::chrono::hours(10 - i));
+    }
+  }
+  const CommandResult result = run_command({LAUNCH_PROGRAM, "--keep-logs", "2", file});
+  EXPECT_THAT(result.out, ContainsRegex("removed the logs of 2 earlier launches \\([0-9.]+ MiB\\), 2 are left; "
+                                        "--keep-logs says how many"));
+  EXPECT_FALSE(fs::exists(logs[0]));
+  EXPECT_FALSE(fs::exists(logs[1]));
+  EXPECT_TRUE(fs::exists(logs[2]));
+  const CommandResult wrong = run_command({LAUNCH_PROGRAM, "--keep-logs", "2x", file});
+  EXPECT_EQ(wrong.exit_code, 1);
+  EXPECT_THAT(wrong.err, HasSubstr("'2x' is no limit for logs, expected such as 200,90d,4G (directories, days, bytes), or "
+                                   "all"));
 }
 
 }  // namespace

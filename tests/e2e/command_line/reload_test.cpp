@@ -81,13 +81,14 @@ TEST_F(Reload, AnErrorIsShownAtItsPlaceAndChangesNothing) {
   EXPECT_EQ(refused.exit_code, 1);
   EXPECT_EQ(refused.out, "");
   EXPECT_EQ(refused.err,
-            "system.launch.xml:3:13: error: unknown attribute 'cdm' of <executable>\n"
+            "system.launch.xml:3:13: error: unexpected attribute 'cdm' in 'executable'\n"
             "    3 | <executable cdm=\"true\"/>\n"
             "      |             ^~~\n"
             "      = help: did you mean 'cmd'?\n"
-            "system.launch.xml:3:2: error: attribute 'cmd' of <executable> is missing\n"
+            "system.launch.xml:3:2: error: attribute 'cmd' not found in entity 'executable'\n"
             "    3 | <executable cdm=\"true\"/>\n"
             "      |  ^~~~~~~~~~\n"
+            "      = help: cmd: the command line; split into words, not run by a shell\n"
             "launch reload: error: the launch file has an error; nothing is changed\n");
   EXPECT_EQ(pids(), before);
 }

@@ -73,7 +73,7 @@ TEST_F(ReloadsTest, StartsEndsAndRestartsWhatHasChangedAndNothingElse) {
   EXPECT_THAT(reports_[0].restarts[0].changes, ElementsAre("command line: 1 -> 2"));
   EXPECT_EQ(reports_[0].stays, 1U);
   EXPECT_THAT(started(), ElementsAre("a", "b 1", "c", "b 2", "d"));
-  EXPECT_THAT(journal_, ElementsAre("start a-1", "start b-2", "start c-3", "exit c-3", "exit b-2", "start b-2",
+  EXPECT_THAT(journal_, ElementsAre("start a-1", "start b-2", "start c-3", "exit b-2", "exit c-3", "start b-2",
                                     "start d-4", "exit a-1", "exit b-2", "exit d-4"));
   ASSERT_THAT(ends_, SizeIs(1));
   EXPECT_THAT(ends_[0].failures, IsEmpty());
@@ -85,9 +85,10 @@ TEST_F(ReloadsTest, AFileWithAnErrorChangesNothing) {
   EXPECT_EQ(exit_code_, 0);
   ASSERT_THAT(reports_, SizeIs(1));
   EXPECT_THAT(render(reports_[0].errors),
-              "/test/system.launch.xml:2:66: error: launch configuration 'gone' does not exist\n"
+              "/test/system.launch.xml:2:57: error: launch configuration 'gone' does not exist\n"
               "    2 | <executable name=\"b\" cmd=\"b\"/><executable name=\"a\" cmd=\"$(var gone)\"/>\n"
-              "      |                                                          ^~~~~~~~~~~\n");
+              "      |                                                         ^~~~~~~~~~~\n"
+              "      = help: declare it with 'arg', set it with 'let', or give a default: $(var gone DEFAULT)\n");
   EXPECT_THAT(started(), ElementsAre("a"));
   EXPECT_THAT(ends_, IsEmpty());
   EXPECT_THAT(messages_, Contains("[launch] reload: nothing is changed, because the launch file has an error"));
@@ -271,6 +272,30 @@ TEST_F(ReloadsTest, TheWishForARestartSetsNoParameters) {
             {.restart = true});
   EXPECT_THAT(names(reports_.at(0).restarts), ElementsAre("a-1"));
   EXPECT_THAT(started(), SizeIs(2));
+}
+
+TEST_F(ReloadsTest, ComponentsAreLoadedAndUnloadedWhileTheContainerGoesOn) {
+  test_support::FakeRosClient fake(loop_);
+  client = &fake;
+  for (const char* const name : {"stays", "changes", "goes", "comes"}) {
+    fake.script(std::string("load /c ") + name, test_support::FakeRosClient::loaded(std::string("/") + name));
+  }
+  fake.script("the '/c/_container/unload_node' service", {.ok = true});
+  const auto load = [](const std::string& nodes) {
+    return R"xml(<executable cmd="a"/><load_composable_node target="/c">)xml" + nodes + "</load_composable_node>";
+  };
+  const std::string stays = R"xml(<composable_node pkg="p" plugin="P" name="stays"/>)xml";
+  const std::string changes = R"xml(<composable_node pkg="p" plugin="P" name="changes">)xml";
+  run_texts({load(stays + changes + R"xml(</composable_node><composable_node pkg="p" plugin="P" name="goes"/>)xml"),
+             load(R"xml(<composable_node pkg="p" plugin="P" name="comes"/>)xml" + stays + changes +
+                  R"xml(<param name="x" value="1"/></composable_node>)xml")});
+  EXPECT_THAT(names(reports_.at(0).starts), ElementsAre("comes in /c"));
+  EXPECT_THAT(names(reports_[0].ends), ElementsAre("goes in /c"));
+  EXPECT_THAT(names(reports_[0].restarts), ElementsAre("changes in /c"));
+  EXPECT_THAT(fake.asked, ElementsAre("load /c stays", "load /c changes", "load /c goes",
+                                      "the '/c/_container/unload_node' service", "load /c comes",
+                                      "the '/c/_container/unload_node' service", "load /c changes"));
+  EXPECT_THAT(started(), SizeIs(1));
 }
 
 TEST_F(ReloadsTest, WithoutAFileItIsRefused) {

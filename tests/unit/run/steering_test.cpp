@@ -39,10 +39,10 @@ TEST_F(SteeringTest, PatternsAreForLabelsAndNames) {
   at(1s, [](Steering& steering) {
     SteeringOutcome outcome;
     EXPECT_THAT(names(steering.find({}, outcome)), ElementsAre("talker-1", "listener-2", "talker-3"));
-    EXPECT_THAT(names(steering.find({"talker"}, outcome)), ElementsAre("talker-1", "talker-3"));
-    EXPECT_THAT(names(steering.find({"*-3", "list*"}, outcome)), ElementsAre("listener-2", "talker-3"));
+    EXPECT_THAT(names(steering.find({{"talker"}}, outcome)), ElementsAre("talker-1", "talker-3"));
+    EXPECT_THAT(names(steering.find({{"*-3", "list*"}}, outcome)), ElementsAre("listener-2", "talker-3"));
     EXPECT_EQ(outcome.error, "");
-    EXPECT_THAT(steering.find({"talker", "lisener"}, outcome), IsEmpty());
+    EXPECT_THAT(steering.find({{"talker", "lisener"}}, outcome), IsEmpty());
     EXPECT_EQ(outcome.error, "no process is named 'lisener'");
     EXPECT_EQ(outcome.help, "did you mean 'listener'?");
     steering.shutdown();
@@ -51,11 +51,11 @@ TEST_F(SteeringTest, PatternsAreForLabelsAndNames) {
 }
 
 TEST_F(SteeringTest, WhatWasStoppedCanStartAgainAndTheLaunchWaitsForThat) {
-  at(1s, [](Steering& steering) { EXPECT_THAT(steering.ask(Request::kStop, {"a"}).done, ElementsAre("a-1")); });
+  at(1s, [](Steering& steering) { EXPECT_THAT(steering.ask(Request::kStop, {{"a"}}).done, ElementsAre("a-1")); });
   at(100s, [](Steering& steering) {
-    EXPECT_THAT(steering.ask(Request::kStop, {"a"}).refused, ElementsAre("a-1 does not run"));
-    EXPECT_THAT(steering.ask(Request::kStart, {"a"}).done, ElementsAre("a-1"));
-    EXPECT_THAT(steering.ask(Request::kStart, {"a"}).refused, ElementsAre("a-1 runs already"));
+    EXPECT_THAT(steering.ask(Request::kStop, {{"a"}}).refused, ElementsAre("a-1 does not run"));
+    EXPECT_THAT(steering.ask(Request::kStart, {{"a"}}).done, ElementsAre("a-1"));
+    EXPECT_THAT(steering.ask(Request::kStart, {{"a"}}).refused, ElementsAre("a-1 runs already"));
   });
   at(200s, [](Steering& steering) { steering.shutdown(); });
   EXPECT_EQ(run(R"xml(<executable cmd="a" respawn="true"/>)xml"), 0);
@@ -65,8 +65,8 @@ TEST_F(SteeringTest, WhatWasStoppedCanStartAgainAndTheLaunchWaitsForThat) {
 
 TEST_F(SteeringTest, TheLaunchEndsWhenAProcessThatWasStartedAgainEnds) {
   runner_.script("a", {{}, {.exits_after = 5s}});
-  at(1s, [](Steering& steering) { steering.ask(Request::kStop, {"a"}); });
-  at(2s, [](Steering& steering) { steering.ask(Request::kStart, {"a"}); });
+  at(1s, [](Steering& steering) { steering.ask(Request::kStop, {{"a"}}); });
+  at(2s, [](Steering& steering) { steering.ask(Request::kStart, {{"a"}}); });
   EXPECT_EQ(run(R"xml(<executable cmd="a"/>)xml"), 0);
   EXPECT_EQ(loop_.now(), 7s);
 }
@@ -79,10 +79,10 @@ TEST_F(SteeringTest, AProcessThatWaitsNeverStartsOnceItWasStopped) {
     EXPECT_EQ(all[1].name, "b");
     EXPECT_TRUE(all[1].waits);
     EXPECT_THAT(to_string(all[1].origin), HasSubstr("system.launch.xml:2:"));
-    EXPECT_THAT(steering.ask(Request::kStart, {"b"}).refused, ElementsAre("b waits for its start"));
-    EXPECT_THAT(steering.ask(Request::kStop, {"b"}).dropped, ElementsAre("b"));
+    EXPECT_THAT(steering.ask(Request::kStart, {{"b"}}).refused, ElementsAre("b waits for its start"));
+    EXPECT_THAT(steering.ask(Request::kStop, {{"b"}}).dropped, ElementsAre("b"));
     EXPECT_TRUE(steering.processes()[1].skipped);
-    EXPECT_THAT(steering.ask(Request::kStop, {"b"}).refused, ElementsAre("b has never been started"));
+    EXPECT_THAT(steering.ask(Request::kStop, {{"b"}}).refused, ElementsAre("b has never been started"));
   });
   EXPECT_EQ(
       run(R"xml(<executable cmd="a"/><executable cmd="b"><depends_on process="a" condition="exited"/></executable>)xml"),
@@ -98,8 +98,8 @@ TEST_F(SteeringTest, NothingStartsWhileTheLaunchEnds) {
     steering.shutdown();
     steering.shutdown();
     EXPECT_TRUE(steering.is_ending());
-    EXPECT_EQ(steering.ask(Request::kRestart, {"a"}).error, "the launch is ending, nothing can restart any more");
-    EXPECT_EQ(steering.ask(Request::kStart, {"a"}).error, "the launch is ending, nothing can start any more");
+    EXPECT_EQ(steering.ask(Request::kRestart, {{"a"}}).error, "the launch is ending, nothing can restart any more");
+    EXPECT_EQ(steering.ask(Request::kStart, {{"a"}}).error, "the launch is ending, nothing can start any more");
   });
   EXPECT_EQ(run(R"xml(<executable cmd="a"/>)xml"), 0);
   EXPECT_THAT(ends, ElementsAre("launch shutdown"));
@@ -113,7 +113,7 @@ TEST_F(SteeringTest, RestartsAreCountedAndTheLastEndIsKnown) {
     EXPECT_EQ(supervisor_.view(1).pid, -1);
     ASSERT_TRUE(supervisor_.view(1).last_exit);
     EXPECT_EQ(supervisor_.view(1).last_exit->code, 3);
-    steering.ask(Request::kRestart, {"a"});
+    steering.ask(Request::kRestart, {{"a"}});
     EXPECT_EQ(supervisor_.view(1).runs, 2);
     EXPECT_GT(supervisor_.view(1).pid, 0);
   });
