@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "base/diagnostics/diagnostic.hpp"
-#include "launcher/language/launch_description.hpp"
 #include "launcher/visit/launch_context.hpp"
 
 namespace launch {

@@ -17,6 +17,14 @@ bool names_node(const ProcessSpec& spec) {
                      [](const std::string& word) { return word.starts_with(kNodeRule); });
 }
 
+std::vector<std::string> names_of(const Processes& processes) {
+  std::vector<std::string> names;
+  processes.for_each([&](const TrackedProcess& process, const ProcessSpec*) {
+    names.insert(names.end(), process.names.begin(), process.names.end());
+  });
+  return names;
+}
+
 SteeringOutcome refused(std::string error, std::string help = {}) {
   SteeringOutcome outcome;
   outcome.error = std::move(error);
@@ -57,7 +65,7 @@ ProcessSpec copy_of(const ProcessSpec& spec, std::size_t number) {
 SteeringOutcome Scaling::scale(const std::string& name, std::size_t count) {
   const std::vector<TrackedProcess*> found = processes_.find(name);
   if (found.empty()) {
-    return refused(fmt::format("no process is named '{}'", name), did_you_mean(name, processes_.names()));
+    return refused(fmt::format("no process is named '{}'", name), did_you_mean(name, names_of(processes_)));
   }
   if (found.size() > 1) {
     return refused(fmt::format("{} processes are named '{}'", found.size(), name), "name one of them, as launch ps does");

@@ -2,6 +2,7 @@
 // Launch files that are read again while they run; on virtual time, with processes that follow scripts.
 #include "launcher/run/reload/reloads.hpp"
 
+#include <fmt/ranges.h>
 #include <signal.h>
 
 #include "launcher/ros/fake/fake_ros_client.hpp"
