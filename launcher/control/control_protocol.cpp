@@ -32,16 +32,16 @@ struct KindName {
   const char* name;
 };
 constexpr std::array<KindName, 11> kKinds{{{Kind::kInfo, "info"},
-                                          {Kind::kPs, "ps"},
-                                          {Kind::kStop, "stop"},
-                                          {Kind::kStart, "start"},
-                                          {Kind::kRestart, "restart"},
-                                          {Kind::kSignal, "signal"},
-                                          {Kind::kShutdown, "shutdown"},
-                                          {Kind::kEvents, "events"},
-                                          {Kind::kOutput, "output"},
-                                          {Kind::kReload, "reload"},
-                                          {Kind::kScale, "scale"}}};
+                                           {Kind::kPs, "ps"},
+                                           {Kind::kStop, "stop"},
+                                           {Kind::kStart, "start"},
+                                           {Kind::kRestart, "restart"},
+                                           {Kind::kSignal, "signal"},
+                                           {Kind::kShutdown, "shutdown"},
+                                           {Kind::kEvents, "events"},
+                                           {Kind::kOutput, "output"},
+                                           {Kind::kReload, "reload"},
+                                           {Kind::kScale, "scale"}}};
 
 // Names and lines of programs may hold any bytes.
 std::string dump(const Json& json) {

@@ -38,8 +38,8 @@ struct ControlRequest {
   std::vector<std::string> groups;  // of kPs, kStop, kStart, kRestart and kSignal
   int signal = 0;
   std::size_t count = 0;  // of kScale
-  bool dry_run = false;  // of kReload
-  bool restart = false;  // of kReload: not by setting parameters
+  bool dry_run = false;   // of kReload
+  bool restart = false;   // of kReload: not by setting parameters
 };
 
 // Throws std::runtime_error, with a sentence for the client, for any other text.

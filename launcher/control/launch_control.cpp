@@ -62,7 +62,8 @@ std::string LaunchControl::answer(ClientId client, std::string_view line) {
     case Kind::kRestart:
       return outcome_line(steering_.ask(Steering::Request::kRestart, {request.processes, request.groups}));
     case Kind::kSignal:
-      return outcome_line(steering_.ask(Steering::Request::kSignal, {request.processes, request.groups}, request.signal));
+      return outcome_line(
+          steering_.ask(Steering::Request::kSignal, {request.processes, request.groups}, request.signal));
     case Kind::kShutdown:
       steering_.shutdown();
       return done_line();

@@ -31,8 +31,7 @@ Json list_of(const std::vector<ReloadReport::Line>& lines) {
     }
     if (line.where) {
       const SourceFile::Position position = line.where.file->position(line.where.begin);
-      entry["place"] = {
-          {"file", line.where.file->path()}, {"line", position.line}, {"column", position.column}};
+      entry["place"] = {{"file", line.where.file->path()}, {"line", position.line}, {"column", position.column}};
     }
     list.push_back(std::move(entry));
   }
