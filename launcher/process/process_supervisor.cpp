@@ -332,34 +332,6 @@ void ProcessSupervisor::restart_unhealthy(ProcessId id) {
   impl_->handle(*impl_->processes.at(id - 1), Event::kUnhealthy);
 }
 
-void ProcessSupervisor::adopt(ProcessId id, const ProcessSpec& spec) {
-  Supervised& process = *impl_->processes.at(id - 1);
-  ProcessSpec& now = process.spec;
-  now.python_action = spec.python_action;
-  now.other_names = spec.other_names;
-  now.groups = spec.groups;
-  now.scalable = spec.scalable;
-  now.respawn = spec.respawn;
-  now.start_limit = spec.start_limit;
-  now.shutdown_on_exit = spec.shutdown_on_exit;
-  now.required = spec.required;
-  now.allowed_exits = spec.allowed_exits;
-  now.sigterm_timeout = spec.sigterm_timeout;
-  now.sigkill_timeout = spec.sigkill_timeout;
-  now.origin = spec.origin;
-  if (impl_->guardian != nullptr && process.unreaped) {
-    impl_->guardian->note(id, process.process.pid, process.label, now);
-  }
-}
-
-void ProcessSupervisor::replace(ProcessId id, ProcessSpec spec, std::function<void(ProcessSpec&)> prepare) {
-  adopt(id, spec);
-  impl_->processes.at(id - 1)->next = [spec = std::move(spec), prepare = std::move(prepare)]() mutable {
-    prepare(spec);
-    return std::move(spec);
-  };
-}
-
 ProcessRunner& ProcessSupervisor::runner() const {
   return impl_->runner;
 }

@@ -82,8 +82,8 @@ struct WatchMessages {
 };
 
 using RosRequest =
-    std::variant<LoadNode, UnloadNode, ListNodes, ChangeState, GetState, SetParameters, NodePresent, TopicPresent, ServicePresent,
-                 MessagePublished, StateReached, ParameterReached, WatchTransitions, WatchMessages>;
+    std::variant<LoadNode, UnloadNode, ListNodes, ChangeState, GetState, SetParameters, NodePresent, TopicPresent,
+                 ServicePresent, MessagePublished, StateReached, ParameterReached, WatchTransitions, WatchMessages>;
 
 struct RosAnswer {
   bool ok = false;

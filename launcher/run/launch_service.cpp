@@ -70,8 +70,7 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
           loop, [this](const Invocation& invocation) { visit(invocation); }, [this] { check_finished(); },
           [this](const LaunchError& error) { fail(error); }),
       timers_(loop, [this](TimerRequest timer) { visit(std::move(timer)); }),
-      scaling_(supervisor, processes_,
-               [this](Requests requests) { carry_out(std::move(requests), Asker::kHandler); }),
+      scaling_(supervisor, processes_, [this](Requests requests) { carry_out(std::move(requests), Asker::kHandler); }),
       reloads_({context, loop, supervisor, processes_, handlers_, timers_, steering_, scaling_, ros_tasks_},
                {[this] { return rounds_.empty() && handlers_.idle(); },
                 [this](Requests requests) { carry_out(std::move(requests), Asker::kFile); }, errors_,
@@ -189,7 +188,8 @@ void LaunchService::on_coroutine_step() {
 
 void LaunchService::visit(TimerRequest timer) {
   const std::vector<ActionPtr>& actions = timer.actions;
-  traverse(actions.empty() ? SourceRange() : actions.front()->where(), timer.by_handler ? Asker::kHandler : Asker::kFile,
+  traverse(actions.empty() ? SourceRange() : actions.front()->where(),
+           timer.by_handler ? Asker::kHandler : Asker::kFile,
            [&] { context_.visit_in(std::move(timer.scope), actions); });
 }
 
@@ -215,7 +215,8 @@ void LaunchService::traverse(const SourceRange& where, Asker asker, const std::f
   recording_.record_visit(begin, where, requests);
   if (asker == Asker::kHandler) {
     std::for_each(requests.timers.begin(), requests.timers.end(), [](TimerRequest& timer) { timer.by_handler = true; });
-    std::for_each(requests.handlers.begin(), requests.handlers.end(), [](EventHandler& each) { each.by_handler = true; });
+    std::for_each(requests.handlers.begin(), requests.handlers.end(),
+                  [](EventHandler& each) { each.by_handler = true; });
   }
   carry_out(std::move(requests), asker);
 }

@@ -98,7 +98,9 @@ class LaunchService {
   // Reads the launch file again while it runs.
   Reloads& reloads() { return reloads_; }
   // From now on SIGHUP reads the launch file again, and does not end the launch. To be called before run().
-  void reload_on_hangup() { signals_.take_hangup([this] { reloads_.ask({}); }); }
+  void reload_on_hangup() {
+    signals_.take_hangup([this] { reloads_.ask({}); });
+  }
 
   // The durations of the steps up to the last start, and of the steps after the last exit, in order.
   const std::vector<TimedStep>& timing() const { return timing_; }

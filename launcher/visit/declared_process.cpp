@@ -155,8 +155,8 @@ void add_command(const ProcessSpec& spec, const NodeDescription* node, FileConte
   }
   for (std::size_t i = 0; i < spec.files.size(); ++i) {
     words.add(std::string_view(spec.files[i].content));
-    const bool is_known = node != nullptr && std::find(node->value_files.begin(), node->value_files.end(), i) !=
-                                                 node->value_files.end();
+    const bool is_known =
+        node != nullptr && std::find(node->value_files.begin(), node->value_files.end(), i) != node->value_files.end();
     if (!is_known) {
       contents.add(std::string_view(spec.files[i].content));
     }
@@ -187,7 +187,7 @@ bool DeclaredProcess::starts_as(const DeclaredProcess& other) const {
 
 const char* name_of(DeclaredProcess::Group group) {
   static constexpr std::array<const char*, DeclaredProcess::kGroups> kNames = {
-      "command line", "parameter file", "environment",     "working directory", "standard input and output",
+      "command line", "parameter file", "environment",     "working directory",   "standard input and output",
       "limits",       "watches",        "crash directory", "whether it is traced"};
   return kNames.at(group);
 }
@@ -257,7 +257,9 @@ std::vector<std::optional<std::size_t>> find_same(const std::vector<DeclaredProc
     }
   };
   pair([](const DeclaredProcess& old, const DeclaredProcess& fresh) { return old.starts_as(fresh); });
-  pair([](const DeclaredProcess& old, const DeclaredProcess& fresh) { return line_of(old.where) == line_of(fresh.where); });
+  pair([](const DeclaredProcess& old, const DeclaredProcess& fresh) {
+    return line_of(old.where) == line_of(fresh.where);
+  });
   pair([](const DeclaredProcess&, const DeclaredProcess&) { return true; });
   return same;
 }

@@ -30,13 +30,13 @@ struct DeclaredProcess {
     kGroups
   };
 
-  std::string name;                   // the label without its number, and the full name of the node if it has one
-  std::string node;                   // its full name; empty: it is no node, or the launch file does not name it
-  std::uint64_t command_words = 0;    // the command line with its parameters
+  std::string name;                 // the label without its number, and the full name of the node if it has one
+  std::string node;                 // its full name; empty: it is no node, or the launch file does not name it
+  std::uint64_t command_words = 0;  // the command line with its parameters
   std::array<std::uint64_t, kGroups> groups{};  // of each a number that stands for its values
-  std::uint64_t policy = 0;           // respawn, timeouts and the like: they hold without another start
-  std::uint64_t dependencies = 0;     // what it waits for before its start
-  std::vector<NamedParameter> parameters;  // that the launch file gives by name; the last one of a name holds
+  std::uint64_t policy = 0;                     // respawn, timeouts and the like: they hold without another start
+  std::uint64_t dependencies = 0;               // what it waits for before its start
+  std::vector<NamedParameter> parameters;       // that the launch file gives by name; the last one of a name holds
   SourceRange where;
 
   // Whether the other one starts a process that is the same in all groups.

@@ -56,8 +56,8 @@ struct EventHandler {
   std::string process;  // a name (process_table.hpp); empty: every process
   bool once = false;
   std::vector<ActionPtr> actions;
-  Scope scope;        // the scope at the place of the handler
-  bool live = false;  // its actions are visited in the scope of the whole launch, which they may change
+  Scope scope;              // the scope at the place of the handler
+  bool live = false;        // its actions are visited in the scope of the whole launch, which they may change
   bool by_handler = false;  // another event handler has asked for it
   SourceRange where;
 };

@@ -44,8 +44,8 @@ void ProcessTable::rename(TrackedProcess& process, const ProcessSpec& spec) {
 void ProcessTable::forget(TrackedProcess& process) {
   process.is_gone = true;
   for (const std::string& name : process.names) {
-    if (const auto found = by_name_.find(name); found != by_name_.end() && std::erase(found->second, &process) != 0 &&
-                                                found->second.empty()) {
+    if (const auto found = by_name_.find(name);
+        found != by_name_.end() && std::erase(found->second, &process) != 0 && found->second.empty()) {
       by_name_.erase(found);
     }
   }

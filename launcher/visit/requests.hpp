@@ -41,7 +41,7 @@ struct TimerRequest {
   Duration period{0};
   bool cancel_on_shutdown = true;
   std::vector<ActionPtr> actions;
-  Scope scope;  // the scope at the place of the timer
+  Scope scope;              // the scope at the place of the timer
   bool by_handler = false;  // an event handler has asked for it, or a timer of one
 };
 

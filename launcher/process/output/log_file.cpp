@@ -34,7 +34,9 @@ int LogFile::append(std::string_view lines) {
     // The lines that have room, or else one line that is longer than a file may be.
     const std::size_t room = limits_.bytes > size_ ? static_cast<std::size_t>(limits_.bytes - size_) : 0;
     const std::size_t end = room == 0 ? std::string_view::npos : lines.rfind('\n', room - 1);
-    const std::size_t size = end != std::string_view::npos ? end + 1 : size_ > 0 && has_lines_ ? 0 : lines.find('\n') + 1;
+    const std::size_t size = end != std::string_view::npos ? end + 1
+                             : size_ > 0 && has_lines_     ? 0
+                                                           : lines.find('\n') + 1;
     error = error != 0 ? error : write(lines.substr(0, size));
     lines.remove_prefix(size);
     if (lines.empty()) {
@@ -77,10 +79,13 @@ void LogFile::rotate() {
   fd_.reset();
   size_ = 0;
   if (limits_.bytes >= kLeastForNote && open()) {
-    write(limits_.files <= 1
-              ? fmt::format("[launch] lines before this one were removed: this log holds {} bytes at most\n", limits_.bytes)
-              : fmt::format("[launch] lines before this one are in {}.1; of this log, the newest {} files of {} bytes are kept\n",
-                            std::filesystem::path(path_).filename().string(), limits_.files, limits_.bytes));
+    write(
+        limits_.files <= 1
+            ? fmt::format("[launch] lines before this one were removed: this log holds {} bytes at most\n",
+                          limits_.bytes)
+            : fmt::format(
+                  "[launch] lines before this one are in {}.1; of this log, the newest {} files of {} bytes are kept\n",
+                  std::filesystem::path(path_).filename().string(), limits_.files, limits_.bytes));
     has_lines_ = false;
   }
 }

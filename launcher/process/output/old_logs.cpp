@@ -34,9 +34,9 @@ struct LogRun {
 // "talker-1-stdout.log", "launch.log.3"
 bool is_log(const std::string& name) {
   const std::size_t end = name.find_last_not_of("0123456789");
-  const std::string_view stem =
-      end != std::string::npos && end + 1 < name.size() && name[end] == '.' ? std::string_view(name).substr(0, end)
-                                                                            : std::string_view(name);
+  const std::string_view stem = end != std::string::npos && end + 1 < name.size() && name[end] == '.'
+                                    ? std::string_view(name).substr(0, end)
+                                    : std::string_view(name);
   return stem.ends_with(".log");
 }
 
@@ -106,7 +106,8 @@ LogLimits parse_log_limits(std::string_view text) {
       limits.runs = number;
     } else if (unit == "d") {
       limits.age = std::chrono::days(number);
-    } else if (const std::size_t power = std::string_view("KMG").find(unit); unit.size() == 1 && power != std::string_view::npos) {
+    } else if (const std::size_t power = std::string_view("KMG").find(unit);
+               unit.size() == 1 && power != std::string_view::npos) {
       limits.bytes = std::uint64_t{number} << (10 * (power + 1));
     } else {
       refuse_limits(text);
@@ -120,8 +121,9 @@ LogLimits parse_log_limits(std::string_view text) {
 
 UniqueFd mark_log_directory(const std::string& directory) {
   UniqueFd mark(::open((fs::path(directory) / kLogMark).c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
-  if (mark && (::flock(mark.get(), LOCK_EX | LOCK_NB) != 0 ||
-               ::write(mark.get(), kTextOfMark.data(), kTextOfMark.size()) != static_cast<ssize_t>(kTextOfMark.size()))) {
+  if (mark &&
+      (::flock(mark.get(), LOCK_EX | LOCK_NB) != 0 ||
+       ::write(mark.get(), kTextOfMark.data(), kTextOfMark.size()) != static_cast<ssize_t>(kTextOfMark.size()))) {
     ::unlink((fs::path(directory) / kLogMark).c_str());
     mark.reset();
   }

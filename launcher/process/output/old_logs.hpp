@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Removes the log directories of earlier launches, so that the disk does not fill up.
 //
-// Only what a launch has made is removed: a directory with its mark, in which there is nothing but logs, and whose launch
-// does not run any more. What ros2 launch has made has no mark.
+// Only what a launch has made is removed: a directory with its mark, in which there is nothing but logs, and whose
+// launch does not run any more. What ros2 launch has made has no mark.
 #pragma once
 
 #include <chrono>
@@ -26,8 +26,8 @@ struct LogLimits {
 // Throws std::invalid_argument with a sentence.
 LogLimits parse_log_limits(std::string_view text);
 
-// Marks the directory of a launch that runs, as long as the descriptor is open. An invalid one if the directory can't be
-// marked; it is never removed then.
+// Marks the directory of a launch that runs, as long as the descriptor is open. An invalid one if the directory can't
+// be marked; it is never removed then.
 UniqueFd mark_log_directory(const std::string& directory);
 
 struct RemovedLogs {

@@ -14,12 +14,12 @@ namespace launch {
 
 class FileWatch {
  public:
-  // `changed` is called once for all changes that are there at a time, in a turn of the loop. The loop must outlive this
-  // object. Throws std::system_error.
+  // `changed` is called once for all changes that are there at a time, in a turn of the loop. The loop must outlive
+  // this object. Throws std::system_error.
   FileWatch(EventLoop& loop, std::function<void()> changed);
 
-  // Watches these files, too. One whose directory does not exist is passed over. Throws std::system_error when the system
-  // allows no more watches.
+  // Watches these files, too. One whose directory does not exist is passed over. Throws std::system_error when the
+  // system allows no more watches.
   void add(const std::set<std::string>& files);
 
  private:

@@ -71,25 +71,27 @@ void KnownComponents::compare(const Requests& requests, ReloadReport& report) co
   }
   for (const TransitionRequest& transition : requests.transitions) {
     if (!has(transitions_, transition)) {
-      report.notes.push_back(fmt::format("'{}' gets the transitions: {}", transition.node,
-                                         fmt::join(transition.transitions, ", ")));
+      report.notes.push_back(
+          fmt::format("'{}' gets the transitions: {}", transition.node, fmt::join(transition.transitions, ", ")));
     }
   }
 }
 
-void KnownComponents::take_over(Requests& requests, const std::function<bool(const std::string& container)>& loads_anew) {
+void KnownComponents::take_over(Requests& requests,
+                                const std::function<bool(const std::string& container)>& loads_anew) {
   const std::vector<Component> now = components_of(requests);
   for (const Component& component : components_) {
     if (find(now, component) == now.end()) {
-      tasks_.forget(component.container, component.node, component.environment, !loads_anew(component.container), [] {});
+      tasks_.forget(component.container, component.node, component.environment, !loads_anew(component.container),
+                    [] {});
     }
   }
   for (const Component& component : now) {
     const auto known = find(components_, component);
-    const auto load = [this, request = LoadRequest{component.container, {component.node}, component.environment,
-                                                   component.origin}] {
-      tasks_.start(std::vector<LoadRequest>{request}, std::vector<TransitionRequest>{});
-    };
+    const auto load =
+        [this, request = LoadRequest{component.container, {component.node}, component.environment, component.origin}] {
+          tasks_.start(std::vector<LoadRequest>{request}, std::vector<TransitionRequest>{});
+        };
     if (known == components_.end()) {
       load();
     } else if (known->text != component.text) {

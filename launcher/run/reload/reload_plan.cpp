@@ -12,8 +12,8 @@
 namespace launch {
 namespace {
 
-constexpr std::size_t kShown = 3;      // single changes of a group
-constexpr std::size_t kLongest = 60;   // bytes of a value that is shown
+constexpr std::size_t kShown = 3;     // single changes of a group
+constexpr std::size_t kLongest = 60;  // bytes of a value that is shown
 
 std::string shortened(const std::string& text) {
   return text.size() <= kLongest ? text : text.substr(0, kLongest) + "…";
@@ -155,8 +155,8 @@ class Planner {
       planned.changes = parameter_changes(before, now);
     }
     if (process.id == 0) {
-      const bool is_same = before.starts_as(now) && before.dependencies == now.dependencies && before.policy == now.policy &&
-                           fresh.python_action.empty();
+      const bool is_same = before.starts_as(now) && before.dependencies == now.dependencies &&
+                           before.policy == now.policy && fresh.python_action.empty();
       if (!is_same) {
         planned.fate = Fate::kStarts;
       }

@@ -28,17 +28,17 @@ enum class Fate {
 
 struct PlannedProcess {
   Fate fate = Fate::kStarts;
-  TrackedProcess* process = nullptr;           // of the earlier reading; null: it is new
-  std::string label{};                         // "talker-1"; without its number if it has not started
-  std::vector<std::string> changes{};          // "command line: rate:=10 -> rate:=20"
-  bool needs_new_spec = false;                 // at its next start
-  std::vector<NamedParameter> parameters{};    // to be set
+  TrackedProcess* process = nullptr;         // of the earlier reading; null: it is new
+  std::string label{};                       // "talker-1"; without its number if it has not started
+  std::vector<std::string> changes{};        // "command line: rate:=10 -> rate:=20"
+  bool needs_new_spec = false;               // at its next start
+  std::vector<NamedParameter> parameters{};  // to be set
 };
 
 struct ReloadPlan {
   std::vector<DeclaredProcess> declared;
-  std::vector<PlannedProcess> processes;   // as declared
-  std::vector<TrackedProcess*> gone;       // of the earlier reading
+  std::vector<PlannedProcess> processes;  // as declared
+  std::vector<TrackedProcess*> gone;      // of the earlier reading
   std::vector<std::string> gone_labels;
 };
 

@@ -23,17 +23,17 @@ struct ReloadReport {
   };
 
   ReloadNumber number = 0;
-  bool only_shown = false;             // nothing is carried out
-  std::vector<Diagnostic> errors;      // of the launch file; nothing is carried out then
-  std::string refused;                 // a sentence: why the launch does not reload
+  bool only_shown = false;         // nothing is carried out
+  std::vector<Diagnostic> errors;  // of the launch file; nothing is carried out then
+  std::string refused;             // a sentence: why the launch does not reload
   std::vector<Line> starts;
   std::vector<Line> ends;
   std::vector<Line> restarts;
-  std::vector<Line> sets;              // parameters of nodes that go on
-  std::vector<Line> takes_over;        // what needs no start
-  std::size_t stays = 0;               // processes
-  std::vector<std::string> notes;      // sentences about what else has changed
-  Duration took{0};                    // to read, to visit and to compare
+  std::vector<Line> sets;          // parameters of nodes that go on
+  std::vector<Line> takes_over;    // what needs no start
+  std::size_t stays = 0;           // processes
+  std::vector<std::string> notes;  // sentences about what else has changed
+  Duration took{0};                // to read, to visit and to compare
 
   bool failed() const { return !errors.empty() || !refused.empty(); }
   // Whether the launch file asks for what is there already.

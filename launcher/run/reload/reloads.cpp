@@ -31,13 +31,12 @@ std::string text_of(const RunScope& scope) {
   };
   for (const ShownSetting& setting : scope.describe()) {
     add(setting.name);
-    std::visit(Overloaded{[&](bool value) { add(value ? "true" : "false"); },
-                          [&](std::int64_t value) { add(std::to_string(value)); },
-                          [&](const std::string& value) { add(value); },
-                          [&](const std::vector<std::string>& values) {
-                            std::for_each(values.begin(), values.end(), add);
-                          }},
-               setting.value);
+    std::visit(
+        Overloaded{[&](bool value) { add(value ? "true" : "false"); },
+                   [&](std::int64_t value) { add(std::to_string(value)); },
+                   [&](const std::string& value) { add(value); },
+                   [&](const std::vector<std::string>& values) { std::for_each(values.begin(), values.end(), add); }},
+        setting.value);
   }
   return text;
 }
@@ -130,7 +129,8 @@ void Reloads::refuse(ReloadReport& report, const LaunchError& error) {
   report.errors = error.diagnostics();
   if (!report.only_shown) {
     callbacks_.tell_error(error);
-    parts_.context.message(LogLevel::kWarning, "launch", "reload: nothing is changed, because the launch file has an error");
+    parts_.context.message(LogLevel::kWarning, "launch",
+                           "reload: nothing is changed, because the launch file has an error");
   }
   tell(report);
 }
@@ -171,8 +171,7 @@ ReloadReport Reloads::report_of(const Queued& queued, const ReloadPlan& plan, co
     report.notes.emplace_back("coroutines of the launch file go on as they began; restart the launch to change them");
   }
   if (!requests.shutdowns.empty()) {
-    report.notes.push_back(
-        fmt::format("the launch file ends the launch now: {}", requests.shutdowns.back().reason));
+    report.notes.push_back(fmt::format("the launch file ends the launch now: {}", requests.shutdowns.back().reason));
   }
   return report;
 }
@@ -271,13 +270,14 @@ void Reloads::set_parameters(const PlannedProcess& planned, const DeclaredProces
                              const Environment& environment) {
   const auto setting = settings_.insert(settings_.end(), {planned.process->id, planned.label, nullptr});
   setting->answer = parts_.context.ros_client()->ask(
-      SetParameters{declared.node, planned.parameters}, environment, kPatience, [this, setting](const RosAnswer& answer) {
+      SetParameters{declared.node, planned.parameters}, environment, kPatience,
+      [this, setting](const RosAnswer& answer) {
         const Setting answered = std::move(*setting);
         settings_.erase(setting);
         if (!answer.ok && work_) {
-          parts_.context.message(LogLevel::kWarning, answered.label,
-                                 fmt::format("its parameters can't be set while it runs: {}; it is started again",
-                                             answer.error));
+          parts_.context.message(
+              LogLevel::kWarning, answered.label,
+              fmt::format("its parameters can't be set while it runs: {}; it is started again", answer.error));
           if (parts_.supervisor.view(answered.id).pid >= 0) {
             restart(answered.id, answered.label);
           }
@@ -345,9 +345,9 @@ void Reloads::shutdown() {
 }
 
 void Reloads::say(const ReloadReport& report) const {
-  parts_.context.message(LogLevel::kInfo, "launch",
-                         report.changes_nothing() ? "reload: the launch file asks for what runs already"
-                                                  : "reload: " + summary(report));
+  parts_.context.message(
+      LogLevel::kInfo, "launch",
+      report.changes_nothing() ? "reload: the launch file asks for what runs already" : "reload: " + summary(report));
   for (const std::string& note : report.notes) {
     parts_.context.message(LogLevel::kWarning, "launch", "reload: " + note);
   }

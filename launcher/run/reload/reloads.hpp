@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads the launch file of a launch that runs again, and makes the launch what the file says now.
 //
-// A reload is done whole or not at all: a file with an error changes nothing. What is gone ends first; what is new starts
-// when that has ended, because it may need the same device. A reload that is asked for while another one is at work, or
-// while the launch still starts, waits for its turn.
+// A reload is done whole or not at all: a file with an error changes nothing. What is gone ends first; what is new
+// starts when that has ended, because it may need the same device. A reload that is asked for while another one is at
+// work, or while the launch still starts, waits for its turn.
 //
 // What event handlers have started is left alone. The trace goes on as it began.
 #pragma once
@@ -51,7 +51,7 @@ class Reloads {
     RosTasks& ros_tasks;
   };
   struct Callbacks {
-    std::function<bool()> quiet;                      // nothing is being started or visited
+    std::function<bool()> quiet;                       // nothing is being started or visited
     std::function<void(Requests requests)> carry_out;  // calls note() for them
     std::function<void(const LaunchError&)> tell_error;
     std::function<void()> idle;  // the launch may have nothing left to run
@@ -61,7 +61,8 @@ class Reloads {
     bool restart = false;  // nodes whose parameters have changed are started again
   };
 
-  Reloads(Parts parts, Callbacks callbacks) : parts_(parts), callbacks_(std::move(callbacks)), components_(parts.ros_tasks) {}
+  Reloads(Parts parts, Callbacks callbacks)
+      : parts_(parts), callbacks_(std::move(callbacks)), components_(parts.ros_tasks) {}
 
   // Without this, no reload is possible.
   void use(FileReading::Load load) { load_ = std::move(load); }

@@ -68,7 +68,8 @@ SteeringOutcome Scaling::scale(const std::string& name, std::size_t count) {
     return refused(fmt::format("no process is named '{}'", name), did_you_mean(name, names_of(processes_)));
   }
   if (found.size() > 1) {
-    return refused(fmt::format("{} processes are named '{}'", found.size(), name), "name one of them, as launch ps does");
+    return refused(fmt::format("{} processes are named '{}'", found.size(), name),
+                   "name one of them, as launch ps does");
   }
   const TrackedProcess& process = *found.front();
   const ProcessSpec* const spec = processes_.scalable(process);

@@ -18,12 +18,12 @@ namespace launch {
 // A process that the launch was asked for.
 struct SteeredProcess {
   const TrackedProcess* tracked = nullptr;
-  ProcessId id = 0;                // 0: it has not been started yet
-  std::string name;                // its label; without a number before its start
-  std::vector<std::string> names;  // further names for it
-  bool waits = false;              // for what its `depends_on` names
-  bool skipped = false;            // it will never start
-  std::vector<std::string> groups; // of the launch file around it, the outermost first
+  ProcessId id = 0;                 // 0: it has not been started yet
+  std::string name;                 // its label; without a number before its start
+  std::vector<std::string> names;   // further names for it
+  bool waits = false;               // for what its `depends_on` names
+  bool skipped = false;             // it will never start
+  std::vector<std::string> groups;  // of the launch file around it, the outermost first
   SourceRange origin;
 };
 

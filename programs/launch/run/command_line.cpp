@@ -77,8 +77,7 @@ std::variant<CommandLine, ExitNow> parse_command_line(const std::vector<std::str
                "exit with 0 also if processes have failed, as ros2 launch does");
   app.add_flag("--reload-on-hup", command.reload_on_hangup,
                "read the launch file again on SIGHUP, as launch reload does, instead of ending");
-  app.add_flag("--watch", command.watch,
-               "read the launch file again whenever it changes, or a file that it includes");
+  app.add_flag("--watch", command.watch, "read the launch file again whenever it changes, or a file that it includes");
   app.add_flag("--timestamps", command.timestamps, "put the time in front of every line on the screen");
   app.add_option("--log-level", log_levels,
                  "debug, info, warn, error or fatal for the loggers of all nodes; NODE:=LEVEL for those of one")

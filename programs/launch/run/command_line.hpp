@@ -29,7 +29,7 @@ struct CommandLine {
   bool contain = false;  // put the launch into a process namespace
   bool timestamps = false;
   bool reload_on_hangup = false;
-  bool watch = false;  // reload when a launch file changes
+  bool watch = false;                                // reload when a launch file changes
   std::uint64_t log_size = std::uint64_t{64} << 20;  // bytes; 0: no limit
   std::string keep_logs;                             // of earlier launches (old_logs.hpp)
   int log_files = 5;

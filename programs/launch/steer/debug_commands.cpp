@@ -63,7 +63,8 @@ std::vector<pid_t> children_of(pid_t pid) {
 
 // A shell, or a command in front such as nice, stands between: the program is its only child.
 Debugged program_below(std::string label, pid_t pid) {
-  static constexpr std::string_view kInFront[] = {"sh", "bash", "dash", "nice", "ionice", "timeout", "stdbuf", "env", "taskset"};
+  static constexpr std::string_view kInFront[] = {"sh",      "bash",   "dash", "nice",   "ionice",
+                                                  "timeout", "stdbuf", "env",  "taskset"};
   for (std::vector<pid_t> children; (children = children_of(pid)).size() == 1; pid = children.front()) {
     const std::string name = fs::path(program_of(pid)).filename().string();
     if (std::find(std::begin(kInFront), std::end(kInFront), name) == std::end(kInFront)) {
@@ -102,14 +103,16 @@ std::string why_refused(const Debugged& process) {
   std::ifstream file("/proc/sys/kernel/yama/ptrace_scope");
   int scope = 0;
   return file >> scope && scope > 0
-             ? fmt::format("this machine lets no debugger attach to {} (kernel.yama.ptrace_scope is {})", process.label, scope)
+             ? fmt::format("this machine lets no debugger attach to {} (kernel.yama.ptrace_scope is {})", process.label,
+                           scope)
              : "";
 }
 
 void require_rights(const Debugged& process, const std::string& command) {
   if (const std::string why = why_refused(process); !why.empty()) {
-    throw ControlError(why, fmt::format("use 'sudo {} {} --launch NUMBER', or allow it: sudo sysctl kernel.yama.ptrace_scope=0",
-                                        command, process.label));
+    throw ControlError(
+        why, fmt::format("use 'sudo {} {} --launch NUMBER', or allow it: sudo sysctl kernel.yama.ptrace_scope=0",
+                         command, process.label));
   }
 }
 
@@ -171,16 +174,26 @@ int stack_command(const std::vector<std::string>& words) {
   int exit_code = 0;
   for (const Debugged& process : found) {
     require_rights(process, "launch stack");
-    fmt::print("{}{}: pid {}, {}\n", &process == &found.front() ? "" : "\n", process.label, process.pid, process.program);
+    fmt::print("{}{}: pid {}, {}\n", &process == &found.front() ? "" : "\n", process.label, process.pid,
+               process.program);
     std::fflush(stdout);
     const std::string pid = std::to_string(process.pid);
-    const std::vector<std::string> argv =
-        has_gdb ? std::vector<std::string>{"gdb",  "--batch", "--nx", "-iex", "set debuginfod enabled off", "-ex",
-                                           "set pagination off", "-p", pid, "-ex", "thread apply all backtrace"}
-                : std::vector<std::string>{"eu-stack", "-p", pid};
+    const std::vector<std::string> argv = has_gdb ? std::vector<std::string>{"gdb",
+                                                                             "--batch",
+                                                                             "--nx",
+                                                                             "-iex",
+                                                                             "set debuginfod enabled off",
+                                                                             "-ex",
+                                                                             "set pagination off",
+                                                                             "-p",
+                                                                             pid,
+                                                                             "-ex",
+                                                                             "thread apply all backtrace"}
+                                                  : std::vector<std::string>{"eu-stack", "-p", pid};
     const int status = wait_for(spawn({.program = argv.front(), .argv = argv, .search_path = true}));
     if (status != 0) {
-      fmt::print(stderr, "{}", command_error("launch stack", fmt::format("{} could not look into {}", argv.front(), process.label)));
+      fmt::print(stderr, "{}",
+                 command_error("launch stack", fmt::format("{} could not look into {}", argv.front(), process.label)));
       exit_code = 1;
     }
   }

@@ -79,7 +79,8 @@ int steer(const std::string& name, const std::vector<std::string>& words) {
   bool no_wait = false;
   Subcommand command("launch " + name, description_of(name));
   command.take_words("NAME", names, false, kNamesHelp);
-  command.take_texts("--group", groups, "processes in this <group name=\"…\"> of the launch file, and in groups within it");
+  command.take_texts("--group", groups,
+                     "processes in this <group name=\"…\"> of the launch file, and in groups within it");
   command.take_text("--launch", wanted, kLaunchHelp);
   command.take_flag("--no-wait", no_wait, "only ask, don't wait until it has happened");
   if (const auto exit_code = command.parse(words)) {
@@ -131,8 +132,9 @@ int scale_command(const std::vector<std::string>& words) {
   std::string process;
   std::string number;
   std::string wanted;
-  Subcommand command("launch scale",
-                     "Lets so many of a process run that is declared scalable=\"true\": starts copies, or ends the last ones.");
+  Subcommand command(
+      "launch scale",
+      "Lets so many of a process run that is declared scalable=\"true\": starts copies, or ends the last ones.");
   command.take_text("NAME", process, "name of a process or its node");
   command.take_text("N", number, "how many shall run, the first one included");
   command.take_text("--launch", wanted, kLaunchHelp);
@@ -143,11 +145,12 @@ int scale_command(const std::vector<std::string>& words) {
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), count);
   if (process.empty() || number.empty() || error != std::errc() || end != number.data() + number.size() || count == 0 ||
       count > kMostCopies) {
-    fmt::print(stderr, "{}",
-               process.empty() || number.empty()
-                   ? usage_error("launch scale", "NAME and N are required")
-                   : usage_error("launch scale", fmt::format("N is a number from 1 to {}, not '{}'", kMostCopies, number),
-                                 number == "0" ? "launch stop ends a process" : ""));
+    fmt::print(
+        stderr, "{}",
+        process.empty() || number.empty()
+            ? usage_error("launch scale", "NAME and N are required")
+            : usage_error("launch scale", fmt::format("N is a number from 1 to {}, not '{}'", kMostCopies, number),
+                          number == "0" ? "launch stop ends a process" : ""));
     return kWrongCommandLine;
   }
   ControlClient launch = choose_launch(own_environment(), wanted);

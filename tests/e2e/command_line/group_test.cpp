@@ -86,21 +86,25 @@ TEST_F(Debugging, StackShowsWhatTheThreadsOfAProcessDo) {
 }
 
 TEST_F(Debugging, WhatIsMissingIsNamedWithItsRemedy) {
-  RunningCommand run(launch({write(R"xml(<executable name="a" cmd="sleep 1000"/><executable name="b" cmd="true"/>)xml")}));
+  RunningCommand run(
+      launch({write(R"xml(<executable name="a" cmd="sleep 1000"/><executable name="b" cmd="true"/>)xml")}));
   ASSERT_TRUE(run.wait_for_output("[a-1]: process started", kPatience)) << run.err();
   environment_["PATH"] = "/nowhere";
   const CommandResult stack = ask({"stack", "a"});
   EXPECT_EQ(stack.exit_code, 1);
-  EXPECT_EQ(stack.err, "launch stack: error: neither gdb nor eu-stack is installed\n"
-                       "      = help: the packages gdb and elfutils have them: sudo apt install gdb\n");
+  EXPECT_EQ(stack.err,
+            "launch stack: error: neither gdb nor eu-stack is installed\n"
+            "      = help: the packages gdb and elfutils have them: sudo apt install gdb\n");
   const CommandResult gdb = ask({"gdb", "a"});
   EXPECT_EQ(gdb.exit_code, 1);
-  EXPECT_EQ(gdb.err, "launch gdb: error: gdb is not installed\n"
-                     "      = help: the package gdb has it: sudo apt install gdb\n");
+  EXPECT_EQ(gdb.err,
+            "launch gdb: error: gdb is not installed\n"
+            "      = help: the package gdb has it: sudo apt install gdb\n");
   ASSERT_TRUE(run.wait_for_output("[b-2]: process has finished", kPatience));
   EXPECT_EQ(ask({"gdb", "b"}).err, "launch gdb: error: 'b' does not run\n      = help: launch start starts it\n");
-  EXPECT_EQ(ask({"gdb", "*"}).err, "launch gdb: error: gdb is not installed\n"
-                                   "      = help: the package gdb has it: sudo apt install gdb\n");
+  EXPECT_EQ(ask({"gdb", "*"}).err,
+            "launch gdb: error: gdb is not installed\n"
+            "      = help: the package gdb has it: sudo apt install gdb\n");
   EXPECT_EQ(ask({"gdb"}).exit_code, 2);
   run.send_signal(SIGINT);
   run.wait(kPatience);

@@ -119,9 +119,10 @@ TEST_F(OutputOptions, LogFilesHaveALimitedSizeAndNumber) {
     EXPECT_FALSE(fs::exists(logs / (name + ".3"))) << name;
   }
   EXPECT_THAT(read_file(logs / "launch.log"), HasSubstr("process has finished cleanly"));
-  EXPECT_THAT(read_file(logs / "a-1.log"),
-              StartsWith("[launch] lines before this one are in a-1.log.1; of this log, the newest 3 files of 10240 bytes "
-                         "are kept\n"));
+  EXPECT_THAT(
+      read_file(logs / "a-1.log"),
+      StartsWith("[launch] lines before this one are in a-1.log.1; of this log, the newest 3 files of 10240 bytes "
+                 "are kept\n"));
 }
 
 TEST_F(OutputOptions, LogsOfEarlierLaunchesAreRemoved) {
@@ -141,8 +142,9 @@ TEST_F(OutputOptions, LogsOfEarlierLaunchesAreRemoved) {
   EXPECT_TRUE(fs::exists(logs[2]));
   const CommandResult wrong = run_command({LAUNCH_PROGRAM, "--keep-logs", "2x", file});
   EXPECT_EQ(wrong.exit_code, 1);
-  EXPECT_THAT(wrong.err, HasSubstr("'2x' is no limit for logs, expected such as 200,90d,4G (directories, days, bytes), or "
-                                   "all"));
+  EXPECT_THAT(wrong.err,
+              HasSubstr("'2x' is no limit for logs, expected such as 200,90d,4G (directories, days, bytes), or "
+                        "all"));
 }
 
 }  // namespace

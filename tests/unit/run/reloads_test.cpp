@@ -106,8 +106,9 @@ TEST_F(ReloadsTest, OnlyShowsWhenThatIsAskedFor) {
 }
 
 TEST_F(ReloadsTest, OfSeveralOfOneNameThoseThatAreEqualGoOn) {
-  run_texts({R"xml(<executable name="t" cmd="t 1"/><executable name="t" cmd="t 2"/><executable name="t" cmd="t 3"/>)xml",
-             R"xml(<executable name="t" cmd="t 2"/><executable name="t" cmd="t 3"/>)xml"});
+  run_texts(
+      {R"xml(<executable name="t" cmd="t 1"/><executable name="t" cmd="t 2"/><executable name="t" cmd="t 3"/>)xml",
+       R"xml(<executable name="t" cmd="t 2"/><executable name="t" cmd="t 3"/>)xml"});
   EXPECT_THAT(names(reports_.at(0).ends), ElementsAre("t-1"));
   EXPECT_EQ(reports_[0].stays, 2U);
   EXPECT_THAT(started(), SizeIs(3));
@@ -234,8 +235,9 @@ TEST_F(ReloadsTest, ParametersAreSetWhileTheNodeRuns) {
   client = &fake;
   fake.script("the '/n/set_parameters_atomically' service", {.ok = true});
   runner_.script("a", {{.exits_after = 30s}, {}});
-  run_texts({node(R"xml(<param name="rate" value="10"/><param name="frame" value="map"/>)xml"),
-             node(R"xml(<param name="rate" value="20"/><param name="frame" value="map"/><param name="x" value="1"/>)xml")});
+  run_texts(
+      {node(R"xml(<param name="rate" value="10"/><param name="frame" value="map"/>)xml"),
+       node(R"xml(<param name="rate" value="20"/><param name="frame" value="map"/><param name="x" value="1"/>)xml")});
   ASSERT_THAT(reports_.at(0).sets, SizeIs(1));
   EXPECT_THAT(reports_[0].sets[0].changes, ElementsAre("parameter rate: 10 -> 20", "parameter x: new, 1"));
   EXPECT_THAT(fake.asked, ElementsAre("the '/n/set_parameters_atomically' service"));
@@ -251,8 +253,9 @@ TEST_F(ReloadsTest, ANodeThatRefusesItsParametersStartsAgain) {
   fake.script("the '/n/set_parameters_atomically' service", refused);
   run_texts({node(R"xml(<param name="rate" value="10"/>)xml"), node(R"xml(<param name="rate" value="20"/>)xml")});
   EXPECT_THAT(started(), SizeIs(2));
-  EXPECT_THAT(messages_, Contains("[a-1] its parameters can't be set while it runs: parameter 'rate' is read-only; it is "
-                                  "started again"));
+  EXPECT_THAT(messages_,
+              Contains("[a-1] its parameters can't be set while it runs: parameter 'rate' is read-only; it is "
+                       "started again"));
   EXPECT_THAT(runner_.spawned().at(1).spec.files.at(0).content, HasSubstr("rate: 20"));
 }
 
@@ -293,9 +296,9 @@ TEST_F(ReloadsTest, ComponentsAreLoadedAndUnloadedWhileTheContainerGoesOn) {
   EXPECT_THAT(names(reports_.at(0).starts), ElementsAre("comes in /c"));
   EXPECT_THAT(names(reports_[0].ends), ElementsAre("goes in /c"));
   EXPECT_THAT(names(reports_[0].restarts), ElementsAre("changes in /c"));
-  EXPECT_THAT(fake.asked, ElementsAre("load /c stays", "load /c changes", "load /c goes",
-                                      "the '/c/_container/unload_node' service", "load /c comes",
-                                      "the '/c/_container/unload_node' service", "load /c changes"));
+  EXPECT_THAT(fake.asked,
+              ElementsAre("load /c stays", "load /c changes", "load /c goes", "the '/c/_container/unload_node' service",
+                          "load /c comes", "the '/c/_container/unload_node' service", "load /c changes"));
   EXPECT_THAT(started(), SizeIs(1));
 }
 

@@ -63,8 +63,9 @@ TEST_F(ScalingTest, WhatIsNotDeclaredScalableIsRefused) {
 }
 
 TEST_F(ScalingTest, ANodeGetsAnotherNameWithItsParameters) {
-  run_steps(R"xml(<node exec="n" name="talker" namespace="/left" scalable="true"><param name="rate" value="1"/></node>)xml",
-            {[](auto& service) { scale(service, "/left/talker", 2); }});
+  run_steps(
+      R"xml(<node exec="n" name="talker" namespace="/left" scalable="true"><param name="rate" value="1"/></node>)xml",
+      {[](auto& service) { scale(service, "/left/talker", 2); }});
   const ProcessSpec& copy = runner_.spawned().at(1).spec;
   EXPECT_THAT(fmt::format("{}", fmt::join(copy.argv, " ")), HasSubstr("-r __node:=talker_2 "));
   EXPECT_THAT(copy.other_names, ElementsAre("talker_2", "/left/talker_2"));
@@ -81,8 +82,8 @@ TEST_F(ScalingTest, CopiesFollowAReload) {
   run_steps(R"xml(<executable name="w" cmd="w 1" scalable="true"/><executable name="z" cmd="z"/>)xml",
             {[](auto& service) { scale(service, "w", 2); },
              [load](auto& service) {
-               service.reloads().use(load(
-                   R"xml(<executable name="w" cmd="w 2" scalable="true"/><executable name="z" cmd="z"/>)xml"));
+               service.reloads().use(
+                   load(R"xml(<executable name="w" cmd="w 2" scalable="true"/><executable name="z" cmd="z"/>)xml"));
                service.reloads().ask({});
              },
              [load](auto& service) {
