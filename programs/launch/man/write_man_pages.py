@@ -22,6 +22,7 @@ MORE = {'launch': [
         ('OVERRIDE_LAUNCH_SCREEN_FORMAT, OVERRIDE_LAUNCH_LOG_FORMAT',
          'Formats of the messages of launch on the screen and in its log, such as "{created:.3f} [{levelname}] {name}: '
          '{msg}", or the word default_with_timestamp.'),
+        ('OVERRIDE_LAUNCH_KEEP_LOGS', 'Which logs of earlier launches are kept, as --keep-logs.'),
         ('OVERRIDE_LAUNCH_LOG_FILE_NAME', 'The name of the log file. Default: launch.log.'),
         ('NO_COLOR', 'If it is not empty, output has no colours.'),
         ('RCUTILS_COLORIZED_OUTPUT', '0 or 1: output has no colours, or always has.'),
@@ -29,7 +30,8 @@ MORE = {'launch': [
     ('SIGNALS', [
         ('SIGINT, SIGTERM, SIGHUP, SIGQUIT',
          'Shut the system down: every process gets SIGINT, then SIGTERM, then SIGKILL. A second signal sends SIGTERM at '
-         'once, a third one SIGKILL. The trace is closed in every case.')])]}
+         'once, a third one SIGKILL. The trace is closed in every case. With --reload-on-hup, SIGHUP reads the launch file '
+         'again instead.')])]}
 
 
 def help_of(launch, command):

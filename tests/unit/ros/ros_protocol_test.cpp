@@ -67,6 +67,7 @@ TEST(RosProtocol, EveryKindOfRequestComesBack) {
       ListNodes{"/c"},
       ChangeState{"/n", "configure"},
       GetState{"/n"},
+      SetParameters{"/n", {{"p", Scalars{1.5}}, {"q", ParameterScalar(true)}}},
       NodePresent{"/n"},
       TopicPresent{"/t"},
       ServicePresent{"/s"},
