@@ -38,6 +38,11 @@ TEST(ControlProtocol, ReadsRequests) {
   EXPECT_EQ(request.kind, Kind::kSignal);
   EXPECT_THAT(request.processes, ElementsAre("a", "b*"));
   EXPECT_EQ(request.signal, SIGUSR1);
+  EXPECT_THAT(parse_control_request(R"({"version": 1, "do": "stop", "groups": ["arm"]})").groups, ElementsAre("arm"));
+  const ControlRequest reload = parse_control_request(R"({"version": 1, "do": "reload", "dry_run": true})");
+  EXPECT_TRUE(reload.dry_run);
+  EXPECT_FALSE(reload.restart);
+  EXPECT_EQ(parse_control_request(R"({"version": 1, "do": "scale", "processes": ["a"], "count": 3})").count, 3U);
 }
 
 TEST(ControlProtocol, SaysWhatIsWrongWithARequest) {
@@ -50,7 +55,12 @@ TEST(ControlProtocol, SaysWhatIsWrongWithARequest) {
   EXPECT_EQ(refusal(R"({"version": 2, "do": "ps"})"), "\"version\" must be 1");
   EXPECT_EQ(refusal(R"({"version": 1})"), "\"do\" is missing, it names what to do");
   EXPECT_EQ(refusal(R"({"version": 1, "do": "fly"})"),
-            "\"do\": \"fly\" is unknown; there are info, ps, stop, start, restart, signal, shutdown, events, output");
+            "\"do\": \"fly\" is unknown; there are info, ps, stop, start, restart, signal, shutdown, events, output, "
+            "reload, scale");
+  EXPECT_EQ(refusal(R"({"version": 1, "do": "reload", "dry_run": 1})"), "\"dry_run\" must be true or false");
+  EXPECT_EQ(refusal(R"({"version": 1, "do": "scale", "processes": ["a"], "count": 0})"),
+            "\"processes\" must hold one name, and \"count\" be a number from 1 to 1000");
+  EXPECT_EQ(refusal(R"({"version": 1, "do": "stop", "groups": "a"})"), "\"groups\" must be a list of names");
   EXPECT_EQ(refusal(R"({"version": 1, "do": "stop"})"), "\"processes\" is missing, it names the processes");
   EXPECT_EQ(refusal(R"({"version": 1, "do": "ps", "processes": "a"})"), "\"processes\" must be a list of names");
   EXPECT_EQ(refusal(R"({"version": 1, "do": "ps", "processes": [1]})"), "\"processes\" must be a list of names");
