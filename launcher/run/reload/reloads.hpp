@@ -37,7 +37,7 @@ namespace launch {
 class Reloads {
  public:
   // A node that has not answered after this time is started again instead.
-  static constexpr Duration kPatience = std::chrono::seconds(2);
+  static constexpr Duration kPatience = std::chrono::seconds(5);
 
   struct Parts {
     LaunchContext& context;

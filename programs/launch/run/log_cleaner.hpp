@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <string>
+#include <system_error>
 #include <thread>
 
 #include "launcher/process/event_loop.hpp"
@@ -18,33 +19,42 @@ namespace launch {
 class LogCleaner {
  public:
   // The references must outlive this object.
-  LogCleaner(EventLoop& loop, const LogDirectory& own, const LogLimits& limits, OutputRouter& output) {
+  LogCleaner(EventLoop& loop, const LogDirectory& own, const LogLimits& limits, OutputRouter& output)
+      : output_(output) {
     // In the loop: from then on signals are blocked, so that the thread gets none.
-    loop.post([this, &loop, &output, limits, own_path = own.path] {
-      thread_ = std::thread([&loop, &output, limits, own_path] {
-        const RemovedLogs removed =
-            remove_old_logs(std::filesystem::path(own_path).parent_path().string(), own_path, limits);
-        if (removed.directories > 0) {
-          loop.post([&output, removed] {
-            output.message(LogLevel::kInfo, "launch",
-                           fmt::format("removed the logs of {} earlier launch{} ({:.1f} MiB), {} are left; --keep-logs "
-                                       "says how many",
-                                       removed.directories, removed.directories == 1 ? "" : "es",
-                                       static_cast<double>(removed.bytes) / (1 << 20), removed.left));
-          });
-        }
-      });
+    loop.post([this, &loop, limits, path = own.path] {
+      try {
+        thread_ = std::thread([this, &loop, limits, path] {
+          removed_ = remove_old_logs(std::filesystem::path(path).parent_path().string(), path, limits);
+          loop.post([this] { tell(); });
+        });
+      } catch (const std::system_error&) {
+        // Without a thread the old logs stay for a later launch.
+      }
     });
   }
-  ~LogCleaner() {
-    if (thread_.joinable()) {
-      thread_.join();
-    }
-  }
+  ~LogCleaner() { tell(); }
   LogCleaner(const LogCleaner&) = delete;
   LogCleaner& operator=(const LogCleaner&) = delete;
 
  private:
+  // Once, when the thread is done.
+  void tell() {
+    if (!thread_.joinable()) {
+      return;
+    }
+    thread_.join();
+    if (removed_.directories > 0) {
+      output_.message(
+          LogLevel::kInfo, "launch",
+          fmt::format("removed the logs of {} earlier launch{} ({:.1f} MiB), {} are left; --keep-logs says how many",
+                      removed_.directories, removed_.directories == 1 ? "" : "es",
+                      static_cast<double>(removed_.bytes) / (1 << 20), removed_.left));
+    }
+  }
+
+  OutputRouter& output_;
+  RemovedLogs removed_;
   std::thread thread_;
 };
 

@@ -238,7 +238,7 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
     });
     service.observe_suspension([&status](bool stops) { status->suspend(stops); });
   }
-  const LogCleaner cleaner(*loop, log_directory, limits_of_logs, output);
+  LogCleaner cleaner(*loop, log_directory, limits_of_logs, output);
   guardian.wait_until_ready();
   const int exit_code = service.run(*description);
   output.show_status("");
