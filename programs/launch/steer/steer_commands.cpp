@@ -87,7 +87,8 @@ int steer(const std::string& name, const std::vector<std::string>& words) {
     return *exit_code;
   }
   if (names.empty() && groups.empty()) {
-    fmt::print(stderr, "{}", usage_error("launch " + name, "NAME is required, or --group"));
+    fmt::print(stderr, "{}",
+               usage_error("launch " + name, "NAME is required", "--group means a whole group of the launch file"));
     return kWrongCommandLine;
   }
   ControlClient launch = choose_launch(own_environment(), wanted);

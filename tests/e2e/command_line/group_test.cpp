@@ -50,7 +50,10 @@ TEST_F(Groups, AreStoppedAndStartedWithTheGroupsWithin) {
             "launch stop: error: no group with processes is named 'griper'\n      = help: did you mean 'gripper'?\n");
   const CommandResult nothing = ask({"stop"});
   EXPECT_EQ(nothing.exit_code, 2);
-  EXPECT_THAT(nothing.err, HasSubstr("launch stop: error: NAME is required, or --group"));
+  EXPECT_THAT(
+      nothing.err,
+      HasSubstr(
+          "launch stop: error: NAME is required\n      = help: --group means a whole group of the launch file\n"));
   run.send_signal(SIGINT);
   run.wait(kPatience);
 }
