@@ -2,12 +2,13 @@
 #include "actions/process/process_settings.hpp"
 
 #include <fmt/format.h>
-#include <sys/sysinfo.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <regex>
 
+#include "actions/process/control_group_settings.hpp"
+#include "actions/process/cpu_faults.hpp"
 #include "actions/process/depends_on.hpp"
 #include "actions/process/resource_settings.hpp"
 #include "actions/process/watch.hpp"
@@ -322,25 +323,12 @@ void find_missing_directory(const std::string& directory, const SourceRange& whe
   }
 }
 
-void find_missing_cpus(const std::vector<int>& cpus, const SourceRange& where, LaunchContext& context) {
-  // Most nodes name no CPUs. Counting them opens a file of the system, which takes a fifth of the time of a node.
-  if (cpus.empty()) {
-    return;
-  }
-  const int count = get_nprocs_conf();
-  const auto missing = std::find_if(cpus.begin(), cpus.end(), [&](int cpu) { return cpu >= count; });
-  if (missing != cpus.end()) {
-    context.exploration().remark({cpus.front() >= count ? Severity::kError : Severity::kWarning,
-                                  fmt::format("this machine has no CPU {}", *missing), where,
-                                  fmt::format("its CPUs are 0 to {}", count - 1), Finding::kMissingCpu});
-  }
-}
-
 }  // namespace
 
 std::vector<AttributeSpec> with_process_attributes(std::vector<AttributeSpec> own) {
   std::ranges::move(declared_attributes(process_settings()), std::back_inserter(own));
   std::ranges::move(declared_attributes(resource_settings()), std::back_inserter(own));
+  std::ranges::move(declared_attributes(control_group_settings()), std::back_inserter(own));
   return own;
 }
 
@@ -353,6 +341,7 @@ void check_process(const Fields& fields) {
   check_start_limit(fields);
   check_settings(process_settings(), fields);
   check_settings(resource_settings(), fields);
+  check_settings(control_group_settings(), fields);
   for (const Fields* dependency : fields.items("depends_on")) {
     (void)DependsOn(*dependency);
   }
@@ -374,7 +363,10 @@ void request_process(const Fields& fields, LaunchContext& context, ProcessSpec s
 
   spec.environment = environment_of(fields, scope);
   perform_settings(resource_settings(), fields, scope, spec.limits);
-  find_missing_cpus(spec.limits.cpus, fields.where("cpus"), context);
+  perform_settings(control_group_settings(), fields, scope, spec.control_limits);
+  check_resources(fields, spec.limits);
+  spec.control_groups = scope.control_groups;
+  find_faults_of_cpus(spec.limits.cpus, fields.where("cpus"), context);
   spec.output = output(fields, context);
   perform_settings(process_settings(), fields, scope, spec);
   perform_configurations(fields, scope, spec);

@@ -16,4 +16,7 @@ std::uint64_t parse_bytes(const std::string& text, const SourceRange& where);
 
 const std::vector<Setting<ResourceLimits>>& resource_settings();
 
+// Throws LaunchError at the place if values that are evaluated don't go together.
+void check_resources(const Fields& fields, const ResourceLimits& limits);
+
 }  // namespace launch

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "actions/process/control_group_settings.hpp"
 #include "actions/values/pair_items.hpp"
 #include "actions/values/ros_names.hpp"
 #include "launcher/language/fields.hpp"
@@ -43,6 +44,15 @@ class Group : public Action {
     if (fields_.has("name")) {
       inner.groups.push_back(name(inner));
     }
+    ControlGroup shared{.where = fields_.where()};
+    perform_settings(control_group_settings(), fields_, inner, shared.limits);
+    if (shared.limits.any() && !scoped) {
+      throw LaunchError("limits need a scoped group: they are those of the processes in it", fields_.where(),
+                        "leave out scoped=\"false\"", Finding::kExclusive);
+    }
+    if (shared.limits.any()) {
+      inner.control_groups.push_back(std::make_shared<const ControlGroup>(std::move(shared)));
+    }
     if (scoped) {
       context.visit_in(std::move(inner), fields_.actions());
     } else {
@@ -67,22 +77,34 @@ class Group : public Action {
   Fields fields_;
 };
 
+std::vector<AttributeSpec> group_attributes() {
+  std::vector<AttributeSpec> attributes = {
+      {"scoped", AttributeType::kBoolean, false, "true", "restore configurations and environment at the end"},
+      {"forwarding", AttributeType::kBoolean, false, "true",
+       "false: start without configurations and with the launcher's own environment"},
+      {"ns", AttributeType::kText, false, "", "namespace of every node in the group", true},
+      {"name", AttributeType::kText, false, "",
+       "name by which launch stop --group and others refer to the processes in the group", true}};
+  for (AttributeSpec& limit : declared_attributes(control_group_settings())) {
+    attributes.push_back(std::move(limit));
+  }
+  return attributes;
+}
+
 }  // namespace
 
 ActionType group_action() {
   return {
       .tag = "group",
       .help = "Visits actions in a scope: what they set ends with the group.",
-      .attributes = {{"scoped", AttributeType::kBoolean, false, "true",
-                      "restore configurations and environment at the end"},
-                     {"forwarding", AttributeType::kBoolean, false, "true",
-                      "false: start without configurations and with the launcher's own environment"},
-                     {"ns", AttributeType::kText, false, "", "namespace of every node in the group", true},
-                     {"name", AttributeType::kText, false, "",
-                      "name by which launch stop --group and others refer to the processes in the group", true}},
+      .attributes = group_attributes(),
       .items = {pair_item("keep", "a configuration to set inside, evaluated outside", "name of the configuration")},
       .holds_actions = true,
-      .make = [](Fields fields) { return std::make_shared<Group>(std::move(fields)); },
+      .make =
+          [](Fields fields) {
+            check_settings(control_group_settings(), fields);
+            return std::make_shared<Group>(std::move(fields));
+          },
   };
 }
 

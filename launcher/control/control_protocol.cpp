@@ -18,6 +18,7 @@
 
 #include "base/diagnostics/diagnostic.hpp"
 #include "base/processes/outside_number.hpp"
+#include "launcher/control/control_groups_text.hpp"
 #include "launcher/language/exit_code_filter.hpp"
 #include "launcher/run/user/scaling.hpp"
 
@@ -89,6 +90,9 @@ void put_end(Json& json, const ProcessExit& exit) {
   } else {
     json["exit_code"] = exit.code;
   }
+  if (exit.out_of_memory) {
+    json["out_of_memory"] = true;
+  }
   json["ran_for"] = seconds(exit.ran_for);
 }
 
@@ -147,6 +151,13 @@ void append_process(std::string& text, const SteeredProcess& process, const Proc
           text += ",\"health_reason\":";
           append_json_string(text, view.health_reason);
         }
+      }
+      if (!view.status.empty()) {
+        text += ",\"status\":";
+        append_json_string(text, view.status);
+      }
+      if (const std::string& group = view.spec.limits.control_group; !group.empty()) {
+        text += control_groups_text(group);
       }
     }
     fmt::format_to(to, ",\"restarts\":{}", view.runs > 0 ? view.runs - 1 : 0);

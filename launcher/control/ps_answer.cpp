@@ -123,6 +123,8 @@ bool PsReader::string(std::string& value) {
         launch.processes.back().state = std::move(value);
       } else if (key_ == "health") {
         launch.processes.back().health = std::move(value);
+      } else if (key_ == "status") {
+        launch.processes.back().status = std::move(value);
       }
       break;
     case Part::kEnd:
@@ -156,6 +158,8 @@ bool PsReader::number(double value) {
       process.pid = static_cast<pid_t>(value);
     } else if (key_ == "running_for") {
       process.running_for = value;
+    } else if (key_ == "memory_share") {
+      process.memory_share = value;
     } else if (key_ == "restarts") {
       process.restarts = static_cast<std::int64_t>(value);
     }

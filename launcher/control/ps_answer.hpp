@@ -18,10 +18,12 @@ struct ListedProcess {
   std::string name;
   std::string state;           // "running", … (docs/control.md)
   std::string health;          // "starting", "healthy", "unhealthy"; "" if it is not watched
+  std::string status;          // what it says of itself
   std::string end;             // of the last run: "exit code 1", "SIGSEGV"; "" if none has ended
   pid_t pid = -1;              // -1: it does not run
   std::int64_t restarts = -1;  // -1: it has not been started
   double running_for = 0;      // seconds
+  double memory_share = -1;    // of the memory_max that is nearest to being used up; negative: there is none
   std::size_t file = 0;        // its place: the number in ListedLaunch::places
   int line = 0;                // 0: no file asked for it
 };

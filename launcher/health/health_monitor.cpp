@@ -10,12 +10,6 @@
 #include <utility>
 #include <variant>
 
-#include "base/overloaded.hpp"
-#include "launcher/health/blocked_probe.hpp"
-#include "launcher/health/command_probe.hpp"
-#include "launcher/health/executor_probe.hpp"
-#include "launcher/health/output_probe.hpp"
-
 namespace launch {
 namespace {
 
@@ -47,37 +41,6 @@ void HealthMonitor::prepare(ProcessSpec& spec, ProcessId id) {
                       fmt::format("it can't be watched: {} ({})", error.what(), to_string(given.where)));
     }
   }
-}
-
-std::unique_ptr<HealthProbe> HealthMonitor::make_probe(const HealthWatch& watch, ProcessSpec& spec, ProcessId id,
-                                                       std::size_t number) {
-  return std::visit(Overloaded{
-                        [&](const ExecutorProgress&) -> std::unique_ptr<HealthProbe> {
-                          const ProgressMemory::Place place = memory_.add();
-                          spec.environment.insert_or_assign(executor_progress::kVariable, place.text);
-                          return std::make_unique<ExecutorProbe>(*place.page, watch.timeout);
-                        },
-                        [&](const OutputLines& lines) -> std::unique_ptr<HealthProbe> {
-                          return std::make_unique<OutputProbe>(
-                              OutputPattern(lines.pattern, watch.where, lines.stream, watch.where), watch.timeout);
-                        },
-                        [&](const NotBlocked&) -> std::unique_ptr<HealthProbe> {
-                          return std::make_unique<BlockedProbe>(watch.timeout);
-                        },
-                        [&](const CommandSucceeds& command) -> std::unique_ptr<HealthProbe> {
-                          ProcessSpec helper;
-                          helper.name = spec.name;
-                          helper.argv = command.argv;
-                          helper.environment = spec.environment;
-                          helper.working_directory = spec.working_directory;
-                          helper.traced = false;
-                          helper.origin = watch.where;
-                          return std::make_unique<CommandProbe>(
-                              loop_, supervisor_.runner(), std::move(helper), watch.timeout,
-                              [this, id, number](const Look& look) { answer(id, number, look); });
-                        },
-                    },
-                    watch.subject);
 }
 
 void HealthMonitor::on_event(const ProcessEvent& event) {

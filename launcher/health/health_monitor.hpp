@@ -20,6 +20,7 @@
 #include "launcher/health/health_probe.hpp"
 #include "launcher/health/progress_memory.hpp"
 #include "launcher/process/process_supervisor.hpp"
+#include "launcher/ros/ros_client.hpp"
 
 namespace launch {
 
@@ -37,6 +38,9 @@ class HealthMonitor {
   // The references must outlive this object.
   HealthMonitor(EventLoop& loop, ProcessSupervisor& supervisor, Callbacks callbacks)
       : loop_(loop), supervisor_(supervisor), callbacks_(std::move(callbacks)) {}
+
+  // Watches of topics, services and life cycles need it. It must outlive this object.
+  void use_ros_client(RosClient& client) { ros_client_ = &client; }
 
   // The process will start: from now on, its lines may be wanted.
   void expect(const ProcessSpec& spec);
@@ -70,8 +74,11 @@ class HealthMonitor {
 
   // Sets the timer, if the look is due before.
   void wait_until(Duration time);
+  // In make_probe.cpp. Throws std::system_error.
   std::unique_ptr<HealthProbe> make_probe(const HealthWatch& watch, ProcessSpec& spec, ProcessId id,
                                           std::size_t number);
+  std::unique_ptr<HealthProbe> make_notify_probe(const HealthWatch& watch, bool watchdog, ProcessSpec& spec,
+                                                 ProcessId id, std::size_t number);
   // Of a watch that is answered later.
   void answer(ProcessId id, std::size_t number, const Look& look);
   void begin(Watched& process, pid_t pid);
@@ -85,6 +92,7 @@ class HealthMonitor {
   EventLoop& loop_;
   ProcessSupervisor& supervisor_;
   Callbacks callbacks_;
+  RosClient* ros_client_ = nullptr;
   ProgressMemory memory_;
   std::map<ProcessId, Watched> processes_;
   bool watches_output_ = false;

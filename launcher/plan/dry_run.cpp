@@ -60,8 +60,8 @@ Json process_as_json(const ProcessSpec& spec, const Environment& launcher_enviro
     }
     process["params"] = std::move(contents);
   }
-  if (spec.limits.any()) {
-    process["limits"] = describe(spec.limits);
+  if (const std::vector<std::string> limits = limits_of(spec); !limits.empty()) {
+    process["limits"] = limits;
   }
   for (const HealthWatch& watch : spec.watches) {
     process["watches"].push_back(describe(watch));
@@ -169,7 +169,7 @@ std::string process_as_text(const ProcessSpec& spec, const Environment& launcher
   if (spec.terminal_input) {
     text += "  stdin: terminal\n";
   }
-  for (const std::string& limit : describe(spec.limits)) {
+  for (const std::string& limit : limits_of(spec)) {
     text += fmt::format("  limit: {}\n", limit);
   }
   for (const HealthWatch& watch : spec.watches) {

@@ -14,8 +14,21 @@ std::string_view kind_of(const HealthWatch& watch) {
                         [](const OutputLines&) { return "output"; },
                         [](const NotBlocked&) { return "blocked"; },
                         [](const CommandSucceeds&) { return "command"; },
+                        [](const TopicIsPublished&) { return "topic"; },
+                        [](const ServiceAnswers&) { return "service"; },
+                        [](const LifecycleState&) { return "lifecycle"; },
+                        [](const PortAccepts&) { return "port"; },
+                        [](const Notifies&) { return "notify"; },
                     },
                     watch.subject);
+}
+
+std::string address_of(const PortAccepts& port) {
+  if (port.protocol == PortAccepts::Protocol::kUnix) {
+    return port.socket;
+  }
+  const bool has_colons = port.host.find(':') != std::string::npos;
+  return fmt::format("{}{}{}:{}", has_colons ? "[" : "", port.host, has_colons ? "]" : "", port.port);
 }
 
 std::string_view to_string(OnUnhealthy reaction) {
@@ -46,6 +59,27 @@ std::string describe(const HealthWatch& watch) {
           [&](const NotBlocked&) { return fmt::format("it is never blocked for {} s", timeout); },
           [&](const CommandSucceeds& command) {
             return fmt::format("'{}' ends with 0 within {} s", fmt::join(command.argv, " "), timeout);
+          },
+          [&](const TopicIsPublished& topic) {
+            return topic.min_rate > 0
+                       ? fmt::format("'{}' has at least {} messages a second, over {} s", topic.topic, topic.min_rate,
+                                     timeout)
+                       : fmt::format("a message comes on '{}' at least every {} s", topic.topic, timeout);
+          },
+          [&](const ServiceAnswers& service) {
+            return fmt::format("the service '{}' answers within {} s", service.service, timeout);
+          },
+          [&](const LifecycleState& state) {
+            return fmt::format("'{}' is {}, and says so within {} s", state.node, state.state, timeout);
+          },
+          [&](const PortAccepts& port) {
+            return port.protocol == PortAccepts::Protocol::kUdp
+                       ? fmt::format("it has the UDP port {}", port.port)
+                       : fmt::format("{} accepts connections within {} s", address_of(port), timeout);
+          },
+          [&](const Notifies& notifies) {
+            return fmt::format("it says within {} s that it is ready{}", timeout,
+                               notifies.watchdog ? ", and then as often that it lives" : "");
           },
       },
       watch.subject);

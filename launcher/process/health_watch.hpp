@@ -30,7 +30,41 @@ struct CommandSucceeds {
   std::vector<std::string> argv;
 };
 
-using WatchSubject = std::variant<ExecutorProgress, OutputLines, NotBlocked, CommandSucceeds>;
+// Messages are published on a topic.
+struct TopicIsPublished {
+  std::string topic;
+  double min_rate = 0;  // messages a second in each time-out; 0: one message in it
+};
+
+// A service is there. If it can be called without an effect (rcl_interfaces/srv/GetParameters), it answers within the
+// time-out.
+struct ServiceAnswers {
+  std::string service;
+};
+
+// A managed node is in a state. It says so itself, within the time-out.
+struct LifecycleState {
+  std::string node;
+  std::string state;  // unconfigured, inactive, active or finalized
+};
+
+// Somebody listens: connections are accepted, or a port of UDP is bound.
+struct PortAccepts {
+  enum class Protocol { kTcp, kUdp, kUnix };
+  Protocol protocol = Protocol::kTcp;
+  std::string host;        // an address, or "localhost"
+  std::uint16_t port = 0;  // of kTcp and kUdp
+  std::string socket;      // of kUnix: a path, or an abstract name behind "@"
+};
+
+// The process says by sd_notify(3) that it is ready, within the time-out; then, if it has a watchdog, that it lives, at
+// least once in the time-out.
+struct Notifies {
+  bool watchdog = false;
+};
+
+using WatchSubject = std::variant<ExecutorProgress, OutputLines, NotBlocked, CommandSucceeds, TopicIsPublished,
+                                  ServiceAnswers, LifecycleState, PortAccepts, Notifies>;
 
 // What follows when the process gets unhealthy.
 enum class OnUnhealthy { kNothing, kRestart, kSignal, kShutdown };
@@ -46,7 +80,10 @@ struct HealthWatch {
   SourceRange where;
 };
 
-// "executor", "output", "blocked", "command": the word of a launch file.
+// "127.0.0.1:8080", "[::1]:8080", "/run/map.sock"
+std::string address_of(const PortAccepts& port);
+
+// "executor", "output", "blocked", "command" and so on: the word of a launch file.
 std::string_view kind_of(const HealthWatch& watch);
 // "none", "restart", "signal", "shutdown".
 std::string_view to_string(OnUnhealthy reaction);

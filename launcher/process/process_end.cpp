@@ -191,6 +191,10 @@ void Supervision::kill_remains(Supervised& process) {
 
 void Supervision::report_exit(Supervised& process, ProcessExit exit, bool will_respawn) {
   exit.ran_for = process.ran_for = loop.now() - process.started;
+  // Where the process has no cgroup that counts it. Nobody else of the launch has sent the signal.
+  if (exit.code == -SIGKILL && !process.signalled && process.process.control_group.empty()) {
+    exit.out_of_memory = runner.was_ended_by_kernel(process.process, process.started);
+  }
   process.last_exit = exit;
   const bool expected = process.signalled || shutting_down;
   notify(process, ProcessExited{process.process.pid, exit, expected, will_respawn});

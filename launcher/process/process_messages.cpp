@@ -158,7 +158,9 @@ std::string end_of(const ProcessExit& exit) {
   }
   const char* const name = ::sigabbrev_np(-exit.code);
   return (name == nullptr ? fmt::format("signal {}", -exit.code) : fmt::format("SIG{}", name)) +
-         (exit.core_dumped ? ", core dumped," : "");
+         (exit.core_dumped     ? ", core dumped,"
+          : exit.out_of_memory ? " by the kernel, for want of memory,"
+                               : "");
 }
 
 std::string describe(const ProcessExit& exit) {

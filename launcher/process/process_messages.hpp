@@ -14,7 +14,8 @@ namespace launch {
 // Failures end with the place in the launch file that asked for the process. `output` must outlive the supervisor.
 ProcessSupervisor::Observer process_messages(OutputRouter& output);
 
-// How a process has ended, in words: "exit code 3", "SIGSEGV", "SIGSEGV, core dumped,".
+// How a process has ended, in words: "exit code 3", "SIGSEGV", "SIGSEGV, core dumped,",
+// "SIGKILL by the kernel, for want of memory,".
 std::string end_of(const ProcessExit& exit);
 
 // "SIGSEGV, core dumped, after 12.41 s, with 3.10 s of processor time and 48.2 MiB"

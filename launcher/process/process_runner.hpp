@@ -57,6 +57,10 @@ class ProcessRunner {
   // so that signal_group() can't hit strangers. Must only be called once its pidfd is readable.
   virtual ProcessExit outcome(const Process& process) = 0;
 
+  // Whether the log of the kernel says that it has ended this process for want of memory. `started` is the time of the
+  // loop at which it was started.
+  virtual bool was_ended_by_kernel(const Process&, Duration /*started*/) { return false; }
+
   // Reaps an exited process. Must only be called once its pidfd is readable. Sets code and usage.
   virtual ProcessExit reap(const Process& process) = 0;
 };

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/process/process_spec.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
 namespace launch {
 
 std::optional<OutputRouting> OutputRouting::from_mode(std::string_view mode) {
@@ -21,6 +26,17 @@ std::optional<OutputRouting> OutputRouting::from_mode(std::string_view mode) {
                          .err = {.screen = true, .log = true, .own_log = true}};
   }
   return std::nullopt;
+}
+
+std::vector<std::string> limits_of(const ProcessSpec& spec) {
+  std::vector<std::string> limits = describe(spec.limits);
+  std::ranges::move(describe(spec.control_limits), std::back_inserter(limits));
+  for (const std::shared_ptr<const ControlGroup>& group : spec.control_groups) {
+    for (const std::string& limit : describe(group->limits)) {
+      limits.push_back(fmt::format("{} together with its group ({})", limit, to_string(group->where)));
+    }
+  }
+  return limits;
 }
 
 }  // namespace launch

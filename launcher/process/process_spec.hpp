@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,6 +17,7 @@
 #include "base/diagnostics/source.hpp"
 #include "base/environment/environment.hpp"
 #include "base/files/unique_fd.hpp"
+#include "launcher/process/control_groups/control_group.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/health_watch.hpp"
 #include "launcher/process/resource_limits.hpp"
@@ -92,6 +94,8 @@ struct ProcessSpec {
   bool terminal_input = false;    // stdin is that of the launcher, if that is a terminal
   OutputRouting output;
   ResourceLimits limits;
+  ControlGroupLimits control_limits;                                // for observers: of limits.control_group
+  std::vector<std::shared_ptr<const ControlGroup>> control_groups;  // for observers: around it, the outermost first
   RespawnPolicy respawn;
   StartLimit start_limit;
   std::vector<HealthWatch> watches;  // for observers: how its health is told; empty: it is not watched
@@ -109,6 +113,9 @@ struct ProcessSpec {
   SourceRange origin;                 // the launch-file line that asked for it
 };
 
+// What limits the process, in words: its own limits, then those of its groups.
+std::vector<std::string> limits_of(const ProcessSpec& spec);
+
 // Invocation: one running process. The group of the process has the number `pid`, unless the process has the terminal:
 // only the group of the launcher may read it.
 struct Process {
@@ -118,7 +125,9 @@ struct Process {
   UniqueFd pidfd;
   UniqueFd out;  // read end of standard output
   UniqueFd err;
-  UniqueFd in;  // write end of standard input, kept open, never written
+  UniqueFd in;                            // write end of standard input, kept open, never written
+  std::string control_group{};            // of its own; empty: none
+  std::uint64_t out_of_memory_before{0};  // how many processes the kernel had ended there, when it started
 };
 
 // The exit code of a process that could not be started.
@@ -130,6 +139,7 @@ struct ProcessExit {
   Duration ran_for{0};
   rusage usage{};
   bool core_dumped = false;
+  bool out_of_memory = false;  // the kernel has ended it, because there was no memory
 };
 
 }  // namespace launch

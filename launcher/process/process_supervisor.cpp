@@ -106,6 +106,7 @@ void Supervision::spawn(Supervised& process) {
   ++process.runs;
   process.health = process.spec.watches.empty() ? Health::kUnwatched : Health::kStarting;
   process.health_reason.clear();
+  process.status.clear();
   process.output.follow(process.process, [this, &process] { handle(process, Event::kOutputClosed); });
   process.exit_source = loop.on_exit(process.process.pidfd.get(), [this, &process] { handle(process, Event::kExit); });
   notify(process, ProcessStarted{process.process.pid, process.spec.terminal_input && !process.process.has_terminal});
@@ -336,6 +337,14 @@ ProcessRunner& ProcessSupervisor::runner() const {
   return impl_->runner;
 }
 
+const std::string& ProcessSupervisor::files_directory() const {
+  return impl_->files.directory();
+}
+
+void ProcessSupervisor::set_status(ProcessId id, const std::string& text) {
+  impl_->processes.at(id - 1)->status = text;
+}
+
 void ProcessSupervisor::set_health(ProcessId id, HealthChanged change) {
   impl_->set_health(*impl_->processes.at(id - 1), std::move(change));
 }
@@ -389,7 +398,8 @@ ProcessView ProcessSupervisor::view(ProcessId id) const {
           .runs = process.runs,
           .last_exit = process.last_exit,
           .health = runs ? process.health : Health::kUnwatched,
-          .health_reason = process.health_reason};
+          .health_reason = process.health_reason,
+          .status = process.status};
 }
 
 }  // namespace launch

@@ -45,6 +45,7 @@ struct ProcessView {
   std::optional<ProcessExit> last_exit;
   Health health;
   const std::string& health_reason;
+  const std::string& status;  // what it says of itself, by sd_notify(3)
 };
 
 class ProcessSupervisor {
@@ -131,6 +132,13 @@ class ProcessSupervisor {
 
   // By which others start helpers of a process, such as the command of a watch.
   ProcessRunner& runner() const;
+
+  // A directory that only this user can enter. It ends with the launch, also when the launcher is killed. Throws
+  // std::system_error.
+  const std::string& files_directory() const;
+
+  // Takes note of what a process that runs says of itself.
+  void set_status(ProcessId id, const std::string& text);
 
   // Takes note of the health of a process that runs, and tells the observers. For the one who watches it.
   void set_health(ProcessId id, HealthChanged change);

@@ -95,6 +95,7 @@ struct Supervised {
   std::optional<ProcessExit> last_exit;
   Health health = Health::kUnwatched;
   std::string health_reason;  // of kUnhealthy
+  std::string status;
   ChildOutput output;
   EventLoop::SourcePtr exit_source;
   EventLoop::SourcePtr timer;

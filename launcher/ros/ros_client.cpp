@@ -27,6 +27,9 @@ struct Describe {
                        to_python_text(wait.parameter.value));
   }
   std::string operator()(const WatchMessages& watch) const { return fmt::format("messages on '{}'", watch.topic); }
+  std::string operator()(const MeterTopic& watch) const { return fmt::format("the rate of '{}'", watch.topic); }
+  std::string operator()(const AskService& watch) const { return fmt::format("answers of '{}'", watch.service); }
+  std::string operator()(const AskState& watch) const { return fmt::format("answers of '{}/get_state'", watch.node); }
   std::string operator()(const WatchTransitions& watch) const { return fmt::format("the state of '{}'", watch.node); }
 };
 

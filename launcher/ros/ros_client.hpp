@@ -81,9 +81,40 @@ struct WatchMessages {
   std::string condition;  // on their fields (launcher/message_types/message_condition.hpp); empty: none
 };
 
+// For the health of processes. Each is answered again and again, until it is cancelled: the traffic of a topic once in
+// `every`. A service or a state is looked at once in `every`, and answered when the answer (RosAnswer::found) is
+// another one, and twice in `every` as long as it is not good.
+struct MeterTopic {
+  std::string topic;
+  Duration every{0};
+};
+struct AskService {
+  std::string service;
+  Duration every{0};
+};
+struct AskState {
+  std::string node;
+  Duration every{0};
+};
+
 using RosRequest =
     std::variant<LoadNode, UnloadNode, ListNodes, ChangeState, GetState, SetParameters, NodePresent, TopicPresent,
-                 ServicePresent, MessagePublished, StateReached, ParameterReached, WatchTransitions, WatchMessages>;
+                 ServicePresent, MessagePublished, StateReached, ParameterReached, WatchTransitions, WatchMessages,
+                 MeterTopic, AskService, AskState>;
+
+// Of a topic, since the answer before.
+struct TopicTraffic {
+  std::uint64_t messages = 0;
+  std::uint64_t publishers = 0;  // now
+  Duration measured{0};          // the time of it in which the client looked
+};
+
+// What a question to a service has come to.
+enum class ServiceFinding {
+  kGone,   // there is no such service
+  kAsked,  // it has not answered yet
+  kFound   // it is there and has answered, or is not one of those that are asked
+};
 
 struct RosAnswer {
   bool ok = false;
@@ -100,6 +131,8 @@ struct RosAnswer {
   // StateReached, ParameterReached: what the node says now. Other answers follow, and `ok` is false.
   std::string seen = {};
   std::optional<SeenMessages> messages = {};  // WatchMessages
+  std::optional<TopicTraffic> traffic = {};   // MeterTopic
+  std::optional<ServiceFinding> found = {};   // AskService, AskState
 };
 
 // What the request waits for, for messages: "the '/c/_container/load_node' service", "a publisher of '/scan'".

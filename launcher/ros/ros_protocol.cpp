@@ -134,6 +134,10 @@ struct Write {
   Json operator()(const WatchMessages& r) const {
     return {{"do", "watch_messages"}, {"topic", r.topic}, {"type", r.type}, {"condition", r.condition}};
   }
+  Json operator()(const MeterTopic& r) const { return {{"do", "meter_topic"}, {"topic", r.topic}, every(r.every)}; }
+  Json operator()(const AskService& r) const { return {{"do", "ask_service"}, {"service", r.service}, every(r.every)}; }
+  Json operator()(const AskState& r) const { return {{"do", "ask_state"}, {"node", r.node}, every(r.every)}; }
+  static Json every(Duration time) { return {"every_ns", time.count()}; }
   Json operator()(const WatchTransitions& r) const { return {{"do", "watch_transitions"}, {"node", r.node}}; }
 };
 
@@ -154,6 +158,7 @@ SeenMessages messages_from(const Json& json) {
 
 RosRequest request_from(const std::string& what, const Json& json) {
   const auto text = [&](const char* name) { return json.at(name).get<std::string>(); };
+  const auto every = [&] { return Duration(json.at("every_ns").get<std::int64_t>()); };
   if (what == "load_node") {
     return LoadNode{text("container"), node_from(json.at("node"))};
   }
@@ -192,6 +197,15 @@ RosRequest request_from(const std::string& what, const Json& json) {
   }
   if (what == "watch_messages") {
     return WatchMessages{text("topic"), text("type"), text("condition")};
+  }
+  if (what == "meter_topic") {
+    return MeterTopic{text("topic"), every()};
+  }
+  if (what == "ask_service") {
+    return AskService{text("service"), every()};
+  }
+  if (what == "ask_state") {
+    return AskState{text("node"), every()};
   }
   if (what == "watch_transitions") {
     return WatchTransitions{text("node")};
@@ -254,6 +268,12 @@ std::string to_line(const RosAnswerLine& line) {
   if (answer.messages) {
     json["messages"] = to_json(*answer.messages);
   }
+  if (answer.traffic) {
+    json["traffic"] = {answer.traffic->messages, answer.traffic->publishers, answer.traffic->measured.count()};
+  }
+  if (answer.found) {
+    json["found"] = static_cast<int>(*answer.found);
+  }
   return line_of(json);
 }
 
@@ -272,6 +292,13 @@ RosAnswerLine parse_answer_line(std::string_view text) {
     line.answer.seen = json.value("seen", "");
     if (json.contains("messages")) {
       line.answer.messages = messages_from(json.at("messages"));
+    }
+    if (json.contains("traffic")) {
+      const Json& traffic = json.at("traffic");
+      line.answer.traffic = {traffic.at(0), traffic.at(1), Duration(traffic.at(2).get<std::int64_t>())};
+    }
+    if (json.contains("found")) {
+      line.answer.found = static_cast<ServiceFinding>(json.at("found").get<int>());
     }
     return line;
   });

@@ -39,6 +39,7 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
       health_(loop, supervisor, crashes_,
               {std::bind_front(&LaunchContext::message, &context_),
                [this](const std::string& reason) { shutdown(reason); }}),
+      limits_(loop, std::bind_front(&LaunchContext::message, &context_)),
       scopes_(loop, warn_or_tell(context, "launch.trace"), timing_),
       rounds_(scopes_, {[this](Round round) { start(std::move(round)); },
                         [this](const LaunchError& error) { fail(error); }, [this] { check_finished(); }}),
@@ -96,6 +97,7 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
 
 void LaunchService::use_guardian(Guardian& guardian) {
   guardian_ = &guardian;
+  limits_.use_guardian(guardian);
   scopes_.use_guardian(guardian);
 }
 
@@ -115,8 +117,6 @@ int LaunchService::run(const LaunchDescription& description) {
   }
   return outcome_.exit_code();
 }
-
-// The events in the course of the launch.
 
 bool LaunchService::on_lost_guardian() {
   if (guardian_ == nullptr || guardian_missed_ || guardian_->is_alive()) {
@@ -149,6 +149,7 @@ void LaunchService::on_process_event(const ProcessEvent& event) {
   outcome_.on_process_event(event);
   crashes_.on_process_event(event);
   health_.on_event(event);
+  limits_.on_event(event);
   processes_.on_event(event);
   test_.on_event(event);
   steering_.on_event(event);
@@ -311,6 +312,7 @@ void LaunchService::observe_output() {
 
 void LaunchService::prepare(ProcessSpec& spec, ProcessId id) {
   health_.monitor.prepare(spec, id);
+  limits_.prepare(spec, id);
   scopes_.prepare(spec);
   test_.prepare(spec, id);
   ros_tasks_.name_process(id, spec.other_names);

@@ -26,6 +26,7 @@
 #include "launcher/run/handlers/handlers.hpp"
 #include "launcher/run/handlers/timers.hpp"
 #include "launcher/run/health/health_care.hpp"
+#include "launcher/run/limits/limit_care.hpp"
 #include "launcher/run/reload/reloads.hpp"
 #include "launcher/run/scopes/active_scopes.hpp"
 #include "launcher/run/scopes/recording.hpp"
@@ -61,7 +62,10 @@ class LaunchService {
 
   // The client loads components and changes states. Without a client, a launch that asks for either fails. The client
   // must outlive the service.
-  void use_ros_client(RosClient& client) { context_.use_ros_client(client); }
+  void use_ros_client(RosClient& client) {
+    context_.use_ros_client(client);
+    health_.monitor.use_ros_client(client);
+  }
 
   // For a test of the system that is launched.
   SystemTest& test() { return test_; }
@@ -166,6 +170,7 @@ class LaunchService {
   Outcome outcome_;
   CrashCollector crashes_;
   HealthCare health_;
+  LimitCare limits_;
   ActiveScopes scopes_;
   Rounds rounds_;
   Recording recording_;

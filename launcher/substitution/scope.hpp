@@ -17,6 +17,7 @@
 namespace launch {
 
 class PackageIndex;
+struct ControlGroup;
 struct UnrunCommands;
 
 // The names that $(anon) has made, in their order. Another reading of the launch file gets the same ones.
@@ -38,6 +39,8 @@ struct Scope {
   std::map<std::string, std::string> loop_variables;
   // The names of the groups around the action that is visited, the outermost first.
   std::vector<std::string> groups;
+  // The limits of the enclosing groups, the outermost first (launcher/process/control_groups/control_group.hpp).
+  std::vector<std::shared_ptr<const ControlGroup>> control_groups;
   // The launch file being visited: what $(dirname) and $(filename) give. Null outside any file.
   std::shared_ptr<const SourceFile> current_file;
   // This run's log directory.

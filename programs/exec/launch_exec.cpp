@@ -6,13 +6,17 @@
 // preloaded into it, and it takes half a millisecond.
 #include <fcntl.h>
 #include <sched.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <climits>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 
 #include "launcher/process/exec/launch_exec_protocol.hpp"
 
@@ -67,6 +71,54 @@ int set_policy(const char* text) {
   return ::sched_setscheduler(0, policy, &parameters);
 }
 
+// The struct of sched_setattr(2), for which not all C libraries have a declaration.
+struct SchedulingAttributes {
+  std::uint32_t size;
+  std::uint32_t policy;
+  std::uint64_t flags;
+  std::int32_t nice;
+  std::uint32_t priority;
+  std::uint64_t runtime;
+  std::uint64_t deadline;
+  std::uint64_t period;
+};
+
+// A thread with this policy can't start others, unless they begin with the ordinary one.
+int set_deadline(const char* text) {
+  constexpr std::uint32_t kDeadline = 6;     // SCHED_DEADLINE
+  constexpr std::uint64_t kResetOnFork = 1;  // SCHED_FLAG_RESET_ON_FORK
+  SchedulingAttributes attributes{};
+  attributes.size = sizeof attributes;
+  attributes.policy = kDeadline;
+  attributes.flags = kResetOnFork;
+  char* end = nullptr;
+  attributes.runtime = std::strtoull(text, &end, 10);
+  attributes.deadline = std::strtoull(end + 1, &end, 10);
+  attributes.period = std::strtoull(end + 1, &end, 10);
+  return static_cast<int>(::syscall(SYS_sched_setattr, 0, &attributes, 0));
+}
+
+int write_file(const char* path, const char* text) {
+  const int file = ::open(path, O_WRONLY | O_CLOEXEC);
+  const auto size = static_cast<ssize_t>(std::strlen(text));
+  const bool written = file >= 0 && ::write(file, text, static_cast<std::size_t>(size)) == size;
+  const int error = errno;
+  ::close(file);
+  errno = error;
+  return written ? 0 : -1;
+}
+
+int enter_control_group(const char* directory) {
+  std::array<char, PATH_MAX> path{};
+  constexpr const char* kProcesses = "/cgroup.procs";
+  if (std::strlen(directory) + std::strlen(kProcesses) >= path.size()) {
+    errno = ENAMETOOLONG;
+    return -1;
+  }
+  ::stpcpy(::stpcpy(path.data(), directory), kProcesses);
+  return write_file(path.data(), "0");
+}
+
 // The directory stays the same, by its path: a process that enters a mount namespace is in the root of it.
 int enter_namespaces(int count) {
   std::array<char, PATH_MAX> directory{};
@@ -94,6 +146,18 @@ void apply(char step, const char* value) {
       return check(step, set_limit(RLIMIT_NOFILE, std::strtoull(value, nullptr, 10)));
     case kStepCoreFiles:
       return check(step, allow_core_files());
+    case kStepDeadline:
+      return check(step, set_deadline(value));
+    case kStepTimerSlack:
+      return check(step, ::prctl(PR_SET_TIMERSLACK, std::strtoul(value, nullptr, 10)));
+    case kStepControlGroup:
+      return check(step, enter_control_group(value));
+    case kStepOomScore:
+      return check(step, write_file("/proc/self/oom_score_adj", value));
+    case kStepLockedMemory:
+      return check(step,
+                   set_limit(RLIMIT_MEMLOCK,
+                             std::strcmp(value, "unlimited") == 0 ? RLIM_INFINITY : std::strtoull(value, nullptr, 10)));
     case kStepNamespaces:
       return check(step, enter_namespaces(std::atoi(value)));
     default:

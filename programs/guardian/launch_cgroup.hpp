@@ -7,6 +7,7 @@
 
 #include <set>
 #include <string>
+#include <vector>
 
 namespace launch {
 
@@ -33,6 +34,9 @@ class LaunchCgroup {
 
  private:
   explicit LaunchCgroup(std::string path) : path_(std::move(path)) {}
+
+  // The cgroup of the launcher, and the one beside it with the processes that have limits.
+  std::vector<std::string> trees() const;
 
   std::string path_;
 };

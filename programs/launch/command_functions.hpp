@@ -18,6 +18,7 @@ int reference_command(const Words& words);
 int run_program_command(const Words& words);  // `launch run`
 int schema_command(const Words& words);
 int unit_command(const Words& words);
+int doctor_command(const Words& words);
 
 // These ask a running launch, and throw ControlError.
 int gdb_command(const Words& words);

@@ -80,5 +80,8 @@ std::unique_ptr<Operation> wait_for(const StateReached& request, rclcpp::Node& n
 std::unique_ptr<Operation> wait_for(const ParameterReached& request, rclcpp::Node& node, Operation::Answer answer);
 std::unique_ptr<Operation> watch(const WatchMessages& request, rclcpp::Node& node, Operation::Answer answer);
 std::unique_ptr<Operation> watch(const WatchTransitions& request, rclcpp::Node& node, Operation::Answer answer);
+std::unique_ptr<Operation> watch(const MeterTopic& request, rclcpp::Node& node, Operation::Answer answer);
+std::unique_ptr<Operation> watch(const AskService& request, rclcpp::Node& node, Operation::Answer answer);
+std::unique_ptr<Operation> watch(const AskState& request, rclcpp::Node& node, Operation::Answer answer);
 
 }  // namespace launch

@@ -26,9 +26,10 @@ class GeneratedFiles {
   // $XDG_RUNTIME_DIR, $TMPDIR and /tmp that works. Throws std::system_error.
   void write(ProcessSpec& spec, ProcessId id);
 
- private:
+  // Also for sockets and the like. Made on first need; throws std::system_error.
   const std::string& directory();
 
+ private:
   bool make(const std::string& path);
 
   std::string directory_;

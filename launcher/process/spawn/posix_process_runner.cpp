@@ -25,9 +25,12 @@
 #include "base/files/pipe.hpp"
 #include "base/files/unique_fd.hpp"
 #include "base/processes/ending_signals.hpp"
+#include "base/processes/outside_number.hpp"
 #include "base/processes/process_mark.hpp"
 #include "base/processes/spawn.hpp"
 #include "base/terminal/terminal.hpp"
+#include "launcher/process/control_groups/control_group_use.hpp"
+#include "launcher/process/control_groups/kernel_messages.hpp"
 #include "launcher/process/exec/launch_exec_protocol.hpp"
 #include "launcher/process/guardian/process_scan.hpp"
 #include "launcher/process/isolation/namespaces.hpp"
@@ -136,6 +139,11 @@ std::vector<pid_t> fellows_in_our_group(const Process& process) {
   return found;
 }
 
+// How many processes of a cgroup the kernel has ended for want of memory.
+std::uint64_t ended_in(const std::string& control_group) {
+  return read_keyed(control_group + "/memory.events", "oom_kill");
+}
+
 class PosixProcessRunner final : public ProcessRunner {
  public:
   using NamespaceChoice = std::function<const Namespaces*(const ProcessSpec&)>;
@@ -153,6 +161,9 @@ class PosixProcessRunner final : public ProcessRunner {
     }
   }
   bool in_foreground() const override { return ::tcgetpgrp(STDIN_FILENO) == ::getpgrp(); }
+  bool was_ended_by_kernel(const Process& process, Duration started) override {
+    return ended_for_want_of_memory(number_outside(process.pid), started);
+  }
   ProcessExit outcome(const Process& process) override { return wait(process, WNOWAIT); }
   ProcessExit reap(const Process& process) override { return wait(process, 0); }
 
@@ -256,6 +267,10 @@ Process PosixProcessRunner::spawn(const ProcessSpec& spec) {
     wait_for(process.pid);
     throw std::system_error(open_error, std::system_category(), "cannot open a descriptor for a process");
   }
+  process.control_group = spec.limits.control_group;
+  if (!process.control_group.empty()) {
+    process.out_of_memory_before = ended_in(process.control_group);
+  }
   process.has_terminal = has_terminal;
   process.mark = has_terminal ? spec.mark : std::string();
   process.pidfd = out_of_the_way(std::move(process.pidfd));
@@ -340,6 +355,8 @@ ProcessExit PosixProcessRunner::wait(const Process& process, int flags) {
   }
   exit.code = info.si_code == CLD_EXITED ? info.si_status : -info.si_status;
   exit.core_dumped = info.si_code == CLD_DUMPED;
+  exit.out_of_memory = info.si_code == CLD_KILLED && info.si_status == SIGKILL && !process.control_group.empty() &&
+                       ended_in(process.control_group) > process.out_of_memory_before;
   if (process.has_terminal && terminal_) {
     terminal_->restore();
   }

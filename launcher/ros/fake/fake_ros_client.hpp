@@ -48,6 +48,19 @@ class FakeRosClient : public launch::RosClient {
     return false;
   }
 
+  // Gives an answer of several to each pending request of this text. Returns how many there are.
+  int tell(const std::string& text, const launch::RosAnswer& answer) {
+    const auto told = pending_;
+    int count = 0;
+    for (const auto& pending : told) {
+      if (!pending->cancelled && pending->text == text) {
+        ++count;
+        pending->done(answer);
+      }
+    }
+    return count;
+  }
+
   // Reports a change to the watches of a node's state. Returns how many there are.
   int change_state(const std::string& node, const std::string& from, const std::string& to) {
     launch::RosAnswer answer;

@@ -68,7 +68,7 @@ constexpr FindingInfo kRowsOfSystems[] = {
 )x"},
     {Finding::kMissingCpu, "CPU that this machine lacks", Severity::kError,
      "A process may run on certain CPUs only, and this machine has none of them. If it has some of them, this is a "
-     "warning.",
+     "warning, and so are CPUs that the cpuset or the affinity of the launcher leaves out.",
      R"x(<launch>
   <executable cmd="true" cpus="1000"/>
 </launch>

@@ -37,13 +37,14 @@ std::string end_text(const nlohmann::ordered_json& end) {
 
 std::string state_text(const nlohmann::ordered_json& process) {
   const auto end = process.find("last_end");
-  return state_text(process.value("state", ""), end == process.end() ? "" : end_text(*end),
-                    process.value("health", ""));
+  return state_text(process.value("state", ""), end == process.end() ? "" : end_text(*end), process.value("health", ""),
+                    process.value("status", ""));
 }
 
-std::string state_text(const std::string& state, const std::string& end, const std::string& health) {
+std::string state_text(const std::string& state, const std::string& end, const std::string& health,
+                       const std::string& status) {
   if (state == "running" && !health.empty()) {
-    return fmt::format("running, {}", health);
+    return fmt::format("running, {}{}", health, status.empty() ? "" : fmt::format(" ({})", status));
   }
   return state == "ended" && !end.empty() ? fmt::format("ended: {}", end) : state;
 }
@@ -59,6 +60,10 @@ std::string memory_text(std::uint64_t bytes) {
     }
   }
   return fmt::format("{:.1f} {}", value, unit);
+}
+
+std::string share_text(double share) {
+  return share < 0 ? "" : fmt::format(" ({:.0f} %)", 100 * share);
 }
 
 std::string duration_text(double seconds) {

@@ -14,9 +14,13 @@ namespace launch {
 void add_usage(nlohmann::ordered_json& processes);
 // "running", "running, unhealthy", "ended: exit code 1", "ended: SIGSEGV".
 std::string state_text(const nlohmann::ordered_json& process);
-std::string state_text(const std::string& state, const std::string& end, const std::string& health);
+// `status` is what a process that runs says of itself: "running, healthy (map loaded)".
+std::string state_text(const std::string& state, const std::string& end, const std::string& health,
+                       const std::string& status = {});
 // "exit code 1", "SIGSEGV".
 std::string end_text(const nlohmann::ordered_json& end);
+// " (70 %)", of a limit; "" if it is negative.
+std::string share_text(double share);
 // "12.3 MiB"
 std::string memory_text(std::uint64_t bytes);
 // "0:07", "12:03", "3:04:05", "12 d 3:04"

@@ -41,11 +41,11 @@ ProcessRow row_of(const ListedLaunch& launch, const ListedProcess& process, cons
   return {process.name,
           usage && usage->stopped && process.state == "running"
               ? "stopped"
-              : state_text(process.state, process.end, process.health),
+              : state_text(process.state, process.end, process.health, process.status),
           runs ? std::to_string(process.pid) : "-",
           process.restarts < 0 ? "-" : std::to_string(process.restarts),
           usage ? cpu_text(*usage, process.running_for) : "-",
-          usage ? memory_text(usage->memory) : "-",
+          usage ? memory_text(usage->memory) + share_text(process.memory_share) : "-",
           runs ? duration_text(process.running_for) : "-",
           process.line == 0 ? "-" : place_text(launch.places[process.file], process.line)};
 }

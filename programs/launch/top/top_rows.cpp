@@ -35,6 +35,7 @@ void TopRows::update(const Json& processes, Time now) {
     row.state = state_text(process);
     row.pid = process.contains("pid") ? process["pid"].dump() : "";
     row.memory = process.value("memory", std::uint64_t{0});
+    row.memory_share = process.value("memory_share", -1.0);
     row.restarts = process.value("restarts", std::int64_t{0});
     row.place = place_text(process.value("place", Json()));
     if (!row.pid.empty()) {

@@ -20,6 +20,7 @@ struct TopRow {
   std::string pid;  // "" while it does not run
   double cpu = 0;   // percent of a processor since the answer before
   std::uint64_t memory = 0;
+  double memory_share = -1;  // of its limit; negative: there is none
   std::int64_t restarts = 0;
   double lines = 0;  // a second
   std::string place;

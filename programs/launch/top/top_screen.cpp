@@ -56,10 +56,20 @@ std::string fit_name(const std::string& name, std::size_t width) {
   return fit(name, head) + (has_dots ? "…" : "~") + name.substr(begin);
 }
 
+// "45.0 MiB", or with its share of a limit "45.0M  70%".
+std::string memory_column(const TopRow& row) {
+  std::string text = memory_text(row.memory);
+  if (row.memory_share < 0) {
+    return text;
+  }
+  const std::size_t unit = text.find(' ');
+  return fmt::format("{}{} {:>3.0f}%", text.substr(0, unit), text[unit + 1], 100 * row.memory_share);
+}
+
 std::string line_of(const TopRow& row, std::size_t name_width) {
   return fmt::format("{} {} {:>8} {:>6} {:>10} {:>8} {:>8}  {}", fit_name(row.name, name_width), fit(row.state, 18),
                      row.pid.empty() ? "-" : row.pid, row.pid.empty() ? "-" : fmt::format("{:.1f}", row.cpu),
-                     row.pid.empty() ? "-" : memory_text(row.memory), row.restarts, fmt::format("{:.0f}", row.lines),
+                     row.pid.empty() ? "-" : memory_column(row), row.restarts, fmt::format("{:.0f}", row.lines),
                      row.place);
 }
 

@@ -107,7 +107,8 @@ INSTANTIATE_TEST_SUITE_P(
             Example{"54_health",
                     {"--ignore-failures"},
                     {"process is unhealthy: an executor has not woken up for a timer",
-                     "restarting the process, because it is unhealthy", "talker-1 runs again"}}),
+                     "restarting the process, because it is unhealthy", "talker-1 runs again"}},
+            Example{"55_limits", {}, {"waits until 'talker' is healthy", "I heard: [Hello World: "}}),
         testing::Values("xml", "yaml")),
     [](const auto& row) { return std::string(std::get<0>(row.param).name + 3) + "_" + std::get<1>(row.param); });
 

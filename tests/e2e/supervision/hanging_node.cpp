@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <rclcpp/rclcpp.hpp>
+#include <std_msgs/msg/int32.hpp>
 #include <string>
 #include <thread>
 
@@ -42,9 +43,16 @@ int main(int argc, char** argv) {
   std::atomic<int> ticks = 0;
   const std::map<std::string, std::function<void()>> in_callback = {
       {"deadlock", deadlock}, {"compute", compute}, {"sleep", sleep_for_ever}};
+  const auto beats = node->create_publisher<std_msgs::msg::Int32>("/beats", 10);
   const auto timer = node->create_wall_timer(50ms, [&] {
     std::printf("tick %d\n", ++ticks);
     std::fflush(stdout);
+    // One that falls silent goes on in all other ways.
+    if (const bool goes_on = ticks < 20; goes_on || (what == "slow" && ticks % 10 == 0) || what == "ever") {
+      std_msgs::msg::Int32 beat;
+      beat.data = ticks;
+      beats->publish(beat);
+    }
     if (const auto found = in_callback.find(what); ticks == 5 && found != in_callback.end()) {
       found->second();
     }

@@ -1,19 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// A library to preload: the time of day jumps by an hour with each look at it, forwards and backwards in turn. Clocks
-// that only run forwards are as they are.
+// A library to preload: the time of day jumps by JUMP_SECONDS with each look at it, forwards and backwards in turn.
+// Clocks that only run forwards are as they are.
 #include <sys/syscall.h>
 #include <sys/time.h>
 #include <time.h>
 #include <unistd.h>
 
+#include <cstdlib>
+
 namespace {
 
-constexpr time_t kHour = 3600;
+// An hour if nothing is said.
+time_t jump_length() {
+  const char* const text = ::getenv("JUMP_SECONDS");
+  return text == nullptr ? 3600 : std::atol(text);
+}
 
 time_t jump() {
   static thread_local bool forwards = false;
   forwards = !forwards;
-  return forwards ? kHour : -kHour;
+  return forwards ? jump_length() : -jump_length();
 }
 
 }  // namespace

@@ -98,7 +98,7 @@ TEST(ResourceFields, AreNothingByDefault) {
 TEST(ResourceFields, SayWhatIsWrong) {
   EXPECT_EQ(error_of_executable("nice=\"20\""), "nice is a number from -20 to 19, got 20");
   EXPECT_EQ(error_of_executable("sched_policy=\"fif\" sched_priority=\"1\""),
-            "'fif' is no scheduling policy, expected other, batch, idle, fifo or rr; did you mean 'fifo'?");
+            "'fif' is no scheduling policy, expected other, batch, idle, fifo, rr or deadline; did you mean 'fifo'?");
   EXPECT_EQ(error_of_executable("sched_policy=\"rr\""),
             "the policy rr needs a priority; add sched_priority, from 1 to 99");
   EXPECT_EQ(error_of_executable("sched_policy=\"rr\" sched_priority=\"0\""),
@@ -114,6 +114,77 @@ TEST(ResourceFields, SayWhatIsWrong) {
               std::string("'") + amount + "' is no amount of memory; write bytes, or a number with K, M or G");
   }
   EXPECT_EQ(error_of_executable("open_files_limit=\"2\""), "open_files_limit is at least 3, got 2");
+}
+
+TEST(ResourceFields, OfRealTimeAreTaken) {
+  const launch::ResourceLimits limits =
+      process_of(R"xml(<executable cmd="a" sched_policy="deadline" sched_runtime="0.002" sched_deadline="0.01"
+                    timer_slack="0.000001" locked_memory_limit="unlimited" oom_score_adj="-500"/>)xml")
+          .limits;
+  EXPECT_EQ(limits.policy, launch::kDeadlinePolicy);
+  EXPECT_EQ(limits.schedule.runtime, std::chrono::milliseconds(2));
+  EXPECT_EQ(limits.schedule.period, std::chrono::milliseconds(0)) << "as long as the deadline";
+  EXPECT_THAT(describe(limits),
+              ElementsAre("policy deadline", "0.002 s of a processor within 0.01 s in each 0.01 s",
+                          "timer slack 1000 ns", "oom_score_adj -500", "any amount of locked memory"));
+  EXPECT_THAT(launch_exec_arguments(limits), ElementsAre("o-500", "lunlimited", "s1000", "r2000000,10000000,0", "-"));
+}
+
+TEST(ResourceFields, OfRealTimeSayWhatIsWrong) {
+  EXPECT_EQ(error_of_executable(R"(sched_policy="deadline")"),
+            "the policy deadline needs a sched_runtime; add sched_runtime and sched_deadline, in seconds");
+  EXPECT_EQ(error_of_executable(R"(sched_policy="deadline" sched_runtime="0.1" sched_deadline="0.01")"),
+            "the deadline of 0.01 s is shorter than the runtime of 0.1 s");
+  EXPECT_EQ(
+      error_of_executable(R"(sched_policy="deadline" sched_runtime="0.01" sched_deadline="0.1" sched_period="0.05")"),
+      "the period of 0.05 s is shorter than the deadline of 0.1 s; leave it out to have that of the deadline");
+  EXPECT_EQ(error_of_executable(R"(sched_policy="deadline" sched_runtime="0.01" sched_deadline="0.1" cpus="0")"),
+            "cpus does not go with the policy deadline; a thread with this policy runs on all CPUs of its cpuset; make "
+            "a cpuset for it");
+  EXPECT_EQ(error_of_executable(R"(sched_policy="deadline" sched_runtime="0" sched_deadline="0.1")"),
+            "sched_runtime is at least 0.000001 s, got 0");
+  EXPECT_EQ(error_of_executable(R"(sched_policy="deadline" sched_priority="3")"),
+            "sched_priority goes with the policies fifo and rr only; add sched_policy=\"fifo\", or use nice");
+  EXPECT_EQ(error_of_executable(R"(sched_period="0.1")"),
+            "sched_period goes with the policy deadline only; add sched_policy=\"deadline\"");
+  EXPECT_EQ(error_of_executable(R"(timer_slack="2")"), "timer_slack is a time from 0.000000001 to 1 second, got 2");
+  EXPECT_EQ(error_of_executable(R"(oom_score_adj="2000")"), "oom_score_adj is a number from -1000 to 1000, got 2000");
+}
+
+TEST(ControlGroupFields, AreThoseOfTheProcessAndOfItsGroups) {
+  const ProcessSpec spec = process_of(R"xml(
+    <group memory_max="1G" cpu_quota="150%">
+      <group pids_max="100">
+        <executable cmd="a" memory_max="64M" memory_high="48M" cpu_weight="50" io_weight="20"/>
+      </group>
+    </group>)xml");
+  EXPECT_THAT(describe(spec.control_limits),
+              ElementsAre("memory_max 67108864 bytes", "memory_high 50331648 bytes", "cpu_weight 50", "io_weight 20"));
+  ASSERT_EQ(spec.control_groups.size(), 2U);
+  EXPECT_THAT(describe(spec.control_groups[0]->limits), ElementsAre("memory_max 1073741824 bytes", "cpu_quota 150%"));
+  EXPECT_THAT(describe(spec.control_groups[1]->limits), ElementsAre("pids_max 100"));
+  EXPECT_EQ(limits_of(spec).size(), 7U);
+}
+
+TEST(ControlGroupFields, OfAGroupEndWithIt) {
+  EXPECT_THAT(process_of(R"xml(<group memory_max="1G"/><executable cmd="a"/>)xml").control_groups, IsEmpty());
+}
+
+TEST(ControlGroupFields, SayWhatIsWrong) {
+  for (const char* const quota : {"50", "0%", "-1%", "half", "1e9%", "50%%"}) {
+    EXPECT_EQ(error_of_executable(std::string("cpu_quota=\"") + quota + "\""),
+              std::string("'") + quota +
+                  "' is no share of a processor; write percents of one processor, from 1% on, such as 50% or 150%");
+  }
+  EXPECT_EQ(error_of_executable("memory_max=\"much\""),
+            "'much' is no amount of memory; write bytes, or a number with K, M or G");
+  EXPECT_EQ(error_of_executable("cpu_weight=\"0\""), "cpu_weight is a number from 1 to 10000, got 0");
+  EXPECT_EQ(error_of_executable("pids_max=\"0\""), "pids_max is a number from 1 to 4194304, got 0");
+  EXPECT_EQ(plan_actions(R"xml(<group memory_max="1G" scoped="false"/>)xml").error,
+            "/test/system.launch.xml:2:2: error: limits need a scoped group: they are those of the processes in it\n"
+            "    2 | <group memory_max=\"1G\" scoped=\"false\"/>\n"
+            "      |  ^~~~~\n"
+            "      = help: leave out scoped=\"false\"");
 }
 
 TEST(CleanEnvironment, HoldsOnlyWhatIsSaid) {

@@ -78,6 +78,38 @@ TEST(Watch, IsDescribedInADryRun) {
                                  "it is never blocked for 5 s", "'a b' ends with 0 within 5 s, 3 failures in a row"));
 }
 
+TEST(Watch, FromOutsideIsRead) {
+  const std::vector<launch::HealthWatch> found =
+      watches(R"(<watch kind="topic" topic="/scan" min_rate="5"/><watch kind="topic" topic="map"/>
+                 <watch kind="service" service="/map/load" timeout="2"/><watch kind="lifecycle" node="/n"/>
+                 <watch kind="port" port="8080"/><watch kind="port" port="53" protocol="udp"/>
+                 <watch kind="port" socket="@map"/><watch kind="port" port="80" host="::1"/>
+                 <watch kind="notify" watchdog="true" timeout="3"/>)");
+  std::vector<std::string> texts;
+  for (const launch::HealthWatch& watch : found) {
+    texts.push_back(describe(watch));
+  }
+  EXPECT_THAT(texts, ElementsAre("'/scan' has at least 5 messages a second, over 5 s",
+                                 "a message comes on '/map' at least every 5 s",
+                                 "the service '/map/load' answers within 2 s", "'/n' is active, and says so within 5 s",
+                                 "localhost:8080 accepts connections within 5 s, 3 failures in a row",
+                                 "it has the UDP port 53, 3 failures in a row",
+                                 "@map accepts connections within 5 s, 3 failures in a row",
+                                 "[::1]:80 accepts connections within 5 s, 3 failures in a row",
+                                 "it says within 3 s that it is ready, and then as often that it lives"));
+  EXPECT_EQ(found[0].interval, 1s);
+  EXPECT_EQ(found[2].interval, 1s);
+  EXPECT_EQ(found[3].interval, 2500ms);
+  EXPECT_EQ(found[4].interval, 2s);
+}
+
+TEST(Watch, OfALifeCycleKnowsTheNodeOfItsProcess) {
+  const std::vector<launch::HealthWatch> found = watches_of(plan_actions(
+      R"(<group ns="left"><node exec="/bin/true" name="driver"><watch kind="lifecycle"/></node></group>)"));
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_EQ(std::get<launch::LifecycleState>(found[0].subject).node, "/left/driver");
+}
+
 TEST(Watch, ADependencyOnHealthNeedsOne) {
   const Planned planned = plan_actions(R"xml(
     <executable cmd="a" name="driver"/>

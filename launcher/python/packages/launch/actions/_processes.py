@@ -116,7 +116,9 @@ class _Process(Action):
     _EXTENSIONS = ('stdout', 'stderr', 'required', 'respawn_backoff', 'respawn_max_delay', 'nice', 'sched_policy',
                    'sched_priority', 'cpus', 'memory_limit', 'open_files_limit', 'trace', 'leave_running',
                    'allowed_exit_codes', 'crash_dir', 'stdin', 'start_limit', 'start_limit_interval',
-                   'start_limit_cool_down', 'on_start_limit')
+                   'start_limit_cool_down', 'on_start_limit', 'sched_runtime', 'sched_deadline', 'sched_period',
+                   'timer_slack', 'locked_memory_limit', 'oom_score_adj', 'memory_max', 'memory_high', 'cpu_quota',
+                   'cpu_weight', 'io_weight', 'pids_max')
 
     _DASHED = ('leave_running', 'allowed_exit_codes', 'crash_dir')
 
