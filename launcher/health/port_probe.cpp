@@ -107,7 +107,8 @@ Look PortProbe::connect_to_socket() const {
   for (const int type : {SOCK_STREAM, SOCK_SEQPACKET, SOCK_DGRAM}) {
     UniqueFd connection;
     error = connect(connection, AF_UNIX, type, address);
-    if (error != EPROTOTYPE) {
+    // Of an abstract socket, the kernel looks for the name and the type.
+    if (error != EPROTOTYPE && error != ECONNREFUSED) {
       break;
     }
   }

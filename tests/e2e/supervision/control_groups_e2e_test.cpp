@@ -149,13 +149,13 @@ TEST_F(Limits, AreInPsAndNothingIsLeftAfterKill9) {
                      R"(memory_max="100M")") +
                  "</group>")}});
   ASSERT_TRUE(launch.wait_for_output("full", kPatience));
-  EXPECT_THAT(run_command({.argv = {LAUNCH_PROGRAM, "ps"}}).out, ContainsRegex("MiB \\([4-9][0-9] %\\)"));
-  const std::string json = run_command({.argv = {LAUNCH_PROGRAM, "ps", "--json"}}).out;
+  EXPECT_THAT(run_command({LAUNCH_PROGRAM, "ps"}).out, ContainsRegex("MiB \\([4-9][0-9] %\\)"));
+  const std::string json = run_command({LAUNCH_PROGRAM, "ps", "--json"}).out;
   EXPECT_THAT(json, AllOf(HasSubstr(R"("memory_max": 104857600)"), HasSubstr(R"("pids_max": 50)"),
                           HasSubstr(R"("name": "group.1")"), HasSubstr(R"("memory_share": 0.)")));
   ASSERT_EQ(trees().size(), 1U);
   // The launcher is below the two guardians.
-  run_command({.argv = {"sh", "-c", "kill -9 $(pgrep -P $(pgrep -P " + std::to_string(launch.pid()) + "))"}});
+  run_command({"sh", "-c", "kill -9 $(pgrep -P $(pgrep -P " + std::to_string(launch.pid()) + "))"});
   launch.wait(kPatience);
   Sandbox::wait_until_daemons_are_left();
   EXPECT_THAT(trees(), testing::IsEmpty());

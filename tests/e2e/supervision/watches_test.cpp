@@ -129,13 +129,12 @@ TEST_F(Watches, OneClientServesAllWatchesAndItsEndIsNoFailure) {
   // Below the launcher, which is below the two guardians.
   const auto clients = [&] {
     return run_command(
-               {.argv = {"sh", "-c",
-                         "pgrep -x launch-ros-clie -P $(pgrep -P $(pgrep -P " + std::to_string(launch.pid()) + "))"}})
+               {"sh", "-c", "pgrep -x launch-ros-clie -P $(pgrep -P $(pgrep -P " + std::to_string(launch.pid()) + "))"})
         .out;
   };
   ASSERT_TRUE(launch.wait_for_output("it is healthy", kPatience));
   EXPECT_THAT(clients(), ContainsRegex("^[0-9]+\n$"));
-  run_command({.argv = {"kill", "-KILL", clients().substr(0, clients().find('\n'))}});
+  run_command({"kill", "-KILL", clients().substr(0, clients().find('\n'))});
   ASSERT_TRUE(launch.wait_for_output("can't be watched: launch-ros-client was ended by SIGKILL", kPatience));
   // The launch starts another one.
   while (clients().empty()) {  // the time of the test is the limit
@@ -239,11 +238,10 @@ time.sleep(1000)
   RunningCommand events({.argv = {LAUNCH_PROGRAM, "events"}});
   std::string table;
   while (table.find("maps") == std::string::npos) {  // the time of the test is the limit
-    table = run_command({.argv = {LAUNCH_PROGRAM, "ps"}}).out;
+    table = run_command({LAUNCH_PROGRAM, "ps"}).out;
   }
   EXPECT_THAT(table, HasSubstr("running, healthy (12 maps loaded)"));
-  EXPECT_THAT(run_command({.argv = {LAUNCH_PROGRAM, "ps", "--json"}}).out,
-              ContainsRegex("\"status\": *\"12 maps loaded\""));
+  EXPECT_THAT(run_command({LAUNCH_PROGRAM, "ps", "--json"}).out, ContainsRegex("\"status\": *\"12 maps loaded\""));
   ::kill(launch.pid(), SIGKILL);
   launch.wait(kPatience);
   Sandbox::wait_until_daemons_are_left();

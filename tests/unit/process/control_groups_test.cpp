@@ -38,7 +38,7 @@ class ControlGroups : public testing::Test {
   ControlGroups() {
     fs::remove_all(root_);
     // In a real one, the controllers appear in the new directory by themselves.
-    put(tree_path_ / "cgroup.controllers", "cpu io memory pids");
+    put(tree_path_ / "cgroup.controllers", "cpu io memory pids\n");
   }
   ~ControlGroups() override { fs::remove_all(root_); }
   ControlGroupTree tree(ControlGroupPlace place) {
@@ -104,7 +104,7 @@ TEST_F(ControlGroups, WhatCannotBeLimitedIsSaidOnce) {
 }
 
 TEST_F(ControlGroups, AControllerThatIsNotThereIsNamedOnce) {
-  put(tree_path_ / "cgroup.controllers", "cpu pids");
+  put(tree_path_ / "cgroup.controllers", "cpu pids\n");
   ControlGroupTree made = tree({.directory = root_.string()});
   EXPECT_NE(made.make("a-1", {.memory_max = 1, .pids_max = 3}, {}), "");
   EXPECT_NE(made.make("b-2", {.memory_max = 1}, {}), "");

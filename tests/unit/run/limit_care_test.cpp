@@ -24,7 +24,7 @@ class LimitCareTest : public testing::Test {
  protected:
   LimitCareTest() {
     tree_ = root_ / fmt::format("launch-{}-limits", ::getpid());
-    put(tree_ / "cgroup.controllers", "cpu io memory pids");
+    put(tree_ / "cgroup.controllers", "cpu io memory pids\n");
     care_.use_place([this] { return ControlGroupPlace{.directory = root_.string()}; });
     spec_.name = "talker";
     spec_.control_limits = {.memory_max = 100U << 20U, .memory_high = 80U << 20U, .pids_max = 9};
