@@ -153,7 +153,8 @@ PortAccepts perform_port(const Fields& fields, Scope& scope) {
   constexpr auto kMost = std::numeric_limits<std::uint16_t>::max();
   const double number = fields.number("port")->perform(scope);
   if (number < 1 || number > kMost) {
-    throw LaunchError(fmt::format("port is a number from 1 to {}, got {}", kMost, number), fields.where("port"));
+    throw LaunchError(fmt::format("port is a number from 1 to {}, got {}", kMost, number), fields.where("port"),
+                      "write the number at which the process listens");
   }
   port.port = static_cast<std::uint16_t>(number);
   return port;
