@@ -72,7 +72,7 @@ const std::vector<Setting<HealthWatch>>& watch_settings() {
                      HealthWatch& watch) { perform_time<&HealthWatch::timeout>(fields, "timeout", scope, watch); }},
       {.attribute = {"interval", Type::kFloat, false,
                      "a fifth of timeout, 1 at most; of blocked half of timeout, 2 at most; of service and lifecycle "
-                     "half of timeout, 5 at most; of port 2; of a command 10",
+                     "half of timeout, 5 at most; of port 5; of a command 10",
                      "seconds from one look to the next", true},
        .perform = [](const Fields& fields, Scope& scope,
                      HealthWatch& watch) { perform_time<&HealthWatch::interval>(fields, "interval", scope, watch); }},

@@ -186,7 +186,7 @@ Duration default_interval(const HealthWatch& watch) {
     return seconds(10);
   }
   if (std::holds_alternative<PortAccepts>(watch.subject)) {
-    return seconds(2);
+    return seconds(5);
   }
   if (std::holds_alternative<ServiceAnswers>(watch.subject) || std::holds_alternative<LifecycleState>(watch.subject)) {
     return part(2, seconds(5));

@@ -82,7 +82,10 @@ Look PortProbe::look(Duration, Duration) {
     case PortAccepts::Protocol::kTcp:
       break;
   }
-  if (is_elsewhere()) {
+  if (!is_elsewhere_) {
+    is_elsewhere_ = is_elsewhere();
+  }
+  if (*is_elsewhere_) {
     return {.note = "it has a network of its own, so its port can't be watched; watch it by a command"};
   }
   if (port_.host != "localhost") {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -20,7 +21,10 @@ class PortProbe final : public HealthProbe {
             std::string proc = "/proc")
       : loop_(loop), port_(std::move(port)), timeout_(timeout), answer_(std::move(answer)), proc_(std::move(proc)) {}
 
-  void begin(pid_t pid) override { pid_ = pid; }
+  void begin(pid_t pid) override {
+    pid_ = pid;
+    is_elsewhere_.reset();
+  }
   void end() override { abandon(); }
   // Does nothing as long as a connection is under way.
   Look look(Duration now, Duration passed) override;
@@ -41,6 +45,7 @@ class PortProbe final : public HealthProbe {
   std::function<void(const Look&)> answer_;
   std::string proc_;
   pid_t pid_ = -1;
+  std::optional<bool> is_elsewhere_;  // looked up once in a run
   bool has_fallback_ = false;
   UniqueFd connection_;  // under way
   EventLoop::SourcePtr connected_;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <utility>
 #include <variant>
 
@@ -63,7 +64,15 @@ void LimitCare::on_event(const ProcessEvent& event) {
     return;
   }
   if (std::holds_alternative<ProcessStarted>(event.what)) {
-    runs_.insert_or_assign(path, Run{event.label, read_control_group(path), event.spec.origin});
+    runs_.insert_or_assign(path, Run{event.label, "it", read_control_group(path), event.spec.origin});
+    std::filesystem::path around = path;
+    for (auto group = event.spec.control_groups.rbegin(); group != event.spec.control_groups.rend(); ++group) {
+      around = around.parent_path();
+      if ((*group)->limits.any() && !runs_.contains(around.string())) {
+        runs_.emplace(around.string(),
+                      Run{event.label, "its group", read_control_group(around.string()), (*group)->where});
+      }
+    }
     if (!timer_) {
       timer_ = loop_.after(kInterval, [this] { look(); });
     }
@@ -101,15 +110,17 @@ void LimitCare::look_at(const std::string& path, Run& run) {
     return limit && static_cast<double>(memory) >= kNear * static_cast<double>(*limit);
   };
   if (is_near(limits.memory_max) && !std::exchange(run.told_near, true)) {
-    warn(fmt::format("it uses {} of its memory_max of {}", mebibytes(memory), mebibytes(*limits.memory_max)));
+    warn(
+        fmt::format("{} uses {} of its memory_max of {}", run.whose, mebibytes(memory), mebibytes(*limits.memory_max)));
   }
   if (!run.told_slowed && is_near(limits.memory_high) && read_keyed(path + "/memory.events", "high") > limits.slowed) {
     run.told_slowed = true;
-    warn(fmt::format("it has exceeded its memory_high of {}: the kernel slows it", mebibytes(*limits.memory_high)));
+    warn(fmt::format("{} has exceeded its memory_high of {}: the kernel slows it", run.whose,
+                     mebibytes(*limits.memory_high)));
   }
   if (!run.told_refused && limits.pids_max && read_keyed(path + "/pids.events", "max") > limits.refused) {
     run.told_refused = true;
-    warn(fmt::format("it has reached its pids_max of {}: the kernel has refused it a process or a thread",
+    warn(fmt::format("{} has reached its pids_max of {}: the kernel has refused it a process or a thread", run.whose,
                      *limits.pids_max));
   }
 }

@@ -41,9 +41,10 @@ class LimitCare {
   void use_place(std::function<ControlGroupPlace()> find) { find_ = std::move(find); }
 
  private:
-  // One run of a process.
+  // One run of a process; or a group, of which a process has started.
   struct Run {
     std::string label;
+    std::string whose;       // "it", "its group"
     ControlGroupUse before;  // at its start: the kernel counts for the cgroup
     SourceRange origin;
     bool told_near = false;
@@ -60,7 +61,7 @@ class LimitCare {
   Guardian* guardian_ = nullptr;
   std::function<ControlGroupPlace()> find_;
   std::unique_ptr<ControlGroupTree> tree_;
-  std::map<std::string, Run> runs_;  // by the path of the cgroup
+  std::map<std::string, Run> runs_;  // by the path of the cgroup; a group stays to the end
   EventLoop::SourcePtr timer_;
 };
 

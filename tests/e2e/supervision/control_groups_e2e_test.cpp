@@ -90,8 +90,9 @@ TEST_F(Limits, OfMemoryEndAProcessAndTheLaunchSaysSo) {
 }
 
 TEST_F(Limits, OfAGroupAreThoseOfItsProcessesTogether) {
-  const CommandResult result = launch("<group memory_max=\"96M\">" + script(kHungry, "") +
-                                      R"(<executable cmd="/usr/bin/python3 -c 'x = bytearray(1); input()'"/></group>)");
+  const CommandResult result = launch("<group memory_max=\"96M\">" + script("kept = b'x' * (512 << 20)\n", "") +
+                                      R"(<executable cmd="sleep 1000"/></group>
+                                         <on_process_exit process="script"><shutdown/></on_process_exit>)");
   EXPECT_THAT(result.out + result.err, HasSubstr("the kernel has ended it for want of memory ("));
   EXPECT_THAT(trees(), testing::IsEmpty());
 }

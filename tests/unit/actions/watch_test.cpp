@@ -100,7 +100,7 @@ TEST(Watch, FromOutsideIsRead) {
   EXPECT_EQ(found[0].interval, 1s);
   EXPECT_EQ(found[2].interval, 1s);
   EXPECT_EQ(found[3].interval, 2500ms);
-  EXPECT_EQ(found[4].interval, 2s);
+  EXPECT_EQ(found[4].interval, 5s);
 }
 
 TEST(Watch, OfALifeCycleKnowsTheNodeOfItsProcess) {

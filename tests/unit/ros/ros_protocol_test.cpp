@@ -118,4 +118,26 @@ TEST(RosProtocol, WhatIsNoLineIsAnError) {
   EXPECT_THROW(parse_answer_line(R"({"id":1})"), std::runtime_error);
 }
 
+TEST(RosProtocol, WatchesOfHealthAndTheirAnswersSurviveTheWay) {
+  const auto meter = parse_request_line(to_line(RosRequestLine{1, MeterTopic{"/scan", 200ms}, 0s}));
+  EXPECT_EQ(std::get<MeterTopic>(*meter.request).topic, "/scan");
+  EXPECT_EQ(std::get<MeterTopic>(*meter.request).every, Duration(200ms));
+  const auto service = parse_request_line(to_line(RosRequestLine{1, AskService{"/map/load", 5s}, 0s}));
+  EXPECT_EQ(std::get<AskService>(*service.request).service, "/map/load");
+  const auto state = parse_request_line(to_line(RosRequestLine{1, AskState{"/driver", 5s}, 0s}));
+  EXPECT_EQ(std::get<AskState>(*state.request).node, "/driver");
+
+  RosAnswer answer;
+  answer.ok = true;
+  answer.traffic = TopicTraffic{7, 2, 150ms};
+  answer.found = ServiceFinding::kAsked;
+  const RosAnswer read = parse_answer_line(to_line(RosAnswerLine{3, answer})).answer;
+  ASSERT_TRUE(read.traffic);
+  EXPECT_EQ(read.traffic->messages, 7U);
+  EXPECT_EQ(read.traffic->publishers, 2U);
+  EXPECT_EQ(read.traffic->measured, Duration(150ms));
+  EXPECT_EQ(read.found, ServiceFinding::kAsked);
+  EXPECT_FALSE(parse_answer_line(to_line(RosAnswerLine{3, {}})).answer.traffic);
+}
+
 }  // namespace

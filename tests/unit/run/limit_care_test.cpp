@@ -69,6 +69,19 @@ TEST_F(LimitCareTest, ALimitThatIsNearIsSaidOnce) {
   EXPECT_THAT(said(), ElementsAre(HasSubstr("talker-1: it uses 95.0 MiB of its memory_max of 100.0 MiB")));
 }
 
+TEST_F(LimitCareTest, AGroupThatIsNearItsLimitIsSaidOnce) {
+  ProcessSpec spec;
+  spec.name = "listener";
+  spec.control_groups = {
+      std::make_shared<const ControlGroup>(ControlGroup{.limits = {.memory_max = 100U << 20U}, .where = {}})};
+  const std::string label = "listener-2";
+  care_.prepare(spec, 2);
+  care_.on_event(ProcessEvent{2, label, spec, ProcessStarted{78}});
+  put(fs::path(spec.limits.control_group).parent_path() / "memory.current", std::to_string(91U << 20U));
+  loop_.advance(10s);
+  EXPECT_THAT(said(), ElementsAre(HasSubstr("listener-2: its group uses 91.0 MiB of its memory_max of 100.0 MiB")));
+}
+
 TEST_F(LimitCareTest, WhatTheKernelHasDoneInThisRunIsSaidOnce) {
   put(group_ / "memory.current", std::to_string(81U << 20U));
   loop_.advance(10s);
