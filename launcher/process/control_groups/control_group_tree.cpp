@@ -42,19 +42,31 @@ void enable_controllers(const std::string& path) {
   }
 }
 
-// The other processes of a delegated cgroup, such as the guardians, go into one of its own.
-void move_processes_away(const std::string& path, const std::string& launch_id) {
-  const std::set<std::string> processes = words_of(path + "/cgroup.procs");
-  const std::string outside = fmt::format("{}/launch-{}{}", path, launch_id, kOutside);
-  if (processes.empty() || (::mkdir(outside.c_str(), 0755) != 0 && errno != EEXIST)) {
-    return;
-  }
-  for (const std::string& process : processes) {
-    if (process == "0") {
-      continue;  // of another process namespace; here it would mean this process
+void move_processes(const std::string& from, const std::string& to) {
+  for (const std::string& process : words_of(from + "/cgroup.procs")) {
+    if (process != "0") {  // of another process namespace; here it would mean this process
+      static_cast<void>(write_to(to + "/cgroup.procs", process));
     }
-    static_cast<void>(write_to(outside + "/cgroup.procs", process));
   }
+}
+
+// The other processes of a delegated cgroup, such as the guardians, go into one of their own. Its path; empty if there
+// are none.
+std::string move_processes_away(const std::string& path, const std::string& launch_id) {
+  const std::string outside = fmt::format("{}/launch-{}{}", path, launch_id, kOutside);
+  if (words_of(path + "/cgroup.procs").empty() || (::mkdir(outside.c_str(), 0755) != 0 && errno != EEXIST)) {
+    return "";
+  }
+  move_processes(path, outside);
+  return outside;
+}
+
+void move_processes_back(const ControlGroupPlace& place) {
+  for (const char* const controller : {"memory", "cpu", "io", "pids"}) {
+    static_cast<void>(write_to(place.directory + "/cgroup.subtree_control", fmt::format("-{}", controller)));
+  }
+  move_processes(place.outside, place.directory);
+  ::rmdir(place.outside.c_str());
 }
 
 std::string file_name_of(std::string label) {
@@ -98,7 +110,7 @@ ControlGroupPlace ControlGroupPlace::find(const std::string& launch_id) {
   ControlGroupPlace place =
       find(own, launch_id, ::geteuid() == 0, [](const std::string& path) { return launch::is_delegated(path); });
   if (!place.directory.empty() && place.directory != own.mount) {
-    move_processes_away(place.directory, launch_id);
+    place.outside = move_processes_away(place.directory, launch_id);
   }
   return place;
 }
@@ -108,7 +120,13 @@ ControlGroupTree::~ControlGroupTree() {
     return;
   }
   remove_tree(tree_);
-  if (withdraw_ && ::access(tree_.c_str(), F_OK) != 0) {
+  if (::access(tree_.c_str(), F_OK) == 0) {
+    return;
+  }
+  if (!place_.outside.empty()) {
+    move_processes_back(place_);
+  }
+  if (withdraw_) {
     withdraw_();
   }
 }
@@ -117,17 +135,17 @@ bool ControlGroupTree::make_tree() {
   if (std::exchange(has_tried_, true)) {
     return !tree_.empty();
   }
-  const ControlGroupPlace place = find_();
-  if (!place.obstacle.empty()) {
+  place_ = find_();
+  if (!place_.obstacle.empty()) {
     warn_(fmt::format("limits of memory, processors and processes that a cgroup holds have no effect: {}",
-                      place.obstacle));
+                      place_.obstacle));
     return false;
   }
-  const std::string path = fmt::format("{}/launch-{}{}", place.directory, launch_id_, kLimited);
+  const std::string path = fmt::format("{}/launch-{}{}", place_.directory, launch_id_, kLimited);
   if (announce_) {
-    withdraw_ = announce_(path);
+    withdraw_ = announce_(path, place_);
   }
-  enable_controllers(place.directory);
+  enable_controllers(place_.directory);
   if (::mkdir(path.c_str(), 0755) != 0 && errno != EEXIST) {
     warn_(
         fmt::format("limits of memory, processors and processes that a cgroup holds have no effect: cannot make '{}': "

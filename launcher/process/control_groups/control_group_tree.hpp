@@ -25,6 +25,7 @@ namespace launch {
 // Where cgroups can be made, or why not.
 struct ControlGroupPlace {
   std::string directory{};  // below it
+  std::string outside{};    // the cgroup into which its other processes were moved; empty: none
   std::string obstacle{};   // "cgroups of version 2 are not mounted"; empty: there is none
 
   // For this process. It may move the processes of its delegated cgroup into another one below, because a cgroup with
@@ -47,7 +48,7 @@ class ControlGroupTree {
   ControlGroupTree(const ControlGroupTree&) = delete;
   ControlGroupTree& operator=(const ControlGroupTree&) = delete;
 
-  using Announce = std::function<std::function<void()>(const std::string& path)>;
+  using Announce = std::function<std::function<void()>(const std::string& path, const ControlGroupPlace& place)>;
   void announce_to(Announce announce) { announce_ = std::move(announce); }
 
   // Makes the cgroup of a process and those of its groups, as far as they don't exist. Returns its path; empty if the
@@ -67,6 +68,7 @@ class ControlGroupTree {
   std::function<void()> withdraw_;
 
   bool has_tried_ = false;
+  ControlGroupPlace place_;
   std::string tree_;  // empty: there is none
   std::set<std::string> controllers_;
   std::map<std::shared_ptr<const ControlGroup>, std::string> groups_;

@@ -16,12 +16,18 @@ namespace {
 
 // Of a launcher that was killed: ends what is left of processes, at once and whatever they start meanwhile, where the
 // kernel can (cgroup.kill, Linux 5.14), and removes the cgroups. Groups are named with a dot, processes with a dash.
+// Then the processes outside of the launch go back to the delegated cgroup. The words: the tree, that cgroup, the one
+// outside.
 constexpr const char* kCleanUp =
     R"(find "$0" -mindepth 1 -type d -name '*-[0-9]*' ! -path '*.leave*' -exec sh -c 'echo 1 >"$0/cgroup.kill"' {} \; 2>/dev/null
 for i in 1 2 3 4 5 6 7 8 9 10; do
   find "$0" -depth -type d -exec rmdir {} + 2>/dev/null
-  test -d "$0" || exit 0
-  sleep 0.1
+  test ! -d "$0" || { sleep 0.1; continue; }
+  test -d "$2" || exit 0
+  for controller in memory cpu io pids; do echo -$controller >"$1/cgroup.subtree_control"; done 2>/dev/null
+  while read process; do echo $process >"$1/cgroup.procs"; done <"$2/cgroup.procs"
+  rmdir "$2"
+  exit
 done)";
 // What it leaves running goes on after the launch.
 constexpr const char* kLeftRunning = ".leave";
@@ -42,10 +48,12 @@ ControlGroupTree& LimitCare::tree() {
       find_ ? find_ : [id] { return ControlGroupPlace::find(id); }, id,
       [this](const std::string& text) { tell_(LogLevel::kWarning, "launch", text); });
   if (guardian_ != nullptr) {
-    tree_->announce_to([guardian = guardian_](const std::string& path) -> std::function<void()> {
-      const std::int32_t number = guardian->add_clean_up({"/bin/sh", "-c", kCleanUp, path});
-      return [guardian, number] { guardian->remove_clean_up(number); };
-    });
+    tree_->announce_to(
+        [guardian = guardian_](const std::string& path, const ControlGroupPlace& place) -> std::function<void()> {
+          const std::int32_t number = guardian->add_clean_up(
+              {"/bin/sh", "-c", kCleanUp, path, place.directory, place.outside.empty() ? "-" : place.outside});
+          return [guardian, number] { guardian->remove_clean_up(number); };
+        });
   }
   return *tree_;
 }

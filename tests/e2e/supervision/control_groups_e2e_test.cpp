@@ -6,6 +6,8 @@
 #include <signal.h>
 #include <sys/mount.h>
 #include <sys/stat.h>
+#include <sys/xattr.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -58,6 +60,7 @@ class Limits : public testing::Test {
     return "<executable name=\"script\" output=\"screen\" cmd=\"/usr/bin/python3 -u " + path.string() + "\" " +
            attributes + "/>";
   }
+  std::string go_on() const { return sandbox_.directory() / "go_on"; }
   static std::vector<std::string> trees() {
     std::vector<std::string> found;
     for (const fs::directory_entry& entry : fs::directory_iterator(kRoot)) {
@@ -80,9 +83,23 @@ while True:
 )py";
 
 TEST_F(Limits, OfMemoryEndAProcessAndTheLaunchSaysSo) {
-  const CommandResult result = launch(script(kHungry, R"(memory_max="64M")"));
+  // It stays near its limit until it is told to go on.
+  RunningCommand launch({.argv = {LAUNCH_PROGRAM, write(script(R"py(
+import os, time
+path = '/sys/fs/cgroup' + open('/proc/self/cgroup').read().strip().split('0::')[-1] + '/memory.current'
+kept = []
+while int(open(path).read()) < 60 << 20:
+    kept.append(bytearray(b'x' * (1 << 19)))
+while not os.path.exists(')py" + go_on() + R"py('):
+    time.sleep(0.05)
+kept.append(b'x' * (512 << 20))
+)py",
+                                                               R"(memory_max="64M")"))}});
+  EXPECT_TRUE(launch.wait_for_output("[script-1]: it uses 6", kPatience)) << launch.out();
+  write_file(go_on(), "");
+  const CommandResult result = launch.wait(kPatience);
   const std::string all = result.out + result.err;
-  EXPECT_THAT(all, ContainsRegex("\\[script-1\\]: it uses [0-9.]+ MiB of its memory_max of 64.0 MiB"));
+  EXPECT_THAT(all, ContainsRegex("it uses [0-9.]+ MiB of its memory_max of 64.0 MiB"));
   EXPECT_THAT(all, HasSubstr("the kernel has ended it, because it had used up its memory_max of 64.0 MiB ("));
   EXPECT_THAT(all, HasSubstr("script-1: SIGKILL by the kernel, for want of memory, after"));
   EXPECT_EQ(result.exit_code, 3);
@@ -162,6 +179,56 @@ TEST_F(Limits, AreInPsAndNothingIsLeftAfterKill9) {
   launch.wait(kPatience);
   Sandbox::wait_until_daemons_are_left();
   EXPECT_THAT(trees(), testing::IsEmpty());
+}
+
+// A cgroup such as systemd gives to a unit with Delegate=yes.
+class DelegatedLimits : public Limits {
+ protected:
+  void SetUp() override {
+    Limits::SetUp();
+    if (!IsSkipped()) {
+      fs::create_directory(scope_);
+      ASSERT_EQ(::setxattr(scope_.c_str(), "trusted.delegate", "1", 1, 0), 0);
+    }
+  }
+  ~DelegatedLimits() override { ::rmdir(scope_.c_str()); }
+  // As `systemd-run --scope` does: the shell is in the cgroup, and there it becomes the launch.
+  Command inside(const std::string& file) const {
+    return {
+        .argv = {"sh", "-c", "echo $$ >" + (scope_ / "cgroup.procs").string() + "; exec " LAUNCH_PROGRAM " " + file}};
+  }
+  std::vector<std::string> below() const {
+    std::vector<std::string> found;
+    for (const fs::directory_entry& entry : fs::directory_iterator(scope_)) {
+      if (entry.is_directory()) {
+        found.push_back(entry.path().filename().string());
+      }
+    }
+    return found;
+  }
+
+  fs::path scope_ = kRoot / ("delegated-" + std::to_string(::getpid()) + ".scope");
+};
+
+TEST_F(DelegatedLimits, AreMadeThereAndNothingIsLeft) {
+  const CommandResult result =
+      run_command(inside(write(script("kept = b'x' * (512 << 20)\n", R"(memory_max="64M")"))), kPatience);
+  EXPECT_THAT(result.out + result.err,
+              HasSubstr("the kernel has ended it, because it had used up its memory_max of 64.0 MiB ("));
+  EXPECT_THAT(result.out + result.err, Not(HasSubstr("no effect")));
+  EXPECT_THAT(below(), testing::IsEmpty());
+  EXPECT_THAT(trees(), testing::IsEmpty());
+}
+
+TEST_F(DelegatedLimits, AreGoneAfterKill9OfTheLauncher) {
+  RunningCommand launch(inside(
+      write(script("import time\nprint('full')\ntime.sleep(1000)\n", R"(memory_max="100M" sigterm_timeout="0.2")"))));
+  ASSERT_TRUE(launch.wait_for_output("full", kPatience));
+  EXPECT_EQ(below().size(), 3U) << "the launcher, the limited process, and what is outside";
+  run_command({"sh", "-c", "kill -9 $(pgrep -P $(pgrep -P " + std::to_string(launch.pid()) + "))"});
+  launch.wait(kPatience);
+  Sandbox::wait_until_daemons_are_left();
+  EXPECT_THAT(below(), testing::IsEmpty());
 }
 
 TEST_F(Limits, ADeadlineIsThatOfTheMainThreadAndOthersMayBeStarted) {
