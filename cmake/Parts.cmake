@@ -66,6 +66,7 @@ endfunction()
 # What the parts need.
 include(FastDds)
 pkg_check_modules(LIBYAML QUIET yaml-0.1)
+pkg_check_modules(MICROHTTPD QUIET IMPORTED_TARGET GLOBAL libmicrohttpd>=0.9.71)
 pkg_check_modules(LTTNG_UST QUIET IMPORTED_TARGET GLOBAL lttng-ust)
 find_package(GTest QUIET)
 # The system's Python, not one that a version manager put in front of it on the PATH.
@@ -86,11 +87,13 @@ project_part(TRACEPOINTS "tracepoints of launcher and stack" NEEDS LTTNG_UST_FOU
 project_part(STACK "${stack}" NEEDS
   FAST_DDS "libfastdds-dev (Debian 12: libfastrtps-dev, from 2.9 on)" fastcdr_FOUND libfastcdr-dev LIBYAML_FOUND libyaml-dev)
 project_part(LAUNCH_TEST "tests in launch files: launch test")
+project_part(SERVE "the view of launches in a browser: launch serve" NEEDS MICROHTTPD_FOUND libmicrohttpd-dev)
 project_part(PYTHON "Python: launch files, bindings, \$(eval)" NEEDS
   PYTHON_EMBED_FOUND python3-dev PYBIND11_INCLUDE_DIR pybind11-dev)
 project_part(MAN_PAGES "manual pages" NEEDS
   WITH_STACK "the stack" WITH_LAUNCH_TEST "tests in launch files")
-set(tests_need WITH_STACK "the stack" WITH_TRACEPOINTS "tracepoints" WITH_LAUNCH_TEST "tests in launch files" WITH_PYTHON "Python")
+set(tests_need WITH_STACK "the stack" WITH_TRACEPOINTS "tracepoints" WITH_LAUNCH_TEST "tests in launch files" WITH_PYTHON "Python"
+  WITH_SERVE "launch serve")
 if(BUILD_TESTING)
   project_part(TESTS "unit tests of what is built" NEEDS GTest_FOUND libgtest-dev)
   project_part(END_TO_END_TESTS "end-to-end tests" NEEDS GTest_FOUND libgtest-dev ${tests_need})

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "base/files/unique_fd.hpp"
@@ -132,6 +133,23 @@ void UsageReader::read() {
     lock.lock();
     usage_.resize(pids_.size());
     std::copy(found.begin(), found.end(), usage_.begin() + static_cast<std::ptrdiff_t>(begin));
+  }
+}
+
+void add_usage(nlohmann::ordered_json& processes) {
+  UsageReader reader;
+  for (const nlohmann::ordered_json& process : processes) {
+    reader.add(process.value("pid", -1));
+  }
+  const std::vector<std::optional<ProcessUsage>> usage = reader.take();
+  for (std::size_t i = 0; i < usage.size(); ++i) {
+    if (usage[i]) {
+      processes[i]["cpu"] = usage[i]->cpu;
+      processes[i]["memory"] = usage[i]->memory;
+      if (usage[i]->stopped && processes[i].value("state", "") == "running") {
+        processes[i]["state"] = "stopped";
+      }
+    }
   }
 }
 

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <thread>
 #include <vector>
@@ -48,5 +49,9 @@ class UsageReader {
   bool complete_ = false;
   std::vector<std::jthread> others_;  // ends first, it uses the other members
 };
+
+// Adds `cpu` (seconds) and `memory` (bytes) to those processes of an answer to "ps" that run. One that is stopped by a
+// signal gets the state "stopped".
+void add_usage(nlohmann::ordered_json& processes);
 
 }  // namespace launch

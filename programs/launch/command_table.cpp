@@ -2,6 +2,7 @@
 // The rows of commands.hpp, in the order of `launch --help`.
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <sstream>
 #include <utility>
 #include <variant>
@@ -11,6 +12,7 @@
 #include "programs/command_line/result_output.hpp"
 #include "programs/launch/command_functions.hpp"
 #include "programs/launch/completion/help_options.hpp"
+#include "programs/launch/remote/on_option.hpp"
 #include "programs/launch/run/command_line.hpp"
 #include "programs/launch/run/run_command.hpp"
 #include "programs/launch/trace/trace_command.hpp"
@@ -46,7 +48,7 @@ int complete_command(const Words& words) {
 // `launch list-commands`: what has a man page, and the exit status for it (man/write_man_pages.py).
 int list_commands(const Words& /*words*/) {
   for (const Command& command : command_table()) {
-    if (!command.hidden) {
+    if (!command.hidden && (command.program == nullptr || std::filesystem::exists(own_library_file(command.program)))) {
       fmt::print("{}\t{}\n", command.name, command.exit_status);
     }
   }
@@ -75,6 +77,11 @@ Command ros_command(const char* name, const char* operand, const char* help) {
           .program_gets_name = true,
           .complete = ros_words,
           .completes_options = true};
+}
+
+Command asking(Command command) {
+  command.asks_launch = true;
+  return command;
 }
 
 constexpr const char* kLaunchStatus =
@@ -113,7 +120,7 @@ const std::vector<Command>& command_table() {
        .help = "tells what on this machine is in the way of real time, of tracing and of limits",
        .run = doctor_command,
        .exit_status = kInHelp},
-      {.name = "events", .help = "prints what happens in a running launch", .run = events_command},
+      {.name = "events", .help = "prints what happens in a running launch", .run = events_command, .asks_launch = true},
       {.name = "explain",
        .operand = "ID",
        .help = "explains a finding of launch check or launch report",
@@ -131,23 +138,23 @@ const std::vector<Command>& command_table() {
        .complete = launch_file_words},
       ros_command("interface", "VERB", "shows the messages, services and actions that are installed"),
       ros_command("lifecycle", "VERB", "shows and changes the states of nodes with a life cycle"),
-      ros_command("loglevel", "NODE", "prints or sets the level of the loggers of nodes"),
+      asking(ros_command("loglevel", "NODE", "prints or sets the level of the loggers of nodes")),
       {.name = "logs",
        .operand = "NAME",
        .help = "prints what the processes of a running launch print",
-       .run = logs_command,
+       .run = logs_command, .asks_launch = true,
        .complete = process_words},
       ros_command("node", "VERB", "lists and describes nodes"),
       ros_command("param", "VERB", "lists, prints and sets parameters of nodes"),
       {.name = "ps",
        .help = "lists the processes of the launches that run",
-       .run = ps_command,
+       .run = ps_command, .asks_launch = true,
        .complete = process_words},
       {.name = "reference", .help = "prints the reference of the launch language", .run = reference_command},
       {.name = "reload",
        .operand = "LAUNCH",
        .help = "lets a running launch read its launch file again",
-       .run = reload_command},
+       .run = reload_command, .asks_launch = true},
       {.name = "report",
        .operand = "DIR",
        .help = "describes a recorded trace",
@@ -156,7 +163,7 @@ const std::vector<Command>& command_table() {
       {.name = "restart",
        .operand = "NAME",
        .help = "ends processes of a running launch and starts them again",
-       .run = restart_command,
+       .run = restart_command, .asks_launch = true,
        .complete = process_words},
       {.name = "run",
        .operand = "PKG PROGRAM",
@@ -168,33 +175,34 @@ const std::vector<Command>& command_table() {
       {.name = "scale",
        .operand = "NAME N",
        .help = "lets so many of a process run that is scalable",
-       .run = scale_command,
+       .run = scale_command, .asks_launch = true,
        .complete = process_words},
       {.name = "schema",
        .help = "prints a schema for editors, or that of the output for programs",
        .run = schema_command,
        .complete = schema_words},
+      {.name = "serve", .help = "shows launches in a browser, and steers them there", .program = "launch-serve"},
       ros_command("service", "VERB", "lists, describes and calls services"),
-      {.name = "shutdown", .help = "ends a running launch", .run = shutdown_command},
+      {.name = "shutdown", .help = "ends a running launch", .run = shutdown_command, .asks_launch = true},
       {.name = "signal",
        .operand = "NAME SIG",
        .help = "sends a signal to processes of a running launch",
-       .run = signal_command,
+       .run = signal_command, .asks_launch = true,
        .complete = signal_words},
       {.name = "stack",
        .operand = "NAME",
        .help = "prints what all threads of a process do now",
-       .run = stack_command,
+       .run = stack_command, .asks_launch = true,
        .complete = process_words},
       {.name = "start",
        .operand = "NAME",
        .help = "starts processes of a running launch that have ended",
-       .run = start_command,
+       .run = start_command, .asks_launch = true,
        .complete = process_words},
       {.name = "stop",
        .operand = "NAME",
        .help = "ends processes of a running launch",
-       .run = stop_command,
+       .run = stop_command, .asks_launch = true,
        .complete = process_words},
       {.name = "test",
        .operand = "FILE",
@@ -203,7 +211,7 @@ const std::vector<Command>& command_table() {
        .complete = launch_file_words},
       {.name = "top",
        .help = "shows the processes of a running launch on the whole screen",
-       .run = top_command,
+       .run = top_command, .asks_launch = true, .takes_terminal = true,
        .complete = process_words},
       ros_command("topic", "VERB", "lists, prints, measures and publishes topics of ROS 2"),
       {.name = "trace",
@@ -228,6 +236,7 @@ const std::vector<Command>& command_table() {
        .complete = unit_words,
        .exit_status = kInHelpOfVerbs},
       {.name = "complete", .run = complete_command, .hidden = true},
+      {.name = "remote-side", .run = remote_side_command, .hidden = true},
       {.name = "list-commands", .run = list_commands, .hidden = true},
   };
   return commands;

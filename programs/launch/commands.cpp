@@ -11,10 +11,12 @@
 #include <stdexcept>
 
 #include "base/diagnostics/command_error.hpp"
+#include "base/environment/own_environment.hpp"
 #include "base/environment/own_prefix.hpp"
 #include "launcher/control/control_client.hpp"
 #include "programs/command_line/subcommand.hpp"
 #include "programs/launch/completion/help_options.hpp"
+#include "programs/launch/remote/on_option.hpp"
 
 namespace launch {
 
@@ -86,7 +88,9 @@ Words candidates(const Words& words) {
       return of_options;
     }
   }
-  Words all = command.complete == nullptr ? Words{} : command.complete(words);
+  // What is on another machine is not known here.
+  const bool is_here = !command.asks_launch || take_on_option(before, own_environment()).connect.empty();
+  Words all = command.complete == nullptr || !is_here ? Words{} : command.complete(words);
   if (words.size() == 1) {
     const Words names = listed_command_names();
     all.insert(all.end(), names.begin(), names.end());
@@ -110,8 +114,22 @@ const Command& find_command(const Words& words) {
   return *longest;
 }
 
-int run_command_of(const Words& words) {
-  const Command& command = find_command(words);
+int run_command_of(const Words& all_words) {
+  const Command& command = find_command(all_words);
+  Words words = all_words;
+  if (command.asks_launch) {
+    const std::ptrdiff_t name_length = std::ptrdiff_t(words_of_name(command).size());
+    const OnOption on = take_on_option({words.begin() + name_length, words.end()}, own_environment());
+    if (on.lacks_value) {
+      fmt::print(stderr, "{}", usage_error(name_with_launch(command), "--on needs a value"));
+      return kWrongCommandLine;
+    }
+    words.resize(words_of_name(command).size());
+    words.insert(words.end(), on.words.begin(), on.words.end());
+    if (!on.connect.empty()) {
+      return run_on_other_side(name_with_launch(command), on.connect, words, command.takes_terminal);
+    }
+  }
   if (command.program != nullptr) {
     return become(command, words);
   }

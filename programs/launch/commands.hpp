@@ -24,6 +24,9 @@ struct Command {
   const char* program = nullptr;
   bool program_gets_name = false;  // it does several commands
 
+  bool asks_launch = false;     // it asks a running launch, and takes --on (remote/on_option.hpp)
+  bool takes_terminal = false;  // it wants a terminal there, too
+
   // Candidates for the last of the words after `launch`. They need not begin like this word. Null: only options.
   Words (*complete)(const Words& words) = nullptr;
   bool completes_options = false;  // `complete` offers the options, too; else those of the help are offered

@@ -75,6 +75,8 @@ class Loglevel final : public Verb {
     app.add_option("node", node_, "name of the node, or a pattern such as '/left/*'")->required();
     app.add_option("level", level_, "debug, info, warn, error, fatal, or unset; without it the level is printed");
     app.add_option("--logger", logger_, "another logger of the node's process");
+    // `launch` itself takes this option; it is here for the help.
+    app.add_option("--on", on_, "ask on another machine, through a command such as 'ssh robot'; default: LAUNCH_ON");
     look_.declare(app);
   }
 
@@ -161,6 +163,7 @@ class Loglevel final : public Verb {
   std::string node_;
   std::string level_;
   std::string logger_;
+  std::string on_;
   LookOptions look_;
 };
 

@@ -6,49 +6,19 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <deque>
-#include <fstream>
 #include <set>
 
 #include "base/environment/own_environment.hpp"
 #include "launcher/control/control_client.hpp"
+#include "launcher/control/log_lines.hpp"
 #include "programs/command_line/subcommand.hpp"
 #include "programs/launch/command_functions.hpp"
+#include "programs/launch/remote/on_option.hpp"
 
 namespace launch {
 namespace {
 
 using Json = ControlClient::Json;
-
-// "1700000000.1234567 [talker-1] text" gives "[talker-1] text" if the line is one of a process that was asked for. The
-// launcher's own lines have a level first: "1700000000.1234567 [INFO] [talker-1]: text".
-std::string_view line_of(std::string_view stamped, const std::set<std::string, std::less<>>& names) {
-  const std::size_t stamp = stamped.find(' ');
-  if (stamp == std::string_view::npos || !stamped.substr(stamp + 1).starts_with('[')) {
-    return {};
-  }
-  const std::string_view line = stamped.substr(stamp + 1);
-  const std::size_t end = line.find(']');
-  return end != std::string_view::npos && names.find(line.substr(1, end - 1)) != names.end() ? line
-                                                                                             : std::string_view();
-}
-
-// The lines of processes in launch.log, up to its byte `size`.
-std::deque<std::string> past_lines(const std::string& log, std::size_t size,
-                                   const std::set<std::string, std::less<>>& names, std::size_t most) {
-  std::deque<std::string> lines;
-  std::ifstream file(log);
-  std::size_t read = 0;
-  for (std::string line; read < size && std::getline(file, line); read += line.size() + 1) {
-    if (const std::string_view text = line_of(line, names); !text.empty()) {
-      lines.emplace_back(text);
-      if (lines.size() > most) {
-        lines.pop_front();
-      }
-    }
-  }
-  return lines;
-}
 
 }  // namespace
 
@@ -59,6 +29,7 @@ int events_command(const std::vector<std::string>& words) {
   Subcommand command("launch events", "Prints what happens in a running launch as JSON lines, until it ends.");
   command.take_flag("-f,--follow", follow, "accepted, the command always follows");
   command.take_text("--launch", wanted, kLaunchHelp);
+  describe_on_option(command);
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;
   }
@@ -82,6 +53,7 @@ int logs_command(const std::vector<std::string>& words) {
   command.take_flag("-f,--follow", follow, "go on with what they print from now on, until the launch ends");
   command.take_text("-n,--lines", most, "only the last lines, so many");
   command.take_text("--launch", wanted, kLaunchHelp);
+  describe_on_option(command);
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;
   }
@@ -106,7 +78,7 @@ int logs_command(const std::vector<std::string>& words) {
   if (follow) {
     size = launch.ask({{"do", "output"}, {"processes", names}})["log_size"].get<std::size_t>();
   }
-  for (const std::string& line : past_lines(log, size, labels, count)) {
+  for (const std::string& line : past_lines(log, {0, size}, labels, count)) {
     fmt::print("{}\n", line);
   }
   while (follow) {

@@ -5,30 +5,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <optional>
 #include <system_error>
-#include <vector>
-
-#include "launcher/control/process_usage.hpp"
 
 namespace launch {
-
-void add_usage(nlohmann::ordered_json& processes) {
-  UsageReader reader;
-  for (const nlohmann::ordered_json& process : processes) {
-    reader.add(process.value("pid", -1));
-  }
-  const std::vector<std::optional<ProcessUsage>> usage = reader.take();
-  for (std::size_t i = 0; i < usage.size(); ++i) {
-    if (usage[i]) {
-      processes[i]["cpu"] = usage[i]->cpu;
-      processes[i]["memory"] = usage[i]->memory;
-      if (usage[i]->stopped && processes[i].value("state", "") == "running") {
-        processes[i]["state"] = "stopped";
-      }
-    }
-  }
-}
 
 std::string end_text(const nlohmann::ordered_json& end) {
   return end.contains("signal") ? end["signal"].get<std::string>()

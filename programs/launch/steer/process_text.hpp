@@ -10,8 +10,6 @@
 
 namespace launch {
 
-// Adds `cpu` (seconds) and `memory` (bytes) to those of the processes that run.
-void add_usage(nlohmann::ordered_json& processes);
 // "running", "running, unhealthy", "ended: exit code 1", "ended: SIGSEGV".
 std::string state_text(const nlohmann::ordered_json& process);
 // `status` is what a process that runs says of itself: "running, healthy (map loaded)".

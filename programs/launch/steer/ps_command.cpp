@@ -21,6 +21,7 @@
 #include "launcher/control/ps_answer.hpp"
 #include "programs/command_line/subcommand.hpp"
 #include "programs/launch/command_functions.hpp"
+#include "programs/launch/remote/on_option.hpp"
 #include "programs/launch/steer/process_text.hpp"
 
 namespace launch {
@@ -113,6 +114,7 @@ int ps_command(const std::vector<std::string>& words) {
   command.take_words("NAME", names, false, "processes, also as patterns such as 'camera*'; all if there is none");
   command.take_texts("--group", groups, "only processes in this <group name=\"…\"> of the launch file");
   command.take_text("--launch", wanted, "number or file of the launch; all if it is missing");
+  describe_on_option(command);
   command.take_flag("--json", as_json, "print JSON, see docs/control.md");
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;

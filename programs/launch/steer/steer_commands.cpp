@@ -20,6 +20,7 @@
 #include "launcher/language/exit_code_filter.hpp"
 #include "programs/command_line/subcommand.hpp"
 #include "programs/launch/command_functions.hpp"
+#include "programs/launch/remote/on_option.hpp"
 #include "programs/launch/steer/process_text.hpp"
 
 namespace launch {
@@ -82,6 +83,7 @@ int steer(const std::string& name, const std::vector<std::string>& words) {
   command.take_texts("--group", groups,
                      "processes in this <group name=\"…\"> of the launch file, and in groups within it");
   command.take_text("--launch", wanted, kLaunchHelp);
+  describe_on_option(command);
   command.take_flag("--no-wait", no_wait, "only ask, don't wait until it has happened");
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;
@@ -170,6 +172,7 @@ int signal_command(const std::vector<std::string>& words) {
   command.take_text("NAME", process, kNamesHelp);
   command.take_text("SIGNAL", signal, "its name or number, such as SIGUSR1, USR1 or 10");
   command.take_text("--launch", wanted, kLaunchHelp);
+  describe_on_option(command);
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;
   }
@@ -197,6 +200,7 @@ int shutdown_command(const std::vector<std::string>& words) {
   bool no_wait = false;
   Subcommand command("launch shutdown", "Ends a running launch as Ctrl-C does, and waits until nothing of it is left.");
   command.take_text("--launch", wanted, kLaunchHelp);
+  describe_on_option(command);
   command.take_flag("--no-wait", no_wait, "only ask, don't wait until it has happened");
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;

@@ -16,6 +16,7 @@
 #include "launcher/language/exit_code_filter.hpp"
 #include "programs/command_line/subcommand.hpp"
 #include "programs/launch/command_functions.hpp"
+#include "programs/launch/remote/on_option.hpp"
 #include "programs/launch/steer/process_text.hpp"
 #include "programs/launch/top/node_watch.hpp"
 #include "programs/launch/top/top_rows.hpp"
@@ -318,6 +319,7 @@ int top_command(const std::vector<std::string>& words) {
   command.take_flag("--trace", shows_nodes,
                     "begin with what the nodes do, as the key t shows it: rates, latencies, missed periods, losses");
   command.take_text("--launch", wanted, kLaunchHelp);
+  describe_on_option(command);
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;
   }

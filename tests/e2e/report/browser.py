@@ -130,7 +130,11 @@ class Browser:
 
     def open(self, path):
         """Opens a file, and waits until its element `body` has the attribute data-ready."""
-        self.call('Page.navigate', url='file://' + os.path.abspath(path))
+        self.open_address('file://' + os.path.abspath(path))
+
+    def open_address(self, address):
+        """The same for a page of a service."""
+        self.call('Page.navigate', url=address)
         self.wait_for('document.body?.dataset.ready === "yes"')
 
     def evaluate(self, expression):

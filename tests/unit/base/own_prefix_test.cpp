@@ -25,6 +25,9 @@ TEST(OwnPrefix, NamesThePartThatIsMissing) {
   EXPECT_EQ(needs_missing_file("launch-test"),
             "needs launch-test, which is not in " + own_prefix() +
                 "/lib/launch: this installation has been built without tests in launch files");
+  EXPECT_EQ(needs_missing_file("launch-serve"),
+            "needs launch-serve, which is not in " + own_prefix() +
+                "/lib/launch: this installation has been built without it (libmicrohttpd-dev was missing)");
   EXPECT_EQ(needs_missing_file("launch-report"),
             "needs launch-report, which is not in " + own_prefix() + "/lib/launch");
 }

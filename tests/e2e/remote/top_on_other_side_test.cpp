@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// `launch top --on`: a terminal here, the command on the other side of a connecting command.
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <filesystem>
+
+#include "tests/support/command.hpp"
+#include "tests/support/sandbox.hpp"
+#include "tests/support/terminal.hpp"
+
+namespace {
+
+using namespace test_support;
+namespace fs = std::filesystem;
+
+constexpr std::chrono::seconds kPatience{60};
+
+constexpr const char* kTerminal =
+    "plain|a terminal of a test, cols#80, lines#24, clear=\\E[H\\E[2J, cup=\\E[%i%p1%d;%p2%dH, ed=\\E[J, "
+    "el=\\E[K,\n"
+    "  kcud1=\\E[B, kcuu1=\\E[A, kend=\\E[F, khome=\\E[H,\n";
+
+class TopOnOtherSideTest : public testing::Test {
+ protected:
+  TopOnOtherSideTest() {
+    fs::create_directory(sandbox_.directory() / "run");
+    write_file(sandbox_.directory() / "plain.ti", kTerminal);
+    environment_ = {{"XDG_RUNTIME_DIR", sandbox_.directory() / "run"},
+                    {"TERMINFO", sandbox_.directory() / "terminfo"},
+                    {"TERM", "plain"}};
+    EXPECT_EQ(run_command({"tic", "-o", sandbox_.directory() / "terminfo", sandbox_.directory() / "plain.ti"}).exit_code,
+              0);
+    // As ssh: words are joined, a shell reads them, and little of the environment arrives.
+    write_script("connect", "exec env -i TERMINFO=\"$TERMINFO\" XDG_RUNTIME_DIR=\"$XDG_RUNTIME_DIR\" PATH=" +
+                                fs::path(LAUNCH_PROGRAM).parent_path().string() + ":/usr/bin:/bin sh -c \"$*\"");
+    write_file(sandbox_.directory() / "system.launch.xml",
+               "<launch>\n<executable name=\"sleeper\" cmd=\"sleep 1000\"/>\n<executable name=\"talker\" shell=\"true\" "
+               "output=\"both\" cmd=\"echo ready; while :; do read x; done\"/>\n</launch>\n");
+  }
+
+  void write_script(const std::string& name, const std::string& text) const {
+    write_file(sandbox_.directory() / name, "#!/bin/sh\n" + text + "\n");
+    fs::permissions(sandbox_.directory() / name, fs::perms::owner_all);
+  }
+  Command launch() const {
+    return {.argv = {LAUNCH_PROGRAM, (sandbox_.directory() / "system.launch.xml").string()},
+            .environment = environment_,
+            .directory = sandbox_.directory()};
+  }
+  std::vector<std::string> top_of(const RunningCommand& run, const std::string& connect = "connect") const {
+    return {LAUNCH_PROGRAM, "top", "--launch", std::to_string(run.pid()), "--on", sandbox_.directory() / connect};
+  }
+
+  Sandbox sandbox_;
+  std::map<std::string, std::string> environment_;
+};
+
+TEST_F(TopOnOtherSideTest, KeysAndSizesArriveAndTheScreenComesBack) {
+  RunningCommand run(launch());
+  ASSERT_TRUE(run.wait_for_output("[talker-2] ready", kPatience)) << run.out() << run.err();
+  Terminal top(top_of(run), environment_);
+  ASSERT_TRUE(top.shows("sleeper-1", "running")) << top.screen();
+  top.type("x");
+  EXPECT_TRUE(top.shows("sleeper-1", "ended: SIGINT")) << top.screen();
+  top.type("s");
+  EXPECT_TRUE(top.shows("sleeper-1", "running")) << top.screen();
+  top.resize(40, 120);
+  EXPECT_TRUE(top.shows("quit", "s start  x stop  r restart  k signal  l log  t nodes  / filter  o sort  q quit"))
+      << top.screen();
+  top.type("q");
+  EXPECT_EQ(top.wait(), 0);
+}
+
+TEST_F(TopOnOtherSideTest, ControlCEndsBothSidesAndSetsTheTerminalBack) {
+  RunningCommand run(launch());
+  ASSERT_TRUE(run.wait_for_output("[talker-2] ready", kPatience)) << run.out() << run.err();
+  Terminal top(top_of(run), environment_);
+  const tcflag_t before = top.local_modes();
+  ASSERT_TRUE(top.shows("sleeper-1", "running")) << top.screen();
+  EXPECT_EQ(top.local_modes() & (ICANON | ECHO | ISIG), 0U);
+  top.type("\003");
+  EXPECT_NE(top.wait(), 0);
+  EXPECT_EQ(before & (ICANON | ECHO | ISIG), tcflag_t{ICANON | ECHO | ISIG});
+  EXPECT_TRUE(run.wait_for_output("[talker-2] ready", kPatience)) << "the launch goes on";
+}
+
+TEST_F(TopOnOtherSideTest, AConnectionThatMakesATerminalItselfWorksAsWell) {
+  RunningCommand run(launch());
+  ASSERT_TRUE(run.wait_for_output("[talker-2] ready", kPatience)) << run.out() << run.err();
+  // As `ssh -t`.
+  write_script("terminal", "exec script -qfec \"" + (sandbox_.directory() / "connect").string() + " $*\" /dev/null");
+  Terminal top(top_of(run, "terminal"), environment_);
+  ASSERT_TRUE(top.shows("sleeper-1", "running")) << top.screen();
+  top.type("q");
+  EXPECT_EQ(top.wait(), 0);
+}
+
+TEST_F(TopOnOtherSideTest, AConnectionThatDiesIsTold) {
+  RunningCommand run(launch());
+  ASSERT_TRUE(run.wait_for_output("[talker-2] ready", kPatience)) << run.out() << run.err();
+  write_script("dying", "echo $$ > pid\nexec " + (sandbox_.directory() / "connect").string() + " \"$*\"");
+  Terminal top(top_of(run, "dying"), environment_, sandbox_.directory());
+  ASSERT_TRUE(top.shows("sleeper-1", "running")) << top.screen();
+  ::kill(std::stoi(read_file(sandbox_.directory() / "pid")), SIGKILL);
+  EXPECT_EQ(top.wait(), 255);
+  EXPECT_THAT(top.everything(), testing::HasSubstr("launch top: error: the connection has ended: '"));
+  EXPECT_THAT(top.everything(), testing::HasSubstr("was ended by SIGKILL"));
+}
+
+}  // namespace
