@@ -232,6 +232,9 @@ class RealSsh(OwnLaunches):
         config = self.folder / 'sshd_config'
         config.write_text(''.join(f'{name} {value}\n' for name, value in options.items()))
         proxy = f'{self.sshd} -i -f {config}'
+        if os.geteuid() == 0:
+            # A server of root needs this directory, which the start of the machine makes where the service is enabled.
+            proxy = f'unshare --mount sh -c "mount -t tmpfs tmpfs /run && mkdir /run/sshd && exec {proxy}"'
         known = self.folder / 'known'
         known.write_text(f'[127.0.0.1]:{port} {(self.folder / "host.pub").read_text()}')
         client = self.folder / 'ssh_config'
@@ -239,12 +242,15 @@ class RealSsh(OwnLaunches):
                           f' UserKnownHostsFile {known}\n ProxyCommand {proxy}\n LogLevel ERROR\n BatchMode yes\n')
         return f'ssh -F {client} robot'
 
-    def test_a_launch_is_steered_through_it(self):
-        connect = self.start_server()
+    def require_connection(self, connect):
         answer = subprocess.run([*shlex.split(connect), 'true'], capture_output=True, text=True, check=False, timeout=PATIENCE,
                                 stdin=subprocess.DEVNULL)
         if answer.returncode != 0:
             self.skipTest(f'skipped, because sshd takes no connection here: {answer.stderr.strip()}')
+
+    def test_a_launch_is_steered_through_it(self):
+        connect = self.start_server()
+        self.require_connection(connect)
         launch = self.start_launch()
         environment = {**self.environment, 'XDG_RUNTIME_DIR': '/nowhere'}
         missing = self.launch('ps', '--on', connect + ' env PATH=/usr/bin:/bin', env=environment)
@@ -261,9 +267,11 @@ class RealSsh(OwnLaunches):
 
     def test_a_server_that_knows_the_key_no_more_is_told(self):
         connect = self.start_server()
+        self.require_connection(connect)
         (self.folder / 'authorized').write_text('')
         result = self.launch('ps', '--on', connect)
         self.assertEqual(result.returncode, 255)
+        self.assertIn('Permission denied', result.stderr)
         self.assertIn(f"launch ps: error: no connection: '{connect}' ended with exit code 255\n", result.stderr)
 
 

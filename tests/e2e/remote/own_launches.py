@@ -37,12 +37,13 @@ class Lines:
         pipe.close()
 
     def wait_for(self, text):
-        while not self.seen or text not in self.seen[-1]:
+        """The first line with this text, also one that has come before."""
+        while not (found := [line for line in self.seen if text in line]):
             line = self._queue.get(timeout=PATIENCE)
             if line is None:
                 raise AssertionError(f'never: {text}; lines: {self.seen}')
             self.seen.append(line)
-        return self.seen[-1]
+        return found[0]
 
 
 class OwnLaunches(unittest.TestCase):

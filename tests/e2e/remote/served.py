@@ -55,6 +55,7 @@ class Served(OwnLaunches):
         connection.request(method, path, body=body, headers=header)
         response = connection.getresponse()
         response.text = response.read().decode()
+        connection.close()
         return response
 
     def ask(self, path, body=None, status=200, **options):

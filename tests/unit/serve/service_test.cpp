@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-const std::string kToken = "a-token-that-nobody-guesses";
+const std::string kServiceToken = "a-token-that-nobody-guesses";
 
 class ServiceTest : public testing::Test {
  protected:
@@ -26,7 +26,7 @@ class ServiceTest : public testing::Test {
     made.path = path;
     made.body = body;
     made.client = "192.168.1.5";
-    made.header = {{"host", "127.0.0.1:7411"}, {"authorization", "Bearer " + kToken}};
+    made.header = {{"host", "127.0.0.1:7411"}, {"authorization", "Bearer " + kServiceToken}};
     if (method == "POST") {
       made.header["content-type"] = "application/json; charset=utf-8";
     }
@@ -46,7 +46,7 @@ class ServiceTest : public testing::Test {
     return "";
   }
 
-  Access access_{{.token = kToken, .hosts = {}, .tls = false, .allow_control = false}};
+  Access access_{{.token = kServiceToken, .hosts = {}, .tls = false, .allow_control = false}};
   std::vector<std::string> log_;
   Service service_{access_, {}, -1, [this](const std::string& line) { log_.push_back(line); }};
 };
@@ -100,7 +100,7 @@ TEST_F(ServiceTest, KnowsItsAddressesAndMethods) {
 }
 
 TEST_F(ServiceTest, ALoginGivesASessionThatALogoutEnds) {
-  HttpRequest login = request("POST", "/login", "token=" + kToken);
+  HttpRequest login = request("POST", "/login", "token=" + kServiceToken);
   login.header.erase("authorization");
   login.header["content-type"] = "application/x-www-form-urlencoded";
   login.header["origin"] = "http://127.0.0.1:7411";
@@ -109,7 +109,7 @@ TEST_F(ServiceTest, ALoginGivesASessionThatALogoutEnds) {
   EXPECT_EQ(header_of(done, "Location"), "/");
   const std::string cookie = header_of(done, "Set-Cookie");
   EXPECT_THAT(cookie, HasSubstr("; HttpOnly; SameSite=Strict"));
-  EXPECT_THAT(cookie, Not(HasSubstr(kToken)));
+  EXPECT_THAT(cookie, Not(HasSubstr(kServiceToken)));
 
   HttpRequest page = request("GET", "/");
   page.header.erase("authorization");

@@ -79,6 +79,9 @@ function chooseProcess(name) {
   if (page.pid) {
     followLaunch(page.pid);
   }
+  if (matchMedia('(max-width: 760px)').matches) {
+    byId('log-title').scrollIntoView();  // the lines are far below the rows of a phone
+  }
 }
 
 function showAbout(launch) {
