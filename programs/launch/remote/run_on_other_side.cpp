@@ -7,6 +7,7 @@
 #include <signal.h>
 #include <stdio.h>
 #include <sys/signalfd.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <termios.h>
 #include <unistd.h>
@@ -80,6 +81,7 @@ class ThisSide {
   UniqueFd to_;
   UniqueFd from_;
   UniqueFd signals_;
+  UniqueFd ended_;  // of the connecting command
   RemoteRequest request_;
   std::string before_;  // what came before the greeting
   bool greeted_ = false;
@@ -131,19 +133,24 @@ void ThisSide::connect(const std::vector<std::string>& argv) {
                 .search_path = true,
                 .descriptors = {{STDIN_FILENO, input.read.get()}, {STDOUT_FILENO, output.write.get()}},
                 .signals = ChildSignals::kFresh});
+  ended_.reset(static_cast<int>(::syscall(SYS_pidfd_open, pid_, 0)));
   to_ = std::move(input.write);
   from_ = std::move(output.read);
 }
 
 void ThisSide::follow() {
   while (from_ && !exit_code_ && signal_ == 0) {
-    std::array<pollfd, 3> waits{
-        {{from_.get(), POLLIN, 0}, {signals_.get(), POLLIN, 0}, {raw_ ? STDIN_FILENO : -1, POLLIN, 0}}};
+    std::array<pollfd, 4> waits{{{from_.get(), POLLIN, 0},
+                                 {signals_.get(), POLLIN, 0},
+                                 {raw_ ? STDIN_FILENO : -1, POLLIN, 0},
+                                 {ended_.get(), POLLIN, 0}}};
     if (::poll(waits.data(), waits.size(), -1) < 0) {
       continue;
     }
     if (waits[0].revents != 0) {
       receive();
+    } else if (waits[3].revents != 0) {
+      from_.reset();  // a process that the connecting command has left may hold the pipe open
     }
     if (waits[1].revents != 0) {
       take_signal();

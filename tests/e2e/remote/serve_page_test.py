@@ -9,8 +9,11 @@ from own_launches import PATIENCE, TALKER
 from served import TOKEN, Served
 
 # What a program prints is text, whatever it looks like.
-HOSTILE = '''<executable name="hostile" shell="true" output="both"
-    cmd="echo '&lt;img src=x onerror=&quot;document.title = 1&quot;&gt;'; printf '\\033[31mred\\033[0m\\n'; sleep 1000"/>'''
+HOSTILE = r'''
+echo '<img src=x onerror="document.title = 1">'
+printf '\033[31mred\033[0m\n'
+sleep 1000
+'''
 
 
 class Page(Served):
@@ -129,7 +132,8 @@ class Page(Served):
         self.browser.wait_for('document.getElementById("token")')
 
     def test_output_is_text(self):
-        launch = self.start_launch(TALKER + HOSTILE)
+        (self.folder / 'hostile.sh').write_text(HOSTILE)
+        launch = self.start_launch(TALKER + '<executable name="hostile" cmd="sh hostile.sh" output="both"/>')
         launch.lines.wait_for('red')
         self.serve()
         self.show(launch)

@@ -87,9 +87,8 @@ class Serve(Served):
         service.lines.wait_for(f'restart ["sleeper"] of launch {launch.pid}, for 127.0.0.1')
 
     def test_a_stream_begins_with_what_was_printed_before(self):
-        shouting = ('<executable name="shouting" shell="true" output="both" '
-                    'cmd="for i in 1 2 3; do echo line $i; done; echo \'&lt;script&gt;\'; sleep 1000"/>')
-        launch = self.start_launch(TALKER + shouting)
+        (self.folder / 'shouting.sh').write_text("for i in 1 2 3; do echo line $i; done; echo '<script>'; sleep 1000\n")
+        launch = self.start_launch(TALKER + '<executable name="shouting" cmd="sh shouting.sh" output="both"/>')
         launch.lines.wait_for('[shouting-2] <script>')
         self.serve()
         lines = []
