@@ -142,8 +142,7 @@ void Access::log_out(const HttpRequest& request) {
     return;
   }
   const std::lock_guard<std::mutex> lock(mutex_);
-  std::erase_if(sessions_,
-                [&](const Session& session) { return equal_in_constant_time(cookie->second, session.id); });
+  std::erase_if(sessions_, [&](const Session& session) { return equal_in_constant_time(cookie->second, session.id); });
 }
 
 bool Access::is_known(const HttpRequest& request) {

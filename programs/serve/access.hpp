@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Who may ask, and what. Decides by the request alone; all functions may be called by several threads.
 //
-// A program shows the token with each request (`Authorization: Bearer …`). A browser shows it once, in a form, and gets a
-// cookie for a session. The cookie does not hold the token. Requests that a foreign page makes a browser send get no
-// cookie (SameSite=Strict), and are refused by their Origin as well; so are requests for a foreign host, which a page gets
-// that has made its own name an address of this machine.
+// A program shows the token with each request (`Authorization: Bearer …`). A browser shows it once, in a form, and gets
+// a cookie for a session. The cookie does not hold the token. Requests that a foreign page makes a browser send get no
+// cookie (SameSite=Strict), and are refused by their Origin as well; so are requests for a foreign host, which a page
+// gets that has made its own name an address of this machine.
 #pragma once
 
 #include <chrono>

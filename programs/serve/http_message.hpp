@@ -18,7 +18,7 @@ struct HttpRequest {
   std::map<std::string, std::string> header;  // names in small letters; of several with a name, the last one
   std::map<std::string, std::string> cookies;
   std::string body;
-  std::string client;            // its address, for what is logged
+  std::string client;           // its address, for what is logged
   bool ambiguous_head = false;  // it has a header twice that decides something
 
   const std::string& header_or_empty(const std::string& name) const {

@@ -127,14 +127,14 @@ MHD_Result give(MHD_Connection* connection, HttpAnswer answer) {
     return MHD_NO;
   }
   MHD_add_response_header(response, "Content-Type", answer.type.c_str());
-  for (const auto& [name, value] : std::initializer_list<std::pair<const char*, const char*>>{
-           {"Cache-Control", "no-store"},
-           {"X-Content-Type-Options", "nosniff"},
-           {"X-Frame-Options", "DENY"},
-           // Not "no-referrer": a form would then say no Origin.
-           {"Referrer-Policy", "same-origin"},
-           {"Cross-Origin-Resource-Policy", "same-origin"},
-           {"Cross-Origin-Opener-Policy", "same-origin"}}) {
+  for (const auto& [name, value] :
+       std::initializer_list<std::pair<const char*, const char*>>{{"Cache-Control", "no-store"},
+                                                                  {"X-Content-Type-Options", "nosniff"},
+                                                                  {"X-Frame-Options", "DENY"},
+                                                                  // Not "no-referrer": a form would then say no Origin.
+                                                                  {"Referrer-Policy", "same-origin"},
+                                                                  {"Cross-Origin-Resource-Policy", "same-origin"},
+                                                                  {"Cross-Origin-Opener-Policy", "same-origin"}}) {
     MHD_add_response_header(response, name, value);
   }
   for (const auto& [name, value] : answer.header) {
@@ -216,15 +216,17 @@ HttpServer::HttpServer(UniqueFd listener, const Certificate* certificate, Answer
     flags |= MHD_USE_TLS;
     options.push_back({MHD_OPTION_HTTPS_MEM_CERT, 0, const_cast<char*>(certificate->certificate.c_str())});
     options.push_back({MHD_OPTION_HTTPS_MEM_KEY, 0, const_cast<char*>(certificate->key.c_str())});
-    options.push_back({MHD_OPTION_HTTPS_PRIORITIES, 0, const_cast<char*>("NORMAL:-VERS-ALL:+VERS-TLS1.3:+VERS-TLS1.2")});
+    options.push_back(
+        {MHD_OPTION_HTTPS_PRIORITIES, 0, const_cast<char*>("NORMAL:-VERS-ALL:+VERS-TLS1.3:+VERS-TLS1.2")});
   }
   options.push_back({MHD_OPTION_END, 0, nullptr});
   daemon_->daemon = MHD_start_daemon(flags, 0, nullptr, nullptr, &on_request, daemon_.get(), MHD_OPTION_ARRAY,
                                      options.data(), MHD_OPTION_END);
   if (daemon_->daemon == nullptr) {
-    throw std::runtime_error(certificate == nullptr ? "the HTTP server does not start"
-                                                    : "the HTTPS server does not start: the certificate or its key can't "
-                                                      "be used, or they don't belong together");
+    throw std::runtime_error(certificate == nullptr
+                                 ? "the HTTP server does not start"
+                                 : "the HTTPS server does not start: the certificate or its key can't "
+                                   "be used, or they don't belong together");
   }
   static_cast<void>(listener.release());  // libmicrohttpd closes it
 }

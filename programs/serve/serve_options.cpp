@@ -82,7 +82,8 @@ ListenAddress parse_listen_address(const std::string& text) {
   }
   std::uint16_t port = 0;
   const char* const end = text.data() + text.size();
-  if (const auto read = std::from_chars(text.data() + colon + 1, end, port); read.ec != std::errc() || read.ptr != end) {
+  if (const auto read = std::from_chars(text.data() + colon + 1, end, port);
+      read.ec != std::errc() || read.ptr != end) {
     throw error;
   }
   std::string host = text.substr(0, colon);

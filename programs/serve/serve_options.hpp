@@ -50,8 +50,8 @@ std::string url_of(int listener, bool tls);
 // Whatever listens beyond this machine needs TLS, or the user's word that the network is safe. Throws ServeError.
 void check_exposure(const ServeOptions& options, const ListenAddress& address);
 
-// The text of the file without white space around it. Throws ServeError if others could read it, or if it is too short to
-// be no guess.
+// The text of the file without white space around it. Throws ServeError if others could read it, or if it is too short
+// to be no guess.
 std::string read_token(const std::string& path);
 // Throws ServeError. `what` is "certificate".
 std::string read_pem(const std::string& path, const char* what);

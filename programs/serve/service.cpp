@@ -262,8 +262,8 @@ HttpAnswer Service::feed(const HttpRequest& request, const std::string& number) 
   }
   const std::shared_ptr<void> counted(nullptr, [feeds = feeds_](void*) { feeds->fetch_sub(1); });
   const auto process = request.query.find("output");
-  const auto feed = std::make_shared<LaunchFeed>(*std::move(launch),
-                                                 process == request.query.end() ? "" : process->second, stop_);
+  const auto feed =
+      std::make_shared<LaunchFeed>(*std::move(launch), process == request.query.end() ? "" : process->second, stop_);
   HttpAnswer answer{.type = "text/event-stream"};
   answer.parts = [feed, counted, request, this]() -> std::optional<std::string> {
     return access_.is_known(request) ? feed->next() : std::nullopt;

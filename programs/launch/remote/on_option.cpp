@@ -11,7 +11,8 @@ namespace launch {
 
 void describe_on_option(Subcommand& command) {
   static std::string unused;
-  command.take_text("--on", unused, "ask on another machine, through a command such as 'ssh robot'; default: LAUNCH_ON");
+  command.take_text("--on", unused,
+                    "ask on another machine, through a command such as 'ssh robot'; default: LAUNCH_ON");
 }
 
 OnOption take_on_option(const std::vector<std::string>& words, const Environment& environment) {

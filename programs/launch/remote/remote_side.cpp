@@ -73,10 +73,8 @@ class OtherSide {
 
 void OtherSide::run() {
   while (connected_) {
-    std::array<pollfd, 4> waits{{{STDIN_FILENO, POLLIN, 0},
-                                 {output_.get(), POLLIN, 0},
-                                 {errors_.get(), POLLIN, 0},
-                                 {ended_.get(), POLLIN, 0}}};
+    std::array<pollfd, 4> waits{
+        {{STDIN_FILENO, POLLIN, 0}, {output_.get(), POLLIN, 0}, {errors_.get(), POLLIN, 0}, {ended_.get(), POLLIN, 0}}};
     if (::poll(waits.data(), waits.size(), -1) < 0) {
       continue;  // a signal
     }
@@ -157,7 +155,8 @@ void OtherSide::begin(const RemoteRequest& request) {
   ended_.reset(static_cast<int>(::syscall(SYS_pidfd_open, command_, 0)));
 }
 
-// The command leads the foreground of the terminal, so that Ctrl-C and a new size reach it. This process has one thread.
+// The command leads the foreground of the terminal, so that Ctrl-C and a new size reach it. This process has one
+// thread.
 void OtherSide::begin_on_terminal(const TerminalSize& size, std::vector<std::string> argv) {
   const std::string program = own_prefix() + "/bin/launch";
   std::vector<char*> pointers;

@@ -36,8 +36,8 @@ namespace {
 using namespace std::chrono_literals;
 
 // What the terminal here can show.
-constexpr std::array<const char*, 6> kTerminalVariables = {"TERM",     "COLORTERM", "NO_COLOR",
-                                                           "LANG",     "LC_ALL",    "LC_CTYPE"};
+constexpr std::array<const char*, 6> kTerminalVariables = {"TERM", "COLORTERM", "NO_COLOR",
+                                                           "LANG", "LC_ALL",    "LC_CTYPE"};
 constexpr char kControlC = 3;
 
 // Passes each key on, until it is destroyed. The command of the other side has its own idea of what the screen shows.
@@ -298,8 +298,8 @@ int ThisSide::report(int status) const {
     write_all(STDERR_FILENO, "\n");
   }
   std::string what = fmt::format("'{}' {} before launch answered there", connect_, how);
-  std::string help = fmt::format("see what '{} launch --version' prints; it must be {} or later", connect_,
-                                 LAUNCH_VERSION);
+  std::string help =
+      fmt::format("see what '{} launch --version' prints; it must be {} or later", connect_, LAUNCH_VERSION);
   if (!other_version_.empty()) {
     what = fmt::format("launch {} on the other side of '{}' and {} here can't talk with each other", other_version_,
                        connect_, LAUNCH_VERSION);
@@ -311,8 +311,8 @@ int ThisSide::report(int status) const {
     help = "what was asked for may have happened";
   } else if (WIFEXITED(status) && (WEXITSTATUS(status) == 127 || WEXITSTATUS(status) == 126)) {
     what = fmt::format("there is no program 'launch' in the PATH on the other side of '{}'", connect_);
-    help = fmt::format("install it there, or say where it is: --on '{} env PATH=/opt/launch/bin:/usr/bin:/bin'",
-                       connect_);
+    help =
+        fmt::format("install it there, or say where it is: --on '{} env PATH=/opt/launch/bin:/usr/bin:/bin'", connect_);
   } else if (WIFEXITED(status) && WEXITSTATUS(status) == kNoConnection) {
     what = fmt::format("no connection: '{}' {}", connect_, how);
     help = fmt::format("see whether '{} true' works", connect_);

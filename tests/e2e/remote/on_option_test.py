@@ -3,6 +3,7 @@
 
 import json
 import os
+import select
 import shlex
 import shutil
 import signal
@@ -171,7 +172,6 @@ class OnOption(OwnLaunches):
                 self.wait_for_end(gone)
 
     def wait_for_end(self, pidfd):
-        import select
         ready, _, _ = select.select([pidfd], [], [], PATIENCE)
         os.close(pidfd)
         self.assertTrue(ready, 'the command on the other side goes on')
@@ -187,27 +187,14 @@ class OnOption(OwnLaunches):
         launch = self.start_launch()
         with subprocess.Popen([LAUNCH, 'events', '--launch', str(launch.pid), '--on', f'{self.docker} robot'],
                               env=self.environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as events:
-            # It follows when its command there has begun to.
-            while len(self.followers(launch.pid)) < 1:
-                pass
-            events.stdout.close()
-            restarted = 0
-            while events.poll() is None and restarted < 100:
+            # It follows when it prints what happens.
+            while not select.select([events.stdout], [], [], 0.1)[0]:
                 self.launch('restart', 'sleeper', '--launch', launch.pid)
-                restarted += 1
+            events.stdout.close()
+            while events.poll() is None:
+                self.launch('restart', 'sleeper', '--launch', launch.pid)
             self.assertEqual(events.wait(PATIENCE), -signal.SIGPIPE)
             self.assertEqual(events.stderr.read(), b'')
-
-    def followers(self, launch):
-        found = []
-        for entry in Path('/proc').glob('[0-9]*/cmdline'):
-            try:
-                words = entry.read_bytes().split(b'\0')
-            except OSError:
-                continue
-            if words[:2] == [b'launch', b'events'] and str(launch).encode() in words:
-                found.append(entry)
-        return found
 
 
 class RealSsh(OwnLaunches):

@@ -30,14 +30,15 @@ class TopOnOtherSideTest : public testing::Test {
     environment_ = {{"XDG_RUNTIME_DIR", sandbox_.directory() / "run"},
                     {"TERMINFO", sandbox_.directory() / "terminfo"},
                     {"TERM", "plain"}};
-    EXPECT_EQ(run_command({"tic", "-o", sandbox_.directory() / "terminfo", sandbox_.directory() / "plain.ti"}).exit_code,
-              0);
+    EXPECT_EQ(
+        run_command({"tic", "-o", sandbox_.directory() / "terminfo", sandbox_.directory() / "plain.ti"}).exit_code, 0);
     // As ssh: words are joined, a shell reads them, and little of the environment arrives.
     write_script("connect", "exec env -i TERMINFO=\"$TERMINFO\" XDG_RUNTIME_DIR=\"$XDG_RUNTIME_DIR\" PATH=" +
                                 fs::path(LAUNCH_PROGRAM).parent_path().string() + ":/usr/bin:/bin sh -c \"$*\"");
-    write_file(sandbox_.directory() / "system.launch.xml",
-               "<launch>\n<executable name=\"sleeper\" cmd=\"sleep 1000\"/>\n<executable name=\"talker\" shell=\"true\" "
-               "output=\"both\" cmd=\"echo ready; while :; do read x; done\"/>\n</launch>\n");
+    write_file(
+        sandbox_.directory() / "system.launch.xml",
+        "<launch>\n<executable name=\"sleeper\" cmd=\"sleep 1000\"/>\n<executable name=\"talker\" shell=\"true\" "
+        "output=\"both\" cmd=\"echo ready; while :; do read x; done\"/>\n</launch>\n");
   }
 
   void write_script(const std::string& name, const std::string& text) const {

@@ -85,8 +85,8 @@ TEST_F(AccessTest, TheTokenIsNeeded) {
 }
 
 TEST_F(AccessTest, ForeignHostsAreRefusedWhateverTheyKnow) {
-  for (const char* const own : {"127.0.0.1:7411", "localhost:7411", "LOCALHOST", "[::1]:7411", "192.168.1.5:7411", "robot",
-                                "Robot.example:7411"}) {
+  for (const char* const own : {"127.0.0.1:7411", "localhost:7411", "LOCALHOST", "[::1]:7411", "192.168.1.5:7411",
+                                "robot", "Robot.example:7411"}) {
     HttpRequest request = bearing(kToken);
     request.header["host"] = own;
     EXPECT_EQ(access_.judge(request), Verdict::kAllowed) << own;

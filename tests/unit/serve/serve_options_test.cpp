@@ -78,8 +78,8 @@ TEST(ListenAddressTest, IsANumberAndAPort) {
   EXPECT_FALSE(parse_listen_address("0.0.0.0:7411").is_loopback);
   EXPECT_FALSE(parse_listen_address("[::]:7411").is_loopback);
   EXPECT_FALSE(parse_listen_address("192.168.1.5:65535").is_loopback);
-  for (const char* const wrong : {"", "7411", "127.0.0.1", "127.0.0.1:", "127.0.0.1:x", "127.0.0.1:65536", "127.0.0.1:-1",
-                                  "robot:7411", "::1:7411", "[::1]7411", "[]:1", "[127.0.0.1]:1"}) {
+  for (const char* const wrong : {"", "7411", "127.0.0.1", "127.0.0.1:", "127.0.0.1:x", "127.0.0.1:65536",
+                                  "127.0.0.1:-1", "robot:7411", "::1:7411", "[::1]7411", "[]:1", "[127.0.0.1]:1"}) {
     EXPECT_THROW(parse_listen_address(wrong), ServeError) << wrong;
   }
 }
@@ -93,8 +93,9 @@ TEST(ExposureTest, OtherMachinesNeedTls) {
     FAIL();
   } catch (const ServeError& error) {
     EXPECT_STREQ(error.what(), "does not listen on 0.0.0.0:7411 without TLS: others could read the token");
-    EXPECT_EQ(error.help(), "give --tls-cert and --tls-key, reach 127.0.0.1 through 'ssh -L', or say --insecure on a "
-                            "network of your own");
+    EXPECT_EQ(error.help(),
+              "give --tls-cert and --tls-key, reach 127.0.0.1 through 'ssh -L', or say --insecure on a "
+              "network of your own");
   }
   EXPECT_NO_THROW(check_exposure(options, parse_listen_address("127.0.0.1:7411")));
   options.insecure = true;

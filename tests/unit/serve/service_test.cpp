@@ -78,7 +78,8 @@ TEST_F(ServiceTest, ShowsOnlyUnlessItMaySteer) {
 
 TEST_F(ServiceTest, TakesRequestsThatAreJson) {
   for (const char* const body : {"", "x", "[]", "1", "{}", R"({"do": 1})", R"({"do": null})", R"({"processes": []})"}) {
-    EXPECT_EQ(error(request("POST", "/api/launches/1", body)), "400 a request is a JSON object with the text 'do'") << body;
+    EXPECT_EQ(error(request("POST", "/api/launches/1", body)), "400 a request is a JSON object with the text 'do'")
+        << body;
   }
   HttpRequest form = request("POST", "/api/launches/1", R"({"do": "ps"})");
   form.header["content-type"] = "text/plain";  // a page of another site could send it without being asked
