@@ -33,6 +33,9 @@ MORE = {'launch': [
          'once, a third one SIGKILL. The trace is closed in every case. With --reload-on-hup, SIGHUP reads the launch file '
          'again instead.')])]}
 
+for name in ('events', 'loglevel', 'logs', 'ps', 'restart', 'shutdown', 'signal', 'start', 'stop', 'top'):
+    MORE[f'launch {name}'] = [('ENVIRONMENT', [('LAUNCH_ON', 'The default of --on.')])]
+
 
 def help_of(launch, command):
     words = command.split()[1:]

@@ -66,7 +66,7 @@ class OnOption(OwnLaunches):
 
     def test_exit_codes_and_errors_are_those_of_the_other_side(self):
         connect = f'{self.ssh} robot'
-        for words in (('stop',), ('ps', '--hepl'), ('stop', 'x', '--launch', 'nothing'), ('signal', 'x', 'NOSUCH')):
+        for words in (('stop',), ('loglevel',), ('loglevel', '/x', 'lowd'), ('ps', '--hepl'), ('stop', 'x', '--launch', 'nothing'), ('signal', 'x', 'NOSUCH')):
             with self.subTest(words):
                 there, here = self.on(connect, *words), self.launch(*words)
                 self.assertEqual((there.returncode, there.stdout, there.stderr), (here.returncode, here.stdout, here.stderr))
