@@ -49,7 +49,8 @@ int complete_command(const Words& words) {
 int list_commands(const Words& /*words*/) {
   for (const Command& command : command_table()) {
     if (!command.hidden && (command.program == nullptr || std::filesystem::exists(own_library_file(command.program)))) {
-      fmt::print("{}\t{}\n", command.name, command.exit_status);
+      fmt::print("{}\t{}{}\n", command.name, command.exit_status,
+                 command.asks_launch ? " With --on, 255 if there is no connection." : "");
     }
   }
   return 0;

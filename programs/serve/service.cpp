@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <utility>
@@ -23,7 +24,7 @@ using Json = ControlClient::Json;
 constexpr std::string_view kLaunches = "/api/launches";
 
 std::string text_of(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 // As the control protocol says an error.
@@ -68,6 +69,22 @@ pid_t number_of(const std::string& text) {
 
 HttpAnswer not_running(const std::string& number) {
   return error(404, fmt::format("launch {} does not run", printable(number)));
+}
+
+// Whether it has the shape of a request, whose values are no deeper than a list of texts. Something deep must not be
+// written again, for which the stack would not do.
+bool is_request(const Json& wanted) {
+  if (!wanted.is_object() || !wanted.contains("do") || !wanted["do"].is_string() ||
+      (wanted.contains("version") && !wanted["version"].is_number_integer()) ||
+      (wanted.contains("signal") && !wanted["signal"].is_string())) {
+    return false;
+  }
+  if (!wanted.contains("processes")) {
+    return true;
+  }
+  const Json& processes = wanted["processes"];
+  return processes.is_array() &&
+         std::all_of(processes.begin(), processes.end(), [](const Json& pattern) { return pattern.is_string(); });
 }
 
 int value_of_digit(char digit) {
@@ -181,7 +198,8 @@ HttpAnswer Service::launches() {
                          {"ok", true},
                          {"launch_version", LAUNCH_VERSION},
                          {"control", access_.allows_control()},
-                         {"launches", launch_list(environment_)}});
+                         {"launches", launch_list(environment_)}}) +
+                "\n";
   return answer;
 }
 
@@ -210,8 +228,8 @@ HttpAnswer Service::control(const HttpRequest& request, const std::string& numbe
     return error(415, "a request is JSON", "send 'Content-Type: application/json'");
   }
   const Json wanted = asks ? Json{{"do", "ps"}} : Json::parse(request.body, nullptr, false);
-  if (!wanted.is_object() || !wanted.contains("do") || !wanted["do"].is_string()) {
-    return error(400, "a request is a JSON object with the text 'do'", "see docs/control.md");
+  if (!is_request(wanted)) {
+    return error(400, "a request is a JSON object with the text 'do', and others as docs/control.md says");
   }
   const std::string what = wanted["do"].get<std::string>();
   if (what == "events" || what == "output") {
@@ -227,7 +245,7 @@ HttpAnswer Service::control(const HttpRequest& request, const std::string& numbe
     return not_running(number);
   }
   if (changes) {
-    const std::string names = wanted.contains("processes") ? " " + wanted["processes"].dump() : "";
+    const std::string names = wanted.contains("processes") ? " " + text_of(wanted["processes"]) : "";
     log_(printable(fmt::format("{}{} of launch {}, for {}", what, names, number, request.client)));
   }
   // What the protocol knows, and nothing that is new since.
@@ -247,7 +265,7 @@ HttpAnswer Service::control(const HttpRequest& request, const std::string& numbe
   if (answer.status == 200 && what == "ps") {
     add_usage(told["processes"]);
   }
-  answer.body = text_of(told);
+  answer.body = text_of(told) + "\n";
   return answer;
 }
 

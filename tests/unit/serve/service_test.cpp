@@ -77,10 +77,18 @@ TEST_F(ServiceTest, ShowsOnlyUnlessItMaySteer) {
 }
 
 TEST_F(ServiceTest, TakesRequestsThatAreJson) {
-  for (const char* const body : {"", "x", "[]", "1", "{}", R"({"do": 1})", R"({"do": null})", R"({"processes": []})"}) {
-    EXPECT_EQ(error(request("POST", "/api/launches/1", body)), "400 a request is a JSON object with the text 'do'")
-        << body;
+  const std::string refused = "400 a request is a JSON object with the text 'do', and others as docs/control.md says";
+  for (const char* const body :
+       {"", "x", "[]", "1", "{}", R"({"do": 1})", R"({"do": null})", R"({"processes": []})",
+        R"({"do": "ps", "processes": "x"})", R"({"do": "ps", "processes": [1]})", R"({"do": "ps", "signal": 9})",
+        R"({"do": "ps", "version": "1"})", R"({"do": "ps", "version": 1.5})", "{\"do\": \"\xff\"}"}) {
+    EXPECT_EQ(error(request("POST", "/api/launches/1", body)), refused) << body;
   }
+  const std::string deep(30'000, '[');
+  EXPECT_EQ(error(request("POST", "/api/launches/1", deep)), refused);
+  EXPECT_EQ(error(request("POST", "/api/launches/1",
+                          R"({"do": "ps", "processes": )" + deep + std::string(30'000, ']') + "}")),
+            refused);
   HttpRequest form = request("POST", "/api/launches/1", R"({"do": "ps"})");
   form.header["content-type"] = "text/plain";  // a page of another site could send it without being asked
   EXPECT_EQ(error(form), "415 a request is JSON");
