@@ -13,6 +13,7 @@
 
 #include "base/environment/own_environment.hpp"
 #include "launcher/control/control_client.hpp"
+#include "launcher/control/process_usage.hpp"
 #include "launcher/language/exit_code_filter.hpp"
 #include "programs/command_line/subcommand.hpp"
 #include "programs/launch/command_functions.hpp"
