@@ -32,6 +32,10 @@ using namespace std::chrono_literals;
 
 constexpr int kRemoteExitOfSignal = 128;  // plus its number, as shells count
 
+// The end of the connection is the end of standard input, and the command must be ended then. A connecting command such
+// as sudo(8) leaves this process in the foreground of the terminal on the other side, where Ctrl-C would end it before.
+constexpr std::array<int, 4> kIgnored = {SIGPIPE, SIGHUP, SIGINT, SIGQUIT};
+
 winsize window_of(const TerminalSize& size) {
   winsize window{};
   window.ws_row = static_cast<unsigned short>(size.lines);
@@ -168,7 +172,9 @@ void OtherSide::begin_on_terminal(const TerminalSize& size, std::vector<std::str
   int terminal = -1;
   command_ = ::forkpty(&terminal, nullptr, nullptr, &window);
   if (command_ == 0) {
-    ::signal(SIGPIPE, SIG_DFL);
+    for (const int signal : kIgnored) {
+      ::signal(signal, SIG_DFL);
+    }
     ::execv(program.c_str(), pointers.data());
     ::_exit(127);
   }
@@ -224,8 +230,9 @@ int remote_side_command(const std::vector<std::string>& words) {
     fmt::print(stderr, "{}", usage_error("launch remote-side", "takes no words"));
     return kWrongCommandLine;
   }
-  ::signal(SIGPIPE, SIG_IGN);
-  ::signal(SIGHUP, SIG_IGN);  // the end of the connection is the end of standard input
+  for (const int signal : kIgnored) {
+    ::signal(signal, SIG_IGN);
+  }
   ::unsetenv("LAUNCH_ON");
   make_raw(STDIN_FILENO);
   if (!write_all(STDOUT_FILENO, greeting_line(LAUNCH_VERSION))) {

@@ -288,6 +288,11 @@ int ThisSide::end_of_connection() {
     ::kill(pid_, signal);
   }
   const int status = wait_for(pid_);
+  // Ctrl-C has ended the connecting command as well, and its end was seen first.
+  pollfd signalled{signals_.get(), POLLIN, 0};
+  while (!exit_code_ && signal_ == 0 && ::poll(&signalled, 1, 0) > 0) {
+    take_signal();
+  }
   return exit_code_ ? *exit_code_ : signal_ != 0 ? kNoConnection : report(status);
 }
 

@@ -92,6 +92,24 @@ TEST_F(TopOnOtherSideTest, ControlCEndsBothSidesAndSetsTheTerminalBack) {
   end(run);
 }
 
+// The whole foreground group gets the signal: the connecting command, too, whose end may be seen first.
+TEST_F(TopOnOtherSideTest, ControlCEndsACommandWithoutATerminalThere) {
+  RunningCommand run(launch());
+  ASSERT_TRUE(run.wait_for_output("[talker-2] ready", kPatience)) << run.out() << run.err();
+  write_script("dying", "mkfifo in; " + (sandbox_.directory() / "connect").string() +
+                            " \"$*\" < in & exec cat > in");  // cat(1) ends by the signal
+  for (const char* const connect : {"connect", "dying"}) {
+    Terminal logs(
+        {LAUNCH_PROGRAM, "logs", "-f", "--launch", std::to_string(run.pid()), "--on", sandbox_.directory() / connect},
+        environment_, sandbox_.directory());
+    ASSERT_TRUE(logs.shows("[talker-2] ready")) << logs.everything();
+    logs.type("\003");
+    EXPECT_EQ(logs.wait(), -1) << "it ends by the signal";
+    EXPECT_THAT(logs.everything(), testing::Not(testing::HasSubstr("error")));
+  }
+  end(run);
+}
+
 TEST_F(TopOnOtherSideTest, AConnectionThatMakesATerminalItselfWorksAsWell) {
   RunningCommand run(launch());
   ASSERT_TRUE(run.wait_for_output("[talker-2] ready", kPatience)) << run.out() << run.err();
