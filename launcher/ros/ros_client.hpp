@@ -97,10 +97,9 @@ struct AskState {
   Duration every{0};
 };
 
-using RosRequest =
-    std::variant<LoadNode, UnloadNode, ListNodes, ChangeState, GetState, SetParameters, NodePresent, TopicPresent,
-                 ServicePresent, MessagePublished, StateReached, ParameterReached, WatchTransitions, WatchMessages,
-                 MeterTopic, AskService, AskState>;
+using RosRequest = std::variant<LoadNode, UnloadNode, ListNodes, ChangeState, GetState, SetParameters, NodePresent,
+                                TopicPresent, ServicePresent, MessagePublished, StateReached, ParameterReached,
+                                WatchTransitions, WatchMessages, MeterTopic, AskService, AskState>;
 
 // Of a topic, since the answer before.
 struct TopicTraffic {

@@ -21,6 +21,7 @@
 #include "launcher/control/control_client.hpp"
 #include "programs/command_line/subcommand.hpp"
 #include "programs/launch/command_functions.hpp"
+#include "programs/launch/remote/on_option.hpp"
 
 namespace launch {
 namespace {
@@ -158,6 +159,7 @@ int stack_command(const std::vector<std::string>& words) {
                      "Prints what all threads of a process do now. The process stands still for a moment meanwhile.");
   command.take_text("NAME", name, "name of a process or its node, also a pattern such as 'camera*'");
   command.take_text("--launch", wanted, kLaunchHelp);
+  describe_on_option(command);
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;
   }

@@ -8,6 +8,7 @@
 #include "launcher/control/control_client.hpp"
 #include "programs/command_line/subcommand.hpp"
 #include "programs/launch/command_functions.hpp"
+#include "programs/launch/remote/on_option.hpp"
 #include "programs/launch/steer/process_text.hpp"
 
 namespace launch {
@@ -56,6 +57,7 @@ int reload_command(const std::vector<std::string>& words) {
   Subcommand command("launch reload", kReloadDescription);
   command.take_text("LAUNCH", word, kLaunchHelp);
   command.take_text("--launch", wanted, kLaunchHelp);
+  describe_on_option(command);
   command.take_flag("--dry-run", dry_run, "only show the difference");
   command.take_flag("--restart", restart, "restart nodes whose parameters have changed, don't set them");
   command.take_flag("--no-wait", no_wait, "show the difference, don't wait until it is there");

@@ -141,6 +141,7 @@ int scale_command(const std::vector<std::string>& words) {
   command.take_text("NAME", process, "name of a process or its node");
   command.take_text("N", number, "how many shall run, the first one included");
   command.take_text("--launch", wanted, kLaunchHelp);
+  describe_on_option(command);
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;
   }
