@@ -14,7 +14,6 @@
 #include <type_traits>
 #include <unordered_map>
 
-#include "launcher/language/parameter_value.hpp"
 #include "launcher/visit/dependency.hpp"
 
 namespace launch {
@@ -126,9 +125,9 @@ std::uint64_t environment_of(const ProcessSpec& spec) {
 
 // The command line without parameters that the launch file gives by name, and the files that it names.
 void add_command(const ProcessSpec& spec, const NodeDescription* node, FileContents& files, DeclaredProcess& declared) {
-  std::set<std::string> known;
+  std::set<std::string> known;  // names
   for (const NamedParameter& parameter : declared.parameters) {
-    known.insert(parameter.name + ":=" + to_argument(parameter.value));
+    known.insert(parameter.name);
   }
   std::set<std::size_t> of_values;  // words: --params-file and the file of values behind it
   if (node != nullptr) {
@@ -147,8 +146,11 @@ void add_command(const ProcessSpec& spec, const NodeDescription* node, FileConte
     if (i > 0 && spec.argv[i - 1] == "--params-file" && !word.empty()) {
       contents.add(files.of(word));
     }
-    const bool is_parameter = (word == "-p" && i + 1 < spec.argv.size() && known.contains(spec.argv[i + 1])) ||
-                              (i > 0 && spec.argv[i - 1] == "-p" && known.contains(word));
+    const auto gives_known = [&](std::size_t at) {
+      return at < spec.argv.size() && known.contains(spec.argv[at].substr(0, spec.argv[at].find(":=")));
+    };
+    const bool is_parameter =
+        (word == "-p" && gives_known(i + 1)) || (i > 0 && spec.argv[i - 1] == "-p" && gives_known(i));
     if (!is_parameter && !of_values.contains(i)) {
       others.add(std::string_view(word));
     }
@@ -276,7 +278,7 @@ std::optional<std::vector<NamedParameter>> changed_parameters(const DeclaredProc
   std::vector<NamedParameter> changed;
   for (const auto& [name, value] : fresh) {
     const auto known = old.find(name);
-    if (known == old.end() || to_yaml(*known->second) != to_yaml(*value)) {
+    if (known == old.end() || *known->second != *value) {
       changed.push_back({name, *value});
     }
   }
@@ -291,13 +293,14 @@ std::vector<std::string> parameter_changes(const DeclaredProcess& before, const 
     const auto found = fresh.find(name);
     if (found == fresh.end()) {
       changes.push_back(fmt::format("parameter {}: gone", name));
-    } else if (to_yaml(*value) != to_yaml(*found->second)) {
-      changes.push_back(fmt::format("parameter {}: {} -> {}", name, to_argument(*value), to_argument(*found->second)));
+    } else if (*value != *found->second) {
+      changes.push_back(
+          fmt::format("parameter {}: {} -> {}", name, to_python_text(*value), to_python_text(*found->second)));
     }
   }
   for (const auto& [name, value] : fresh) {
     if (!old.contains(name)) {
-      changes.push_back(fmt::format("parameter {}: new, {}", name, to_argument(*value)));
+      changes.push_back(fmt::format("parameter {}: new, {}", name, to_python_text(*value)));
     }
   }
   return changes;
