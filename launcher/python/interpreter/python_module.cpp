@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -19,12 +20,21 @@ std::string& module_path() {
   return path;
 }
 
+// Never freed, as the interpreter of the module is not: launch files hold objects of it until the end.
+python::Runtime*& given_runtime() {
+  static python::Runtime* runtime = nullptr;
+  return runtime;
+}
+
 bool& shows_tracebacks() {
   static bool shows = false;
   return shows;
 }
 
 python::Runtime* load_module() {
+  if (given_runtime() != nullptr) {
+    return given_runtime();
+  }
   std::string path = module_path();
   std::error_code ignored;
   if (path.empty()) {
@@ -48,6 +58,10 @@ python::Runtime* load_module() {
 
 void use_python_module(std::string path) {
   module_path() = std::move(path);
+}
+
+void use_python_runtime(std::unique_ptr<python::Runtime> runtime) {
+  given_runtime() = runtime.release();
 }
 
 void show_python_tracebacks() {

@@ -2,6 +2,7 @@
 // The CPython of this launcher: liblaunch_python.so, loaded when the first Python is met.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "launcher/python/interpreter/python_runtime.hpp"
@@ -14,6 +15,9 @@ python::Runtime& python_runtime();
 // Loads the module from this path instead of ../lib/launch beside the program's directory. For programs that are not
 // installed. It has an effect only before the first use of Python.
 void use_python_module(std::string path);
+
+// Takes this runtime in place of the module. It has an effect only before the first use of Python.
+void use_python_runtime(std::unique_ptr<python::Runtime> runtime);
 
 // From now on errors of Python carry its traceback. Does not load the module.
 void show_python_tracebacks();

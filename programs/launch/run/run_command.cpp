@@ -37,6 +37,7 @@
 #include "launcher/process/process_messages.hpp"
 #include "launcher/process/service_manager.hpp"
 #include "launcher/python/interpreter/python_module.hpp"
+#include "launcher/python/script/script_runtime.hpp"
 #include "launcher/ros/ros_client_process.hpp"
 #include "launcher/run/launch_service.hpp"
 #include "launcher/run/scopes/launch_tracepoints.hpp"
@@ -297,8 +298,15 @@ int run_command(const CommandLine& command, Environment environment,
   Isolation isolation;
   std::optional<Guardian> guardian;
   std::optional<ServiceAddress> service_manager;
+  std::optional<ScriptOrder> script;
   if (command.mode == CommandMode::kRun) {
     service_manager = ServiceAddress::take(environment);
+    try {
+      script = ScriptOrder::take(environment);
+    } catch (const std::runtime_error& error) {
+      fmt::print(stderr, "{}", command_error("launch", error.what()));
+      return 1;
+    }
   }
   if (command.mode == CommandMode::kRun) {
     try {
@@ -320,6 +328,14 @@ int run_command(const CommandLine& command, Environment environment,
     const std::string domain = std::to_string(isolation.domain->id());
     environment.insert_or_assign("ROS_DOMAIN_ID", domain);
     ::setenv("ROS_DOMAIN_ID", domain.c_str(), 1);
+  }
+  if (script) {
+    try {
+      use_python_runtime(std::make_unique<ScriptRuntime>(*script));
+    } catch (const std::system_error& error) {
+      fmt::print(stderr, "{}", command_error("launch", error.what()));
+      return 1;
+    }
   }
   const Registry registry = builtin_actions();
   std::optional<ResultOutput> result;

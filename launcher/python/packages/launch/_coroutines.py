@@ -8,6 +8,8 @@ A step goes on until all coroutines wait. The launcher then waits for the loop's
 import asyncio
 import selectors
 
+import _launch_engine
+
 _MOST_TURNS = 100  # in one step: a coroutine that never waits must not keep the launcher from its other work
 
 
@@ -39,6 +41,9 @@ class _Loop(asyncio.SelectorEventLoop):
         return self.call_soon_threadsafe(callback, *args, context=context)
 
 
+# In a Python program of the user's they run on the program's own loop.
+_of_program = hasattr(_launch_engine, 'IS_PROGRAM')
+
 _selector = None
 _tasks = {}  # each task with the object that made its coroutine
 _background = set()  # tasks that do not keep the launch going
@@ -47,6 +52,8 @@ _background = set()  # tasks that do not keep the launch going
 def loop():
     """The loop of all coroutines."""
     global _selector
+    if _of_program:
+        return _launch_engine.loop()
     if _selector is None:
         _selector = _Selector()
         _selector.loop = _Loop(_selector)
@@ -58,6 +65,8 @@ def start(coroutine, owner, background=False):
     """Runs it. A launch ends without the end of those in the background, which are cancelled like the others."""
     task = loop().create_task(coroutine)
     _tasks[task] = owner
+    if _of_program:
+        task.add_done_callback(lambda _task: _launch_engine.wish_for_a_step())
     if background:
         _background.add(task)
 
@@ -92,16 +101,25 @@ def step():
 
     Raises what a coroutine raised.
     """
-    _selector.turns = 0
-    loop().run_forever()
+    if not _of_program:
+        _selector.turns = 0
+        loop().run_forever()
     for task in [task for task in _tasks if task.done()]:
         del _tasks[task]
         _background.discard(task)
         if not task.cancelled() and task.exception() is not None:
             raise task.exception()
-    return len(_tasks) - len(_background), len(_background), _selector.fileno(), _selector.pause
+    descriptor, pause = (_selector.fileno(), _selector.pause) if _selector is not None else (-1, None)
+    return len(_tasks) - len(_background), len(_background), descriptor, pause
 
 
 def cancel():
     for task in _tasks:
         task.cancel()
+
+
+def forget():
+    """Cancels what is left at the end of a launch, so that another one can begin."""
+    cancel()
+    _tasks.clear()
+    _background.clear()

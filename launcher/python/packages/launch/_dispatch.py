@@ -71,6 +71,14 @@ def unregister(handler):
     return True
 
 
+def forget():
+    """Forgets all handlers at the end of a launch, so that another one can begin."""
+    global _watches
+    _handlers.clear()
+    _emitted.clear()
+    _watches = False
+
+
 def would_handle(event):
     return any(handler.matches(event) for handler in _handlers)
 

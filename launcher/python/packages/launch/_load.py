@@ -23,9 +23,14 @@ def _program_arguments():
 
 
 def load(path, source):
-    """The entities that generate_launch_description() of the file returns."""
+    """The entities of a launch file, in the launcher's own Python."""
     replace_os_environ()
     sys.argv = _program_arguments()
+    return load_file(path, source)
+
+
+def load_file(path, source):
+    """The entities that generate_launch_description() of the file returns."""
     note_source(path, source)
     code = compile(source, path, 'exec', dont_inherit=True)
     module = types.ModuleType('python_launch_file')

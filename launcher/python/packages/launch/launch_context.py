@@ -49,8 +49,11 @@ class LaunchContext:
 
     def emit_event_sync(self, event):
         """Emits the event, as EmitEvent does."""
+        self._emit(event, caller())
+
+    def _emit(self, event, instruction):
         from launch.actions._events import tags_of_event
-        _launch_engine.visit(tags_of_event(event, resolve(caller()), []))
+        _launch_engine.visit(tags_of_event(event, resolve(instruction), []))
 
     async def emit_event(self, event):
         self.emit_event_sync(event)

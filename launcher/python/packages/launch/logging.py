@@ -17,6 +17,9 @@ class _LaunchHandler(_logging.Handler):
         level = max(known for known in _LEVELS if known <= max(record.levelno, DEBUG))
         if _launch_engine.is_running():
             _launch_engine.message(_LEVELS[level], record.name, record.getMessage())
+        elif hasattr(_launch_engine, 'IS_PROGRAM') and level > DEBUG:
+            # A Python program of the user's, in another thread or before its launch.
+            print(f'[{_LEVELS[level].upper()}] [{record.name}]: {record.getMessage()}', flush=True)
 
 
 _handler = _LaunchHandler()

@@ -30,6 +30,12 @@ def name_of_process(action, what):
     return (action._spoken_of,)
 
 
+def forget():
+    """Forgets what earlier launches of a program have told its actions, before another one begins."""
+    for action in actions_by_name.values():
+        action._forget_process()
+
+
 def _items(tag, given, action, example):
     """The items of a tag: mappings with the attributes of XML. `process` may be an action."""
     items = []
@@ -102,6 +108,21 @@ class _Process(Action):
     def additional_env(self):
         return self.process_description.additional_env
 
+    def get_stdout(self):
+        """What the process has written until now. Needs cached_output=True."""
+        return self._cached('stdout')
+
+    def get_stderr(self):
+        return self._cached('stderr')
+
+    def _cached(self, stream):
+        if not self._options.get('cached_output'):
+            raise RuntimeError(f'the output of {type(self).__name__} is not kept: make it with cached_output=True')
+        return ''.join(self._output_lines[stream])
+
+    def _keep_line(self, event):
+        self._output_lines['stdout' if event.from_stdout else 'stderr'].append(event.text.decode(errors='replace'))
+
     def get_sub_entities(self):
         on_exit = self._options.get('on_exit')
         return on_exit if isinstance(on_exit, list) else []
@@ -136,8 +157,12 @@ class _Process(Action):
             *_items('watch', options.get('watch'), self, "{'kind': 'executor', 'timeout': 5}")]
         self._spoken_of = None
         self._was_read = False
+        self._forget_process()
+
+    def _forget_process(self):
         self._details = None
         self._return_code = None
+        self._output_lines = {'stdout': [], 'stderr': []}
 
     def _process_attributes(self):
         options = self._options
@@ -193,14 +218,18 @@ class _Process(Action):
         return type(action) is Shutdown and action.condition is None
 
     def _with_handlers(self, tag, attributes, items):
-        """The process, and before it the handlers for its end."""
-        from launch.event_handlers import OnProcessExit
+        """The process, and before it the handlers for its output and its end."""
+        from launch.event_handlers import OnProcessExit, OnProcessIO
         handlers = []
+        if self._options.get('cached_output'):
+            keeper = OnProcessIO(target_action=self, on_stdout=self._keep_line, on_stderr=self._keep_line)
+            keeper._made_at = self._made_at
+            handlers = keeper._tags(self._place(), [])
         on_exit = self._options.get('on_exit')
         if on_exit is not None and not self._ends_launch():
             handler = OnProcessExit(target_action=self, on_exit=on_exit)
             handler._made_at = self._made_at
-            handlers = handler._tags(self._place(), [])
+            handlers += handler._tags(self._place(), [])
         self._was_read = True
         return [*handlers, entity(tag, self._place(), self._with_places([*attributes, *self._process_attributes()]),
                                   [*self._environment_items(), *self._dependencies, *items],

@@ -2,23 +2,44 @@
 """Processes that a test starts itself, and comparisons of output."""
 
 import contextlib
+import os
 import re
 
-from launch import LaunchDescription
+from launch import LaunchDescription, _names
 from launch.events import IncludeLaunchDescription
 from launch.events.process import ProcessExited, ProcessStarted, ShutdownProcess, matches_action
 
 
-def basic_output_filter(filtered_prefixes=(), filtered_patterns=()):
+def get_default_filtered_prefixes():
+    return ['pid', 'rc']
+
+
+def get_default_filtered_patterns():
+    return []
+
+
+def basic_output_filter(filtered_prefixes=None, filtered_patterns=None):
     """A function that removes the lines that begin with a prefix or match a pattern."""
-    patterns = [re.compile(pattern) for pattern in filtered_patterns]
+    prefixes = tuple(get_default_filtered_prefixes() if filtered_prefixes is None else filtered_prefixes)
+    patterns = [re.compile(pattern) for pattern in (
+        get_default_filtered_patterns() if filtered_patterns is None else filtered_patterns)]
 
     def filtered(output):
-        kept = [line for line in output.splitlines()
-                if not line.startswith(tuple(filtered_prefixes)) and not any(each.match(line) for each in patterns)]
-        return '\n'.join(kept) + '\n' if kept else ''
+        return ''.join(line for line in output.splitlines(keepends=True)
+                       if not line.startswith(prefixes) and not any(each.match(line) for each in patterns))
 
     return filtered
+
+
+def expected_output_from_file(path, encoding=None):
+    """The lines of PATH.txt, or the patterns of the lines of PATH.regex, for expect_output()."""
+    if os.path.isfile(path + '.txt'):
+        with open(path + '.txt', encoding=encoding) as file:
+            return file.read().splitlines()
+    if os.path.isfile(path + '.regex'):
+        with open(path + '.regex', 'rb' if encoding is None else 'r', encoding=encoding) as file:
+            return [re.compile(line if isinstance(line, str) else line.decode()) for line in file.read().splitlines()]
+    raise RuntimeError(f"could not find output check file: neither '{path}.txt' nor '{path}.regex' is there")
 
 
 def expect_output(*, expected_lines=None, expected_text=None, lines=None, text=None, strict=False):
@@ -113,3 +134,6 @@ def launch_process(launch_service, process_action, proc_info, proc_output, **kwa
     finally:
         if not proxy.terminated:
             launch_service.emit_event(ShutdownProcess(process_matcher=matches_action(process_action)))
+
+
+_names.same_module(__name__, f'{__name__}.output', f'{__name__}.process', f'{__name__}.text')
