@@ -18,7 +18,7 @@ HERE = pathlib.Path(__file__).parent
 PAGE = HERE.parents[2] / 'docs/python_names.md'
 HEAD = """# Names of launch and launch_ros
 
-What of ROS 2's Python packages launch files can import here. This page is generated from the list of ROS 2's names in
+What of ROS 2's Python packages launch files and Python programs can import here. This page is generated from the list of ROS 2's names in
 `tests/unit/python/ros2_names.tsv`; `python_names_test` compares it with the packages.
 
 | module | name | arguments | what can be asked |
@@ -60,6 +60,7 @@ class PythonNames(unittest.TestCase):
     def setUpClass(cls):
         engine = types.ModuleType('_launch_engine')
         engine.is_running = lambda: False
+        engine.IS_PROGRAM = True  # LaunchService is that of Python programs
         sys.modules['_launch_engine'] = engine
         sys.path.insert(0, os.environ['LAUNCH_PACKAGES'])
 

@@ -10,6 +10,7 @@ import launch
 import pytest
 from launch_pytest.actions import ReadyToTest
 from launch_pytest.fixture import finish, fixture_of_launch, options_of
+from launch_testing._time_to_end import LOOK, TimeToEnd
 
 __unittest = True  # tracebacks of tests end at the test
 
@@ -172,6 +173,8 @@ def pytest_pyfunc_call(pyfuncitem):
         return None
     function = pyfuncitem.obj
     run = _Run(pyfuncitem, part)
+    if not part.after:
+        pyfuncitem.funcargs['launch_service']._has_active_tests = True
     if _has_two_parts(function):
         if part.after and part.second is None and not pyfuncitem.name.endswith(_SHUTDOWN_PART):
             pytest.fail('generator or async generator based launch test items cannot be marked with shutdown=True',
@@ -184,6 +187,15 @@ def pytest_pyfunc_call(pyfuncitem):
     return True
 
 
+async def _let_end(service):
+    """Without active tests the launch is ended at once. A process that ends by itself may do so first."""
+    time_to_end = TimeToEnd()
+    while not service.task.done():
+        await asyncio.wait({service.task}, timeout=LOOK)
+        if time_to_end.is_over(set(service.context._running)):
+            return
+
+
 class _Run:
     """The run of one test."""
 
@@ -194,7 +206,10 @@ class _Run:
         self.arguments = {name: item.funcargs[name] for name in item._fixtureinfo.argnames}
 
     def end_of_launch(self):
-        finish(self._item.funcargs['launch_service'], f'test {self._item.name}', self._part.options.auto_shutdown)
+        service = self._item.funcargs['launch_service']
+        if not getattr(service, '_has_active_tests', False) and service.task is not None:
+            self._loop.run_until_complete(_let_end(service))
+        finish(service, f'test {self._item.name}', self._part.options.auto_shutdown)
 
     def call(self, function, is_async):
         """Async functions run on the loop of the launch; others on a thread, while the loop runs."""

@@ -24,13 +24,9 @@ from launch.events import IncludeLaunchDescription, Shutdown
 from launch.launch_context import LaunchContext
 from launch_testing import _loader, _results
 from launch_testing._known_process import ForeignProcess, command_line
+from launch_testing._time_to_end import TimeToEnd
 from launch_testing.io_handler import ActiveIoHandler
 from launch_testing.proc_info_handler import ActiveProcInfoHandler
-
-
-# Without active tests the launch is shut down at once. A process that ends by itself, such as `echo`, has this time to do
-# so first, in seconds; else a busy machine interrupts it before it has done anything.
-_TIME_TO_END = 2.0
 
 
 class LaunchServiceOfTests:
@@ -190,7 +186,8 @@ class Conductor(Action):
             self._told['cases'] += _results.run(self._run.active)
             self._active_tests_ended = True
             if not self._has_active_tests:
-                self._none_is_left.wait(timeout=_TIME_TO_END)
+                # The launch is shut down at once. A process that ends by itself, such as `echo`, may do so first.
+                TimeToEnd().wait(self._none_is_left, lambda: set(self._running))
         self.ask(self._end)
 
     # Results.

@@ -21,10 +21,6 @@ from launch.launch_context import LaunchContext
 _SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGQUIT)
 
 
-def _ignore(_event, _context):
-    return None
-
-
 class ServiceContext(LaunchContext):
     """The context of a LaunchService. What it is asked for before the launch runs is done at its begin."""
 
@@ -33,6 +29,7 @@ class ServiceContext(LaunchContext):
         self._waiting = []
         self._link = None
         self._is_shutdown = False
+        self._running = set()  # process ids
 
     def _do(self, function):
         if self._link is None:
@@ -47,14 +44,21 @@ class ServiceContext(LaunchContext):
         self.launch_configurations = _environment.configurations
         self._link = link
         # Events tell the actions what became of their processes, whoever else has a handler.
-        for handler in (OnProcessStart(on_start=_ignore), OnProcessExit(on_exit=_ignore)):
+        for handler in (OnProcessStart(on_start=self._on_start), OnProcessExit(on_exit=self._on_exit)):
             handler._made_at = None
             _launch_engine.visit(handler._all_tags(None, []))
         waiting, self._waiting = self._waiting, []
         for function in waiting:
             function()
 
+    def _on_start(self, event, _context):
+        self._running.add(event.pid)
+
+    def _on_exit(self, event, _context):
+        self._running.discard(event.pid)
+
     def _end(self):
+        self._running.clear()
         self._link = None
         self.launch_configurations = {}
 
