@@ -186,12 +186,31 @@ std::shared_ptr<const MessageType> InterfaceLibrary::message(const std::string& 
   if (std::find(kKinds.begin(), kKinds.end(), parts.kind) == kKinds.end()) {
     throw LaunchError(fmt::format("'{}' is not the name of an interface", name), {}, "write PACKAGE/msg/NAME");
   }
+  if (constexpr std::string_view kEvent = "_Event"; parts.kind != "msg" && full.ends_with(kEvent)) {
+    return event_of(full.substr(0, full.size() - kEvent.size()));
+  }
   load(parts.package, parts.kind, base_name(parts.name));
   const auto found = messages_.find(full);
   if (found == messages_.end()) {
     throw LaunchError(fmt::format("'{}' is not a message", full), {});
   }
   return found->second;
+}
+
+std::shared_ptr<const MessageType> InterfaceLibrary::event_of(const std::string& service) {
+  const auto one_at_most = [](std::string name, std::shared_ptr<const MessageType> type) {
+    return MessageField{std::move(name),
+                        {.kind = FieldKind::kMessage, .message = std::move(type), .many = Many::kSequence, .count = 1},
+                        {MessageValue::List()}};
+  };
+  MessageType event;
+  event.name = service + "_Event";
+  event.fields = {part_field("info", message("service_msgs/msg/ServiceEventInfo")),
+                  one_at_most("request", message(service + "_Request")),
+                  one_at_most("response", message(service + "_Response"))};
+  auto kept = std::make_shared<const MessageType>(std::move(event));
+  messages_[kept->name] = kept;
+  return kept;
 }
 
 ServiceType InterfaceLibrary::service(const std::string& name) {

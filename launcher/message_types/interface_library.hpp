@@ -4,7 +4,7 @@
 //
 // No library of the packages is loaded. A name is "std_msgs/msg/String" or, for a message, "std_msgs/String". The
 // messages that ROS 2 makes of a service or an action have their usual names ("AddTwoInts_Request",
-// "Fibonacci_SendGoal_Response", "Fibonacci_FeedbackMessage").
+// "AddTwoInts_Event", "Fibonacci_SendGoal_Response", "Fibonacci_FeedbackMessage").
 #pragma once
 
 #include <map>
@@ -39,6 +39,8 @@ class InterfaceLibrary {
 
  private:
   void load(const std::string& package, const std::string& kind, const std::string& name);
+  // The message of service introspection, of the service with this full name.
+  std::shared_ptr<const MessageType> event_of(const std::string& service);
 
   mutable PackageIndex packages_;
   Environment environment_;

@@ -4,16 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
-#include <fstream>
-#include <map>
 
-#include "base/diagnostics/diagnostic.hpp"
 #include "base/environment/own_environment.hpp"
 #include "base/environment/own_prefix.hpp"
-#include "launcher/message_types/yaml_text.hpp"
+#include "programs/ros/component_loading.hpp"
 #include "programs/ros/graph_names.hpp"
-#include "programs/ros/parameter_verb.hpp"
 #include "programs/ros/topic_graph.hpp"
 
 namespace launch {
@@ -25,26 +20,6 @@ constexpr const char* kListNodesType = "composition_interfaces/srv/ListNodes";
 
 std::vector<std::string> containers(GraphSession& session) {
   return nodes_with_service(session, kListNodes, kListNodesType);
-}
-
-// The classes that a package has registered, in the order of the index.
-std::vector<std::string> component_types(const std::string& package) {
-  PackageIndex packages(own_prefix());
-  const std::string prefix = packages.prefix(package, own_environment());
-  std::ifstream file(fmt::format("{}/share/ament_index/resource_index/rclcpp_components/{}", prefix, package));
-  std::vector<std::string> types;
-  for (std::string line; std::getline(file, line);) {
-    if (const std::size_t end = line.find(';'); end != std::string::npos) {
-      types.push_back(line.substr(0, end));
-    }
-  }
-  return types;
-}
-
-std::vector<std::string> packages_with_components() {
-  std::vector<std::string> names = PackageIndex(own_prefix()).packages(own_environment());
-  std::erase_if(names, [](const std::string& name) { return component_types(name).empty(); });
-  return names;
 }
 
 // Commands on one container.
@@ -110,45 +85,14 @@ class ComponentLoad final : public ContainerVerb {
  public:
   void declare(CLI::App& app) override {
     declare_container(app, true);
-    app.add_option("package", package_, "package of the component")->required();
-    app.add_option("plugin", plugin_, "class of the component, such as demo_nodes_cpp::Talker")->required();
-    app.add_option("-n,--node-name", name_, "name of the node");
-    app.add_option("--node-namespace", namespace_, "namespace of the node");
-    app.add_option("--log-level", level_, "DEBUG, INFO, WARN, ERROR or FATAL")
-        ->check(CLI::IsMember({"DEBUG", "INFO", "WARN", "ERROR", "FATAL"}, CLI::ignore_case));
-    app.add_option("-r,--remap-rule", remaps_, "from:=to; may be repeated")
-        ->take_all()
-        ->expected(1)
-        ->allow_extra_args(false);
-    app.add_option("-p,--parameter", parameters_, "name:=value; may be repeated")
-        ->take_all()
-        ->expected(1)
-        ->allow_extra_args(false);
-    app.add_option("-e,--extra-argument", extra_, "name:=value; may be repeated")
-        ->take_all()
-        ->expected(1)
-        ->allow_extra_args(false);
+    component_.declare(app);
     app.add_flag("-q,--quiet", quiet_, "print only number and name");
   }
 
   int run() override {
-    static const std::map<std::string, int> levels = {{"", 0},      {"debug", 10}, {"info", 20},
-                                                      {"warn", 30}, {"error", 40}, {"fatal", 50}};
-    const std::string request = fmt::format(
-        "{{package_name: {}, plugin_name: {}, node_name: {}, node_namespace: {}, log_level: {}, remap_rules: {}, "
-        "parameters: {}, extra_arguments: {}}}",
-        yaml_text(package_, true), yaml_text(plugin_, true), yaml_text(name_, true), yaml_text(namespace_, true),
-        levels.at(CLI::detail::to_lower(level_)), yaml_list(remaps_), parameter_list(parameters_),
-        parameter_list(extra_));
     GraphSession session;
     const std::string container = require_node(session, container_, look_.time());
-    const Reply reply =
-        ask(session, container + "/_container/load_node", "composition_interfaces/srv/LoadNode", request);
-    if (!std::get<bool>(reply.at("success").data)) {
-      throw CommandError("the component was not loaded: " + text_of(reply.at("error_message")));
-    }
-    const std::int64_t id = number_of(reply.at("unique_id"));
-    const std::string& node = text_of(reply.at("full_node_name"));
+    const auto [id, node] = component_.load_into(session, container);
     put(quiet_ ? fmt::format("{}  {}\n", id, node)
                : fmt::format("Loaded component {} into '{}' container node as '{}'\n", id, container, node));
     return 0;
@@ -161,21 +105,7 @@ class ComponentLoad final : public ContainerVerb {
   }
 
  private:
-  static std::string parameter_list(const std::vector<std::string>& words) {
-    std::string list;
-    for (const std::string& word : words) {
-      const std::size_t separator = word.find(":=");
-      if (separator == std::string::npos) {
-        throw CommandError(fmt::format("'{}' is not name:=value", word));
-      }
-      list += fmt::format("{}{{name: {}, value: {}}}", list.empty() ? "" : ", ",
-                          yaml_text(word.substr(0, separator), true), parameter_value_yaml(word.substr(separator + 2)));
-    }
-    return "[" + list + "]";
-  }
-
-  std::string package_, plugin_, name_, namespace_, level_;
-  std::vector<std::string> remaps_, parameters_, extra_;
+  ComponentOptions component_;
   bool quiet_ = false;
 };
 

@@ -74,9 +74,11 @@ std::optional<RawSubscription::Message> RawSubscription::take() {
   return message;
 }
 
-DescribedClient::DescribedClient(GraphSession& session, const std::string& service, const ServiceType& type)
+DescribedClient::DescribedClient(GraphSession& session, const std::string& service, const ServiceType& type,
+                                 const rmw_qos_profile_t& qos)
     : session_(session), type_(type) {
-  const rcl_client_options_t options = rcl_client_get_default_options();
+  rcl_client_options_t options = rcl_client_get_default_options();
+  options.qos = qos;
   require_ok(rcl_client_init(&client_, &session_.rcl_node(), &type_.handle(), service.c_str(), &options),
              "cannot call '" + service + "'");
 }

@@ -62,7 +62,8 @@ class RawSubscription {
 
 class DescribedClient {
  public:
-  DescribedClient(GraphSession& session, const std::string& service, const ServiceType& type);
+  DescribedClient(GraphSession& session, const std::string& service, const ServiceType& type,
+                  const rmw_qos_profile_t& qos = rmw_qos_profile_services_default);
   ~DescribedClient();
   DescribedClient(const DescribedClient&) = delete;
   DescribedClient& operator=(const DescribedClient&) = delete;

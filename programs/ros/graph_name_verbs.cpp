@@ -102,13 +102,15 @@ class TypeOfName final : public Verb {
 
 class NamesOfType final : public Verb {
  public:
-  explicit NamesOfType(const NamesOfGraph& names) : names_(names) {}
+  explicit NamesOfType(const NamesOfGraph& names) : names_(names), hidden_(&names == &kActions) {}
 
   void declare(CLI::App& app) override {
     app.add_option("type", type_, fmt::format("type of the {}s, such as {}", names_.kind, names_.example))->required();
     look_.declare(app);
     declare_count(app, names_, count_);
-    declare_hidden(app, names_, hidden_);
+    if (&names_ != &kActions) {
+      declare_hidden(app, names_, hidden_);
+    }
   }
 
   int run() override {
@@ -135,7 +137,7 @@ class NamesOfType final : public Verb {
   std::string type_;
   LookOptions look_;
   bool count_ = false;
-  bool hidden_ = false;
+  bool hidden_;
 };
 
 }  // namespace
@@ -147,6 +149,7 @@ std::vector<VerbInfo> graph_name_verbs() {
           {"service", "find", "lists the services of a type", [] { return make_verb<NamesOfType>(kServices); }},
           {"service", "list", "lists the services", [] { return make_verb<NameList>(kServices); }},
           {"service", "type", "prints the type of a service", [] { return make_verb<TypeOfName>(kServices); }},
+          {"action", "find", "lists the actions of a type", [] { return make_verb<NamesOfType>(kActions); }},
           {"action", "list", "lists the actions", [] { return make_verb<NameList>(kActions); }},
           {"action", "type", "prints the type of an action", [] { return make_verb<TypeOfName>(kActions); }}};
 }

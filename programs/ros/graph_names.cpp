@@ -176,7 +176,7 @@ Reply ask(GraphSession& session, const std::string& service, const std::string& 
   if (!session.wait_until([&] { return client.service_is_ready(); }, kServicePatience)) {
     throw CommandError(fmt::format("there is no service '{}'", service));
   }
-  auto response = client.call(read_message(*description.request, LocatedText(request)).value, kServicePatience);
+  auto response = client.call(read_message(*description.request, LocatedText(request)).value, session.answer_time());
   if (!response) {
     throw CommandError(fmt::format("service '{}' has not answered", service));
   }

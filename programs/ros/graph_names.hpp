@@ -48,7 +48,7 @@ std::string require_node(GraphSession& session, const std::string& name, std::op
 std::vector<std::string> nodes_with_service(GraphSession& session, const std::string& suffix, const std::string& type);
 
 // Calls a service with a request written as YAML, and gives the response. Throws CommandError if it is not there or
-// does not answer within ten seconds.
+// does not answer within the time of the session.
 struct Reply {
   std::shared_ptr<const MessageType> type;
   MessageValue value;

@@ -28,6 +28,10 @@ class GraphSession {
   GraphSession& operator=(const GraphSession&) = delete;
 
   rclcpp::Node& node() { return *node_; }
+
+  // How long services may take to answer; 10 seconds unless it was set.
+  Seconds answer_time() const { return answer_time_; }
+  void set_answer_time(Seconds time) { answer_time_ = time; }
   rcl_node_t& rcl_node();
 
   // Whether the user has asked to stop.
@@ -52,6 +56,7 @@ class GraphSession {
  private:
   std::shared_ptr<rclcpp::Node> node_;
   SessionClock::time_point last_change_;
+  Seconds answer_time_{10};
 };
 
 }  // namespace launch

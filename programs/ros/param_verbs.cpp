@@ -169,6 +169,7 @@ class ParamSet final : public ParameterVerb {
     app.add_option("assignments", words_,
                    "names and values in turn; a value is YAML: 3, 1.5, true, text, [1, 2]. NAME VALUE NAME VALUE …")
         ->required();
+    app.add_flag("--atomic", atomic_, "set all of them, or none when the node refuses one");
   }
 
   int run() override {
@@ -177,17 +178,25 @@ class ParamSet final : public ParameterVerb {
     }
     GraphSession session;
     const std::string node = find_node(session);
-    int exit_code = 0;
+    std::vector<std::pair<std::string, std::string>> parameters;
     for (std::size_t i = 0; i < words_.size(); i += 2) {
-      const std::string prefix = words_.size() > 2 ? words_[i] + ": " : "";
-      exit_code |= report(set_parameter(session, node, words_[i], parameter_value_yaml(words_[i + 1])),
-                          prefix + "Set parameter successful", prefix + "Setting parameter failed");
+      parameters.emplace_back(words_[i], parameter_value_yaml(words_[i + 1]));
+    }
+    const std::vector<SetResult> results = set_parameters(session, node, parameters, atomic_);
+    if (atomic_) {
+      return report(results.front(), "Set parameters atomically successful", "Setting parameters atomically failed");
+    }
+    int exit_code = 0;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      const std::string prefix = results.size() > 1 ? parameters[i].first + ": " : "";
+      exit_code |= report(results[i], prefix + "Set parameter successful", prefix + "Setting parameter failed");
     }
     return exit_code;
   }
 
  private:
   std::vector<std::string> words_;
+  bool atomic_ = false;
 };
 
 class ParamDelete final : public ParameterVerb {

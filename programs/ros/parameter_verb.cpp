@@ -148,17 +148,37 @@ std::vector<ParameterReading> parameter_values(GraphSession& session, const std:
   return readings;
 }
 
+std::vector<SetResult> set_parameters(GraphSession& session, const std::string& node,
+                                      const std::vector<std::pair<std::string, std::string>>& parameters,
+                                      bool atomically) {
+  std::string list;
+  for (const auto& [name, value] : parameters) {
+    list += fmt::format("{}{{name: {}, value: {}}}", list.empty() ? "" : ", ", yaml_text(name, true), value);
+  }
+  const std::string request = fmt::format("{{parameters: [{}]}}", list);
+  const Reply reply =
+      atomically ? ask(session, node + "/set_parameters_atomically", "rcl_interfaces/srv/SetParametersAtomically", request)
+                 : ask(session, node + "/set_parameters", "rcl_interfaces/srv/SetParameters", request);
+  const MessageType& type = *reply.type->find(atomically ? "result" : "results")->type.message;
+  const auto read = [&type](const MessageValue& result) -> SetResult {
+    return {std::get<bool>(member(type, result, "successful").data), text_of(member(type, result, "reason"))};
+  };
+  if (atomically) {
+    return {read(reply.at("result"))};
+  }
+  std::vector<SetResult> results;
+  for (const MessageValue& result : reply.at("results").list()) {
+    results.push_back(read(result));
+  }
+  if (results.size() != parameters.size()) {
+    throw CommandError(fmt::format("'{}' has answered for {} of {} parameters", node, results.size(), parameters.size()));
+  }
+  return results;
+}
+
 SetResult set_parameter(GraphSession& session, const std::string& node, const std::string& name,
                         const std::string& value) {
-  const Reply reply = ask(session, node + "/set_parameters", "rcl_interfaces/srv/SetParameters",
-                          fmt::format("{{parameters: [{{name: {}, value: {}}}]}}", yaml_text(name, true), value));
-  const MessageType& type = *reply.type->find("results")->type.message;
-  const MessageValue::List& results = reply.at("results").list();
-  if (results.empty()) {
-    throw CommandError(fmt::format("'{}' has not said whether it has set '{}'", node, name));
-  }
-  return {std::get<bool>(member(type, results.front(), "successful").data),
-          text_of(member(type, results.front(), "reason"))};
+  return set_parameters(session, node, {{name, value}}, false).front();
 }
 
 void ParameterVerb::declare_node(CLI::App& app) {
@@ -168,9 +188,14 @@ void ParameterVerb::declare_node(CLI::App& app) {
   app.add_option("--timeout", timeout_, "wait so many seconds for the node")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  app.add_option("--service-timeout", service_timeout_, "wait so many seconds for an answer; default: 10")
+      ->check(CLI::PositiveNumber);
 }
 
 std::string ParameterVerb::find_node(GraphSession& session) const {
+  if (service_timeout_) {
+    session.set_answer_time(Seconds(*service_timeout_));
+  }
   return require_node(session, node_, Seconds(std::max(timeout_, look_.spin_time.value_or(0.0))));
 }
 

@@ -2,8 +2,10 @@
 // What the commands on parameters of one node have in common.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "programs/ros/graph_names.hpp"
@@ -37,7 +39,11 @@ struct SetResult {
   bool successful = false;
   std::string reason;
 };
-// `value` is a rcl_interfaces/msg/ParameterValue as YAML.
+// Each value is a rcl_interfaces/msg/ParameterValue as YAML. With `atomically` either all are set or none, and there is one
+// result.
+std::vector<SetResult> set_parameters(GraphSession& session, const std::string& node,
+                                      const std::vector<std::pair<std::string, std::string>>& parameters,
+                                      bool atomically);
 SetResult set_parameter(GraphSession& session, const std::string& node, const std::string& name,
                         const std::string& value);
 
@@ -47,7 +53,7 @@ class ParameterVerb : public Verb {
 
  protected:
   void declare_node(CLI::App& app);
-  // Waits for the node. Returns its full name.
+  // Waits for the node. Returns its full name. Its services have the time that the command line says.
   std::string find_node(GraphSession& session) const;
   std::optional<Seconds> look_time() const { return look_.time(); }
   // Prints the result, and returns the exit code.
@@ -60,6 +66,7 @@ class ParameterVerb : public Verb {
   LookOptions look_;
   bool hidden_ = false;
   double timeout_ = 1.0;
+  std::optional<double> service_timeout_;
 };
 
 }  // namespace launch

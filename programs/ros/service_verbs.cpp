@@ -4,10 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "base/diagnostics/diagnostic.hpp"
 #include "launcher/message_types/print_value.hpp"
 #include "launcher/message_types/read_value.hpp"
+#include "programs/ros/endpoint_text.hpp"
 #include "programs/ros/endpoints.hpp"
 #include "programs/ros/graph_names.hpp"
 #include "programs/ros/topic_graph.hpp"
@@ -16,20 +18,64 @@ namespace launch {
 
 namespace {
 
+// An end of a service: a topic for the requests and one for the responses, of which it publishes one.
+struct ServiceEnd {
+  rclcpp::TopicEndpointInfo published;
+  rclcpp::TopicEndpointInfo taken;
+};
+
+std::vector<ServiceEnd> service_ends(GraphSession& session, const std::string& service, bool clients) {
+  const std::string requests = fmt::format("rq{}Request", service);
+  const std::string responses = fmt::format("rr{}Reply", service);
+  constexpr bool kNamesOfDds = true;
+  std::vector<rclcpp::TopicEndpointInfo> taken =
+      session.node().get_subscriptions_info_by_topic(clients ? responses : requests, kNamesOfDds);
+  std::vector<ServiceEnd> ends;
+  for (const auto& published :
+       session.node().get_publishers_info_by_topic(clients ? requests : responses, kNamesOfDds)) {
+    const auto of_same_node = std::find_if(taken.begin(), taken.end(), [&published](const auto& other) {
+      return other.node_name() == published.node_name() && other.node_namespace() == published.node_namespace();
+    });
+    if (of_same_node != taken.end()) {
+      ends.push_back({published, *of_same_node});
+      taken.erase(of_same_node);
+    }
+  }
+  return ends;
+}
+
+std::string service_end_text(const ServiceEnd& end, const std::string& type, bool is_client) {
+  std::string text = fmt::format(
+      "Node name: {}\nNode namespace: {}\nService type: {}\nEndpoint type: {}\nEndpoint count: 2\nGIDs:\n",
+      end.published.node_name(), end.published.node_namespace(), type, is_client ? "CLIENT" : "SERVER");
+  for (const auto* const endpoint : {&end.published, &end.taken}) {
+    text += fmt::format("- {}\n", gid_text(*endpoint));
+  }
+  text += "QoS profiles:";
+  for (const auto* const endpoint : {&end.published, &end.taken}) {
+    text += "\n- " + qos_text(*endpoint, "  ").substr(2);
+  }
+  return text;
+}
+
 class ServiceInfo final : public Verb {
  public:
   void declare(CLI::App& app) override {
     app.add_option("service", service_, "name of the service")->required();
     look_.declare(app);
+    app.add_flag("-v,--verbose", verbose_, "also print node, GIDs and quality of service of each client and server");
   }
 
   int run() override {
     const std::string service = full_name(service_);
     GraphSession session;
     session.discover(look_.time());
-    const std::vector<std::string> types = types_of(session, kServices, service);
-    put(fmt::format("Type: {}\nClients count: {}\nServices count: {}\n", fmt::join(types, ", "),
-                    session.node().count_clients(service), session.node().count_services(service)));
+    const std::string type = fmt::format("{}", fmt::join(types_of(session, kServices, service), ", "));
+    const char* const line_end = verbose_ ? "\n\n" : "\n";
+    put(fmt::format("Type: {}\nClients count: {}{}", type, session.node().count_clients(service), line_end));
+    put_ends(session, service, type, true);
+    put(fmt::format("Services count: {}{}", session.node().count_services(service), line_end));
+    put_ends(session, service, type, false);
     return 0;
   }
 
@@ -38,8 +84,17 @@ class ServiceInfo final : public Verb {
   }
 
  private:
+  void put_ends(GraphSession& session, const std::string& service, const std::string& type, bool clients) const {
+    if (verbose_) {
+      for (const ServiceEnd& end : service_ends(session, service, clients)) {
+        put(service_end_text(end, type, clients) + "\n\n");
+      }
+    }
+  }
+
   std::string service_;
   LookOptions look_;
+  bool verbose_ = false;
 };
 
 class ServiceCall final : public Verb {
@@ -51,6 +106,7 @@ class ServiceCall final : public Verb {
     app.add_option("-r,--rate", rate_, "call again and again, so many times in a second")->check(CLI::PositiveNumber);
     app.add_option("--timeout", timeout_, "fail if it takes so many seconds; default: wait without end")
         ->check(CLI::PositiveNumber);
+    qos_.declare(app, "call", "services_default");
   }
 
   int run() override {
@@ -58,7 +114,7 @@ class ServiceCall final : public Verb {
     const ServiceType type = installed_interfaces().service(type_);
     MessageText request = read_message(*type.request, values_.read("values"));
     GraphSession session;
-    DescribedClient client(session, service, type);
+    DescribedClient client(session, service, type, qos_.make());
     const auto time = timeout_ ? std::optional<Seconds>(*timeout_) : std::nullopt;
     const auto ready = [&] { return client.service_is_ready(); };
     if (!session.wait_until(ready, Seconds(0.3))) {
@@ -96,6 +152,7 @@ class ServiceCall final : public Verb {
   ValuesOption values_;
   std::optional<double> rate_;
   std::optional<double> timeout_;
+  QosOptions qos_;
 };
 
 }  // namespace

@@ -67,6 +67,7 @@ void LookOptions::declare(CLI::App& app) {
   app.add_option("--spin-time", spin_time, "look for so many seconds; default: until nothing more is found")
       ->check(CLI::PositiveNumber);
   app.add_flag("--no-daemon", no_daemon, "has no effect: there is no daemon");
+  app.add_flag("-s,--use-sim-time", use_sim_time, "has no effect: the time of the machine is used");
 }
 
 std::optional<Seconds> LookOptions::time() const {

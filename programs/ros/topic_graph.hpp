@@ -14,6 +14,7 @@ namespace launch {
 struct LookOptions {
   std::optional<double> spin_time;
   bool no_daemon = false;
+  bool use_sim_time = false;
 
   void declare(CLI::App& app);
   std::optional<Seconds> time() const;
@@ -44,7 +45,7 @@ struct QosOptions {
   std::string history, reliability, durability, liveliness;
   std::optional<double> lease;
 
-  // `verb` is "subscribe" or "publish", `default_profile` "sensor_data" or "default".
+  // `verb` is "subscribe", "publish" or "call", `default_profile` a name such as "sensor_data".
   void declare(CLI::App& app, const std::string& verb, const std::string& default_profile);
   // The profile with the changes that were asked for. Throws CommandError for an unknown word.
   rmw_qos_profile_t make() const;

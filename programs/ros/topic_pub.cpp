@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string_view>
 
+#include "base/diagnostics/read_source_file.hpp"
 #include "launcher/message_types/print_value.hpp"
 #include "launcher/message_types/read_value.hpp"
 #include "programs/ros/endpoints.hpp"
@@ -24,6 +27,10 @@ class TopicPub final : public Verb {
     app.add_option("topic", topic_, "name of the topic")->required();
     app.add_option("type", type_, "type of the messages, such as std_msgs/msg/String")->required();
     values_.declare(app, "values", "message");
+    app.add_option("--yaml-file", file_,
+                   "publish the messages of this file in turn, as 'launch topic echo' writes them, and end with the last one")
+        ->excludes("values")
+        ->excludes("--stdin");
     app.add_option("-r,--rate", rate_, "messages in a second")->check(CLI::PositiveNumber)->capture_default_str();
     app.add_option("-p,--print", print_nth_, "print each N-th message")
         ->check(CLI::NonNegativeNumber)
@@ -46,8 +53,8 @@ class TopicPub final : public Verb {
   int run() override {
     const std::string topic = full_name(topic_);
     const std::shared_ptr<const MessageType> type = installed_interfaces().message(type_);
-    MessageText message = read_message(*type, values_.read("values"));
-    times_ = once_ ? 1 : times_;
+    std::vector<MessageText> messages = read(*type);
+    times_ = once_ ? 1 : times_ == 0 && !file_.empty() ? messages.size() : times_;
     const std::size_t wanted = wait_.value_or(times_ != 0 ? 1 : 0);
     if (wanted == 0 && longest_wait_) {
       throw CommandError("--max-wait-time-secs needs --wait-matching-subscriptions, --once or --times");
@@ -61,6 +68,7 @@ class TopicPub final : public Verb {
     const auto period = std::chrono::duration_cast<SessionClock::duration>(Seconds(1.0 / rate_));
     auto next = SessionClock::now();
     for (std::uint64_t count = 1; !GraphSession::is_stopped() && (times_ == 0 || count <= times_); ++count) {
+      MessageText& message = messages[(count - 1) % messages.size()];
       message.stamp(session.node().now().nanoseconds());
       if (print_nth_ != 0 && count % print_nth_ == 0) {
         put(fmt::format("publishing #{}: {}\n\n", count, to_python(*type, message.value)));
@@ -79,6 +87,46 @@ class TopicPub final : public Verb {
   std::vector<std::string> complete(const std::vector<std::string>& words) override { return topic_then_type(words); }
 
  private:
+  // Those of the file, or the one of the command line.
+  std::vector<MessageText> read(const MessageType& type) {
+    if (file_.empty()) {
+      return {read_message(type, values_.read("values"))};
+    }
+    const auto file = read_source_file(file_);
+    std::vector<MessageText> messages;
+    for (const LocatedText& document : documents_of(file)) {
+      messages.push_back(read_message(type, document));
+    }
+    if (messages.empty()) {
+      throw CommandError(fmt::format("'{}' holds no message", file_));
+    }
+    return messages;
+  }
+
+  // The parts between the lines '---' that hold something.
+  static std::vector<LocatedText> documents_of(const std::shared_ptr<const SourceFile>& file) {
+    std::vector<LocatedText> documents;
+    const std::string_view text = file->text();
+    std::size_t begin = 0;
+    const auto add = [&](std::size_t end) {
+      const std::string_view document = text.substr(begin, end - begin);
+      if (document.find_first_not_of(" \t\r\n") != std::string_view::npos) {
+        documents.emplace_back(std::string(document),
+                               SourceRange{file, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)});
+      }
+    };
+    for (std::size_t line = 0; line < text.size();) {
+      const std::size_t end = std::min(text.find('\n', line), text.size());
+      if (text.substr(line, end - line).starts_with("---")) {
+        add(line);
+        begin = std::min(end + 1, text.size());
+      }
+      line = end + 1;
+    }
+    add(text.size());
+    return documents;
+  }
+
   bool wait_for_subscriptions(GraphSession& session, const DescribedPublisher& publisher, std::size_t wanted) const {
     const auto enough = [&] { return publisher.subscription_count() >= wanted; };
     Seconds waited(0);
@@ -97,7 +145,7 @@ class TopicPub final : public Verb {
     return true;
   }
 
-  std::string topic_, type_, node_name_;
+  std::string topic_, type_, node_name_, file_;
   ValuesOption values_;
   bool once_ = false;
   double rate_ = 1.0;

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <map>
 
+#include "base/diagnostics/diagnostic.hpp"
 #include "launcher/message_types/cdr/cdr_codec.hpp"
 #include "launcher/message_types/message_condition.hpp"
 #include "launcher/message_types/message_part.hpp"
@@ -37,6 +38,56 @@ std::optional<Measured> measure(GraphSession& session, const std::string& topic,
   return measured;
 }
 
+// The topics that are named, or all that there are with `all`; of these, those of types that are not installed are left out
+// with a warning. None if the user has asked to stop.
+std::vector<Measured> measure_all(GraphSession& session, const std::vector<std::string>& topics, bool all,
+                                  const LookOptions& look, const QosOptions& qos) {
+  std::vector<Measured> measured;
+  for (const std::string& topic : topics) {
+    if (auto one = measure(session, full_name(topic), qos)) {
+      measured.push_back(std::move(*one));
+    } else {
+      return {};
+    }
+  }
+  if (!all) {
+    return measured;
+  }
+  session.discover(look.time());
+  for (const auto& [topic, types] : session.node().get_topic_names_and_types()) {
+    if (is_hidden(topic) || types.size() != 1) {
+      continue;
+    }
+    try {
+      Measured one{topic, installed_interfaces().message(types.front()), nullptr};
+      one.subscription = std::make_unique<RawSubscription>(session, topic, one.type, qos.make());
+      measured.push_back(std::move(one));
+    } catch (const LaunchError& error) {
+      fmt::print(stderr, "WARNING: topic [{}] is left out: {}\n", topic, error.what());
+    }
+  }
+  if (measured.empty()) {
+    throw CommandError("there are no topics");
+  }
+  return measured;
+}
+
+// Names of topics, or all of them.
+struct TopicsOption {
+  std::vector<std::string> names;
+  bool all = false;
+
+  void declare(CLI::App& app) {
+    CLI::Option* const words = app.add_option("topic", names, "names of the topics");
+    app.add_flag("-a,--all", all, "all topics that there are")->excludes(words);
+  }
+  void check() const {
+    if (names.empty() && !all) {
+      throw CommandError("no topic is given", "name topics, or use --all");
+    }
+  }
+};
+
 // Calls `take` for each message and `print` each second, until the user stops it.
 template <typename Take, typename Print>
 void run_until_stopped(GraphSession& session, const std::vector<Measured>& topics, const Take& take,
@@ -67,7 +118,7 @@ double now_seconds(GraphSession& session) {
 class TopicHz final : public Verb {
  public:
   void declare(CLI::App& app) override {
-    app.add_option("topic", topics_, "names of the topics")->required();
+    topics_.declare(app);
     app.add_option("-w,--window", window_, "the last so many messages count")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
@@ -78,21 +129,17 @@ class TopicHz final : public Verb {
   }
 
   int run() override {
+    topics_.check();
     GraphSession session;
-    std::vector<Measured> measured;
-    for (const std::string& topic : topics_) {
-      auto one = measure(session, full_name(topic), qos_);
-      if (!one) {
-        return 0;
-      }
+    const std::vector<Measured> measured = measure_all(session, topics_.names, topics_.all, look_, qos_);
+    for (const Measured& one : measured) {
       if (!filter_.empty()) {
-        conditions_.try_emplace(one->topic, one->type, word_of_command_line("--filter", filter_));
+        conditions_.try_emplace(one.topic, one.type, word_of_command_line("--filter", filter_));
       }
-      statistics_.try_emplace(one->topic, window_);
-      if (topics_.size() > 1) {
-        put(fmt::format("Subscribed to [{}]\n", one->topic));
+      statistics_.try_emplace(one.topic, window_);
+      if (measured.size() > 1) {
+        put(fmt::format("Subscribed to [{}]\n", one.topic));
       }
-      measured.push_back(std::move(*one));
     }
     run_until_stopped(
         session, measured,
@@ -127,7 +174,7 @@ class TopicHz final : public Verb {
     put(topics.size() == 1 ? (rows.empty() ? "" : rate_text(rows.front().second)) : rate_table(rows));
   }
 
-  std::vector<std::string> topics_;
+  TopicsOption topics_;
   std::size_t window_ = 10000;
   std::string filter_;
   bool wall_time_ = false;
@@ -137,13 +184,56 @@ class TopicHz final : public Verb {
   std::map<std::string, MessageCondition> conditions_;
 };
 
-// Commands that measure one topic.
-class OneTopicVerb : public Verb {
+class TopicBw final : public Verb {
  public:
-  explicit OneTopicVerb(std::string help = "name of the topic") : help_(std::move(help)) {}
-
   void declare(CLI::App& app) override {
-    app.add_option("topic", topic_, help_)->required();
+    topics_.declare(app);
+    app.add_option("-w,--window", window_, "the last so many messages count")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    qos_.declare(app, "subscribe", "sensor_data");
+    look_.declare(app);
+  }
+
+  int run() override {
+    topics_.check();
+    GraphSession session;
+    const std::vector<Measured> measured = measure_all(session, topics_.names, topics_.all, look_, qos_);
+    std::map<std::string, BandwidthStatistics> statistics;
+    for (const Measured& one : measured) {
+      put(fmt::format("Subscribed to [{}]\n", one.topic));
+      statistics.try_emplace(one.topic, window_);
+    }
+    run_until_stopped(
+        session, measured,
+        [&](const Measured& topic, const RawSubscription::Message& message) {
+          statistics.at(topic.topic).add(now_seconds(session), message.bytes.size());
+        },
+        [&] {
+          for (const auto& [topic, of_topic] : statistics) {
+            const std::string text = of_topic.text(now_seconds(session));
+            put(statistics.size() > 1 && !text.empty() ? fmt::format("{}: {}", topic, text) : text);
+          }
+        });
+    return 0;
+  }
+
+  std::vector<std::string> complete(const std::vector<std::string>& words) override {
+    (void)words;
+    return all_names(kTopics);
+  }
+
+ private:
+  TopicsOption topics_;
+  std::size_t window_ = 100;
+  QosOptions qos_;
+  LookOptions look_;
+};
+
+class TopicDelay final : public Verb {
+ public:
+  void declare(CLI::App& app) override {
+    app.add_option("topic", topic_, "name of the topic; its messages have a header")->required();
     app.add_option("-w,--window", window_, "the last so many messages count")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
@@ -154,40 +244,6 @@ class OneTopicVerb : public Verb {
   std::vector<std::string> complete(const std::vector<std::string>& words) override {
     return words.empty() ? all_names(kTopics) : std::vector<std::string>();
   }
-
- protected:
-  std::string topic_;
-  std::size_t window_ = 100;
-  QosOptions qos_;
-  LookOptions look_;
-
- private:
-  std::string help_;
-};
-
-class TopicBw final : public OneTopicVerb {
- public:
-  int run() override {
-    GraphSession session;
-    std::vector<Measured> measured;
-    if (auto one = measure(session, full_name(topic_), qos_)) {
-      measured.push_back(std::move(*one));
-      put(fmt::format("Subscribed to [{}]\n", measured.front().topic));
-      BandwidthStatistics statistics(window_);
-      run_until_stopped(
-          session, measured,
-          [&](const Measured&, const RawSubscription::Message& message) {
-            statistics.add(now_seconds(session), message.bytes.size());
-          },
-          [&] { put(statistics.text(now_seconds(session))); });
-    }
-    return 0;
-  }
-};
-
-class TopicDelay final : public OneTopicVerb {
- public:
-  TopicDelay() : OneTopicVerb("name of the topic; its messages have a header") {}
 
   int run() override {
     GraphSession session;
@@ -224,6 +280,12 @@ class TopicDelay final : public OneTopicVerb {
         });
     return 0;
   }
+
+ private:
+  std::string topic_;
+  std::size_t window_ = 100;
+  QosOptions qos_;
+  LookOptions look_;
 };
 
 }  // namespace

@@ -86,6 +86,8 @@ void put(std::string_view text);
 std::vector<VerbInfo> action_verbs();
 std::vector<VerbInfo> clock_verbs();
 std::vector<VerbInfo> component_verbs();
+std::vector<VerbInfo> component_standalone_verbs();
+std::vector<VerbInfo> event_echo_verbs();
 std::vector<VerbInfo> graph_name_verbs();
 std::vector<VerbInfo> interface_verbs();
 std::vector<VerbInfo> lifecycle_verbs();
