@@ -52,8 +52,8 @@ std::string parameter_list(const std::vector<std::string>& words) {
     if (separator == std::string::npos) {
       throw CommandError(fmt::format("'{}' is not name:=value", word));
     }
-    list += fmt::format("{}{{name: {}, value: {}}}", list.empty() ? "" : ", ", yaml_text(word.substr(0, separator), true),
-                        parameter_value_yaml(word.substr(separator + 2)));
+    list += fmt::format("{}{{name: {}, value: {}}}", list.empty() ? "" : ", ",
+                        yaml_text(word.substr(0, separator), true), parameter_value_yaml(word.substr(separator + 2)));
   }
   return "[" + list + "]";
 }
@@ -82,7 +82,8 @@ ComponentOptions::Loaded ComponentOptions::load_into(GraphSession& session, cons
       "{{package_name: {}, plugin_name: {}, node_name: {}, node_namespace: {}, log_level: {}, remap_rules: {}, "
       "parameters: {}, extra_arguments: {}}}",
       yaml_text(package_, true), yaml_text(plugin_, true), yaml_text(name_, true), yaml_text(namespace_, true),
-      levels.at(CLI::detail::to_lower(level_)), yaml_list(remaps_), parameter_list(parameters_), parameter_list(extra_));
+      levels.at(CLI::detail::to_lower(level_)), yaml_list(remaps_), parameter_list(parameters_),
+      parameter_list(extra_));
   const Reply reply = ask(session, container + "/_container/load_node", "composition_interfaces/srv/LoadNode", request);
   if (!std::get<bool>(reply.at("success").data)) {
     throw CommandError("the component was not loaded: " + text_of(reply.at("error_message")));
@@ -174,7 +175,7 @@ class ComponentStandalone final : public Verb {
   }
 
   std::vector<std::string> complete(const std::vector<std::string>& words) override {
-    return words.empty() ? packages_with_components()
+    return words.empty()       ? packages_with_components()
            : words.size() == 1 ? component_types(words.front())
                                : std::vector<std::string>();
   }

@@ -84,8 +84,12 @@ class EventEcho : public Verb {
 
   static Source source(GraphSession& session, const std::string& topic, const std::shared_ptr<const MessageType>& type,
                        const rmw_qos_profile_t& qos, bool is_event) {
-    return {"", topic, type, is_event ? with_event_word(*type) : type,
-            std::make_unique<RawSubscription>(session, topic, type, qos), is_event};
+    return {"",
+            topic,
+            type,
+            is_event ? with_event_word(*type) : type,
+            std::make_unique<RawSubscription>(session, topic, type, qos),
+            is_event};
   }
 
   // Prints what comes until the user stops it.
@@ -144,7 +148,8 @@ class ServiceEcho final : public EventEcho {
     sources.push_back(event_source(session, service, type));
     const std::string& topic = sources.front().topic;
     if (!session.wait_until([&] { return session.node().count_publishers(topic) > 0; }, Seconds(1))) {
-      fmt::print(stderr, "No publishers on topic '{}'; is service introspection on the client or server enabled?\n", topic);
+      fmt::print(stderr, "No publishers on topic '{}'; is service introspection on the client or server enabled?\n",
+                 topic);
     }
     return echo(session, sources);
   }
@@ -217,8 +222,8 @@ class ActionEcho final : public EventEcho {
     rmw_qos_profile_t of_status = rmw_qos_profile_default;
     of_status.durability = RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL;
     of_status.depth = 1;
-    return source(session, prefix + "status", installed_interfaces().message("action_msgs/msg/GoalStatusArray"), of_status,
-                  false);
+    return source(session, prefix + "status", installed_interfaces().message("action_msgs/msg/GoalStatusArray"),
+                  of_status, false);
   }
 
   std::optional<std::string> interfaces_;

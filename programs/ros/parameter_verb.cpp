@@ -156,9 +156,9 @@ std::vector<SetResult> set_parameters(GraphSession& session, const std::string& 
     list += fmt::format("{}{{name: {}, value: {}}}", list.empty() ? "" : ", ", yaml_text(name, true), value);
   }
   const std::string request = fmt::format("{{parameters: [{}]}}", list);
-  const Reply reply =
-      atomically ? ask(session, node + "/set_parameters_atomically", "rcl_interfaces/srv/SetParametersAtomically", request)
-                 : ask(session, node + "/set_parameters", "rcl_interfaces/srv/SetParameters", request);
+  const Reply reply = atomically ? ask(session, node + "/set_parameters_atomically",
+                                       "rcl_interfaces/srv/SetParametersAtomically", request)
+                                 : ask(session, node + "/set_parameters", "rcl_interfaces/srv/SetParameters", request);
   const MessageType& type = *reply.type->find(atomically ? "result" : "results")->type.message;
   const auto read = [&type](const MessageValue& result) -> SetResult {
     return {std::get<bool>(member(type, result, "successful").data), text_of(member(type, result, "reason"))};
@@ -171,7 +171,8 @@ std::vector<SetResult> set_parameters(GraphSession& session, const std::string& 
     results.push_back(read(result));
   }
   if (results.size() != parameters.size()) {
-    throw CommandError(fmt::format("'{}' has answered for {} of {} parameters", node, results.size(), parameters.size()));
+    throw CommandError(
+        fmt::format("'{}' has answered for {} of {} parameters", node, results.size(), parameters.size()));
   }
   return results;
 }

@@ -39,8 +39,8 @@ struct SetResult {
   bool successful = false;
   std::string reason;
 };
-// Each value is a rcl_interfaces/msg/ParameterValue as YAML. With `atomically` either all are set or none, and there is one
-// result.
+// Each value is a rcl_interfaces/msg/ParameterValue as YAML. With `atomically` either all are set or none, and there is
+// one result.
 std::vector<SetResult> set_parameters(GraphSession& session, const std::string& node,
                                       const std::vector<std::pair<std::string, std::string>>& parameters,
                                       bool atomically);

@@ -45,9 +45,9 @@ std::vector<ServiceEnd> service_ends(GraphSession& session, const std::string& s
 }
 
 std::string service_end_text(const ServiceEnd& end, const std::string& type, bool is_client) {
-  std::string text = fmt::format(
-      "Node name: {}\nNode namespace: {}\nService type: {}\nEndpoint type: {}\nEndpoint count: 2\nGIDs:\n",
-      end.published.node_name(), end.published.node_namespace(), type, is_client ? "CLIENT" : "SERVER");
+  std::string text =
+      fmt::format("Node name: {}\nNode namespace: {}\nService type: {}\nEndpoint type: {}\nEndpoint count: 2\nGIDs:\n",
+                  end.published.node_name(), end.published.node_namespace(), type, is_client ? "CLIENT" : "SERVER");
   for (const auto* const endpoint : {&end.published, &end.taken}) {
     text += fmt::format("- {}\n", gid_text(*endpoint));
   }

@@ -27,8 +27,9 @@ class TopicPub final : public Verb {
     app.add_option("topic", topic_, "name of the topic")->required();
     app.add_option("type", type_, "type of the messages, such as std_msgs/msg/String")->required();
     values_.declare(app, "values", "message");
-    app.add_option("--yaml-file", file_,
-                   "publish the messages of this file in turn, as 'launch topic echo' writes them, and end with the last one")
+    app.add_option(
+           "--yaml-file", file_,
+           "publish the messages of this file in turn, as 'launch topic echo' writes them, and end with the last one")
         ->excludes("values")
         ->excludes("--stdin");
     app.add_option("-r,--rate", rate_, "messages in a second")->check(CLI::PositiveNumber)->capture_default_str();

@@ -38,8 +38,8 @@ std::optional<Measured> measure(GraphSession& session, const std::string& topic,
   return measured;
 }
 
-// The topics that are named, or all that there are with `all`; of these, those of types that are not installed are left out
-// with a warning. None if the user has asked to stop.
+// The topics that are named, or all that there are with `all`; of these, those of types that are not installed are left
+// out with a warning. None if the user has asked to stop.
 std::vector<Measured> measure_all(GraphSession& session, const std::vector<std::string>& topics, bool all,
                                   const LookOptions& look, const QosOptions& qos) {
   std::vector<Measured> measured;

@@ -16,9 +16,9 @@ const std::vector<VerbInfo>& all_verbs() {
   static const std::vector<VerbInfo> verbs = [] {
     std::vector<VerbInfo> all;
     for (const auto& verbs_of_file :
-         {action_verbs, clock_verbs, component_verbs, component_standalone_verbs, event_echo_verbs, graph_name_verbs, interface_verbs, lifecycle_verbs,
-          loglevel_verbs, node_verbs, param_file_verbs, param_verbs, service_verbs, topic_echo_verbs, topic_info_verbs,
-          topic_pub_verbs, topic_rate_verbs}) {
+         {action_verbs, clock_verbs, component_verbs, component_standalone_verbs, event_echo_verbs, graph_name_verbs,
+          interface_verbs, lifecycle_verbs, loglevel_verbs, node_verbs, param_file_verbs, param_verbs, service_verbs,
+          topic_echo_verbs, topic_info_verbs, topic_pub_verbs, topic_rate_verbs}) {
       for (VerbInfo& verb : verbs_of_file()) {
         all.push_back(std::move(verb));
       }

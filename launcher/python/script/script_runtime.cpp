@@ -27,9 +27,7 @@ class ScriptRuntime::Object : public python::Object {
   void start(python::Host& host) override { call("start", &host); }
 
  private:
-  Json call(const char* what, python::Host* host) {
-    return runtime_.call({{"call", what}, {"object", number_}}, host);
-  }
+  Json call(const char* what, python::Host* host) { return runtime_.call({{"call", what}, {"object", number_}}, host); }
 
   ScriptRuntime& runtime_;
   std::int64_t number_;
@@ -173,7 +171,8 @@ ScriptRuntime::Json ScriptRuntime::ask_host(const Json& question, python::Host& 
   } else if (what == "pop") {
     host.pop(question.at("environment").get<bool>());
   } else {
-    throw std::runtime_error("the launcher knows no call '" + what + "'; it is of another version than the script's packages");
+    throw std::runtime_error("the launcher knows no call '" + what +
+                             "'; it is of another version than the script's packages");
   }
   return nullptr;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plain data of the interface with Python (python_runtime.hpp) as JSON. launch/_script/_values.py is the other side.
+// The plain data of the interface with Python (python_runtime.hpp) as JSON. launch/_script/_values.py is the other
+// side.
 #pragma once
 
 #include <cstdint>

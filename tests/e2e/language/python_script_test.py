@@ -319,6 +319,14 @@ class PythonScriptTest(unittest.TestCase):
         ''')
         self.assertIn('code 1', output.splitlines(), output)
 
+    def test_setup_bash_makes_the_packages_known(self):
+        script = self.script('import launch_ros.actions; sys.exit(LaunchService().run())')
+        environment = {name: value for name, value in self.environment.items() if name != 'PYTHONPATH'}
+        words = 'source "$1/setup.bash" && exec "$2" "$3"'
+        result = subprocess.run(['bash', '-c', words, 'bash', str(LAUNCHER.parent.parent), sys.executable, str(script)],
+                                env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=PATIENCE)
+        self.assertEqual(result.returncode, 0, result.stdout)
+
     def test_the_example(self):
         result = subprocess.run([sys.executable, str(EXAMPLES / '60_script.py')], env=self.environment,
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=PATIENCE)

@@ -70,8 +70,8 @@ TEST(GraphOptions, MessagesOfAFile) {
   const std::filesystem::path file = sandbox.directory() / "messages.yaml";
   write_file(file, "---\ndata: one\n---\n---\ndata: two\n");
   RunningCommand echo(launch_words({"topic", "echo", "/words", "std_msgs/msg/String"}));
-  const CommandResult sent =
-      launch_command({"topic", "pub", "/words", "std_msgs/msg/String", "--yaml-file", file.string(), "-r", "20", "-w", "1"});
+  const CommandResult sent = launch_command(
+      {"topic", "pub", "/words", "std_msgs/msg/String", "--yaml-file", file.string(), "-r", "20", "-w", "1"});
   EXPECT_EQ(sent.exit_code, 0) << sent.err;
   EXPECT_THAT(sent.out, HasSubstr("publishing #1: std_msgs.msg.String(data='one')\n\n"
                                   "publishing #2: std_msgs.msg.String(data='two')\n\n"));
@@ -79,8 +79,9 @@ TEST(GraphOptions, MessagesOfAFile) {
   EXPECT_EQ(echo.end_gently().out, "data: one\n---\ndata: two\n---\n");
   write_file(file, "data: one\n---\ndato: two\n");
   EXPECT_EQ(launch_command({"topic", "pub", "/words", "std_msgs/msg/String", "--yaml-file", file.string()}).err,
-            file.string() + ":3:1: error: std_msgs/msg/String has no field 'dato'\n    3 | dato: two\n      | ^~~~\n"
-                            "      = help: did you mean 'data'?\n");
+            file.string() +
+                ":3:1: error: std_msgs/msg/String has no field 'dato'\n    3 | dato: two\n      | ^~~~\n"
+                "      = help: did you mean 'data'?\n");
   write_file(file, "---\n");
   EXPECT_EQ(launch_command({"topic", "pub", "/words", "std_msgs/msg/String", "--yaml-file", file.string()}).err,
             "launch topic pub: error: '" + file.string() + "' holds no message\n");
@@ -88,18 +89,21 @@ TEST(GraphOptions, MessagesOfAFile) {
 
 TEST(GraphOptions, ServicesInDetail) {
   Sandbox sandbox;
-  RunningCommand service(node("demo_nodes_cpp/introspection_service",
-                              {"--ros-args", "-p", "service_configure_introspection:=contents"}));
+  RunningCommand service(
+      node("demo_nodes_cpp/introspection_service", {"--ros-args", "-p", "service_configure_introspection:=contents"}));
   const CommandResult info = ask_until({"service", "info", "-v", "/add_two_ints"}, "Node name: introspection_service");
-  EXPECT_THAT(info.out,
-              MatchesRegex("Type: example_interfaces/srv/AddTwoInts\nClients count: 0\n\nServices count: 1\n\n"
-                           "Node name: introspection_service\nNode namespace: /\n"
-                           "Service type: example_interfaces/srv/AddTwoInts\nEndpoint type: SERVER\nEndpoint count: 2\n"
-                           "GIDs:\n- [0-9a-f.]+\n- [0-9a-f.]+\nQoS profiles:\n- Reliability: RELIABLE\n"
-                           "  History \\(Depth\\): [^\n]*\n  Durability: VOLATILE\n(.|\n)*- Reliability: RELIABLE\n(.|\n)*\n\n"));
+  EXPECT_THAT(
+      info.out,
+      MatchesRegex(
+          "Type: example_interfaces/srv/AddTwoInts\nClients count: 0\n\nServices count: 1\n\n"
+          "Node name: introspection_service\nNode namespace: /\n"
+          "Service type: example_interfaces/srv/AddTwoInts\nEndpoint type: SERVER\nEndpoint count: 2\n"
+          "GIDs:\n- [0-9a-f.]+\n- [0-9a-f.]+\nQoS profiles:\n- Reliability: RELIABLE\n"
+          "  History \\(Depth\\): [^\n]*\n  Durability: VOLATILE\n(.|\n)*- Reliability: RELIABLE\n(.|\n)*\n\n"));
   RunningCommand echo(launch_words({"service", "echo", "/add_two_ints", "--flow-style"}));
-  RunningCommand call(launch_words({"service", "call", "/add_two_ints", "example_interfaces/srv/AddTwoInts", "{a: 1, b: 2}",
-                                    "--rate", "5", "--qos-depth", "3", "--qos-reliability", "reliable"}));
+  RunningCommand call(
+      launch_words({"service", "call", "/add_two_ints", "example_interfaces/srv/AddTwoInts", "{a: 1, b: 2}", "--rate",
+                    "5", "--qos-depth", "3", "--qos-reliability", "reliable"}));
   EXPECT_TRUE(call.wait_for_output("AddTwoInts_Response(sum=3)", kPatience)) << call.err();
   EXPECT_TRUE(echo.wait_for_output("event_type: RESPONSE_SENT", kPatience)) << echo.err();
   EXPECT_THAT(echo.out(), HasSubstr("event_type: REQUEST_RECEIVED"));
@@ -112,8 +116,7 @@ TEST(GraphOptions, ServicesInDetail) {
 TEST(GraphOptions, ActionsAreFoundAndEchoed) {
   Sandbox sandbox;
   RunningCommand server(node("demo_nodes/fibonacci_action_server", {"--ros-args", "-p", "period_ms:=20"}));
-  const std::string action =
-      ask_until({"action", "find", "example_interfaces/action/Fibonacci"}, "fibonacci").out;
+  const std::string action = ask_until({"action", "find", "example_interfaces/action/Fibonacci"}, "fibonacci").out;
   EXPECT_EQ(action, "/fibonacci\n");
   EXPECT_EQ(ask_until({"action", "find", "-c", "example_interfaces/Fibonacci"}, "1").out, "1\n");
   RunningCommand echo(launch_words({"action", "echo", "/fibonacci", "-i", "feedback_topic | STATUS_TOPIC"}));
@@ -122,9 +125,10 @@ TEST(GraphOptions, ActionsAreFoundAndEchoed) {
   EXPECT_EQ(goal.exit_code, 0) << goal.err;
   EXPECT_TRUE(echo.wait_for_output("interface: STATUS_TOPIC\nstatus_list:\n", kPatience)) << echo.out() << echo.err();
   EXPECT_EQ(echo.end_gently().exit_code, 0);
-  EXPECT_EQ(launch_command({"action", "echo", "/fibonacci", "-i", "GOALS"}).err,
-            "launch action echo: error: an action has no interface 'GOALS'\n      = help: its interfaces are GOAL_SERVICE, "
-            "CANCEL_SERVICE, RESULT_SERVICE, FEEDBACK_TOPIC, STATUS_TOPIC\n");
+  EXPECT_EQ(
+      launch_command({"action", "echo", "/fibonacci", "-i", "GOALS"}).err,
+      "launch action echo: error: an action has no interface 'GOALS'\n      = help: its interfaces are GOAL_SERVICE, "
+      "CANCEL_SERVICE, RESULT_SERVICE, FEEDBACK_TOPIC, STATUS_TOPIC\n");
   server.end_gently();
 }
 
@@ -132,8 +136,8 @@ TEST(GraphOptions, ParametersAreSetAtomically) {
   Sandbox sandbox;
   RunningCommand server(node("demo_nodes/add_two_ints_server"));
   ask_until({"param", "list"}, "  count");
-  const std::vector<std::string> set = {"param", "set", "/add_two_ints_server", "--atomic", "--service-timeout", "60",
-                                        "--timeout", "60"};
+  const std::vector<std::string> set = {
+      "param", "set", "/add_two_ints_server", "--atomic", "--service-timeout", "60", "--timeout", "60"};
   const auto with = [&set](std::vector<std::string> words) {
     words.insert(words.begin(), set.begin(), set.end());
     return launch_command(words);
@@ -142,13 +146,15 @@ TEST(GraphOptions, ParametersAreSetAtomically) {
   const CommandResult refused = with({"count", "8", "use_sim_time", "text"});
   EXPECT_EQ(refused.exit_code, 1);
   EXPECT_THAT(refused.err, StartsWith("Setting parameters atomically failed: "));
-  EXPECT_EQ(launch_command({"param", "get", "--hide-type", "/add_two_ints_server", "count", "--timeout", "60"}).out, "7\n");
+  EXPECT_EQ(launch_command({"param", "get", "--hide-type", "/add_two_ints_server", "count", "--timeout", "60"}).out,
+            "7\n");
   server.end_gently();
 }
 
 TEST(GraphOptions, AComponentOfItsOwn) {
   Sandbox sandbox;
-  RunningCommand standalone(launch_words({"component", "standalone", "composition", "composition::Talker", "-c", "box"}));
+  RunningCommand standalone(
+      launch_words({"component", "standalone", "composition", "composition::Talker", "-c", "box"}));
   EXPECT_TRUE(standalone.wait_for_output("into '/box' container node as '/talker'", kPatience)) << standalone.err();
   EXPECT_EQ(ask_until({"component", "list"}, "/talker").out, "/box\n  1  /talker\n");
   EXPECT_EQ(standalone.end_gently().exit_code, 0);
@@ -159,7 +165,8 @@ TEST(GraphOptions, AComponentOfItsOwn) {
 
 TEST(GraphOptions, AComponentEndsWithItsCommand) {
   Sandbox sandbox;
-  RunningCommand standalone(launch_words({"component", "standalone", "composition", "composition::Talker", "-c", "box"}));
+  RunningCommand standalone(
+      launch_words({"component", "standalone", "composition", "composition::Talker", "-c", "box"}));
   EXPECT_TRUE(standalone.wait_for_output("into '/box' container node", kPatience)) << standalone.err();
   pid_t container = -1;
   const std::string pid = std::to_string(standalone.pid());
