@@ -60,6 +60,7 @@ enum class Finding : std::uint16_t {
   kUselessRemap = 403,
   kSameNode = 404,
   kMissingContainer = 405,
+  kUnknownParameter = 406,
 
   // Launch arguments.
   kUnreadArgument = 501,

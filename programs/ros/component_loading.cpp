@@ -16,7 +16,6 @@
 #include "base/environment/own_environment.hpp"
 #include "base/environment/own_prefix.hpp"
 #include "launcher/message_types/yaml_text.hpp"
-#include "launcher/substitution/package_index.hpp"
 #include "programs/ros/graph_names.hpp"
 #include "programs/ros/parameter_verb.hpp"
 #include "programs/ros/topic_graph.hpp"

@@ -138,6 +138,11 @@ int check_command(const std::vector<std::string>& words) {
   std::string trace;
   command.take_text("--from-trace", trace,
                     "a trace of a run: also warn of remaps of names that the recorded nodes do not have");
+  std::vector<std::string> dumps;
+  command.take_texts(
+      "--from-parameters", dumps,
+      "what launch param dump has printed of nodes: also warn of parameters that these nodes do not have; may be "
+      "given several times");
   command.take_texts("--disable", choice.disabled,
                      "leave out the findings with this id; may be given several times (launch explain lists the ids)");
   std::vector<std::string> enabled;
@@ -165,6 +170,14 @@ int check_command(const std::vector<std::string>& words) {
       return 1;
     }
     options.recorded_nodes = std::move(*recorded);
+  }
+  try {
+    for (const std::string& dump : dumps) {
+      read_recorded_parameters(dump, options.recorded_parameters);
+    }
+  } catch (const LaunchError& error) {
+    print_errors(error, "launch check");
+    return 1;
   }
   ResultOutput result("launch check");
   options.arguments = target.arguments;

@@ -119,6 +119,7 @@ class Checker {
     const auto report = [this](Diagnostic diagnostic) { add(std::move(diagnostic)); };
     find_faults_of_plan(plan, left_out, report);
     find_remaps_of_unknown_names(plan, options_.recorded_nodes, report);
+    find_unknown_parameters(plan, options_.recorded_parameters, report);
   }
 
   // An argument that has no default and is not given has an unknown value in the visit; what follows from that value is

@@ -10,6 +10,7 @@
 #include "launcher/language/registry.hpp"
 #include "launcher/substitution/scope.hpp"
 #include "programs/launch/check/recorded_nodes.hpp"
+#include "programs/launch/check/recorded_parameters.hpp"
 
 namespace launch {
 
@@ -18,6 +19,7 @@ struct CheckOptions {
   bool strict_ros2 = false;                                    // what `ros2 launch` does not know is an error
   bool finds_leaks = false;                                    // what included files leave behind
   std::vector<RecordedNode> recorded_nodes;                    // of a run, which tell the names that remaps may change
+  RecordedParameters recorded_parameters;                      // of nodes that were dumped
 };
 
 // Loads and visits the file, including what conditions leave out, and resolves what a run would resolve: packages,

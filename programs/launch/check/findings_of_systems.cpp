@@ -169,6 +169,23 @@ constexpr FindingInfo kRowsOfSystems[] = {
 </launch>
 )x"},
 
+    {Finding::kUnknownParameter, "Node without this parameter", Severity::kWarning,
+     "The node did not have the parameter when its parameters were dumped (launch param dump NODE), so the value has "
+     "no "
+     "effect. A launch file does not tell which parameters a program declares, and a trace does not either: this is a "
+     "finding with launch check --from-parameters FILE only, with such a dump below.",
+     R"x(<launch>
+  <node pkg="demo_nodes" exec="talker" name="talker">
+    <param name="raet" value="10"/>
+  </node>
+</launch>
+)x",
+     R"x(/talker:
+  ros__parameters:
+    rate: 5
+    use_sim_time: false
+)x"},
+
     {Finding::kUnreadArgument, "Argument is never read", Severity::kWarning,
      "No substitution reads the argument, neither in its file nor in the files that are included.",
      R"x(<launch>

@@ -17,7 +17,8 @@ SECTION = re.compile(r'^## (?P<id>LF\d{4}): .*\n\nSeverity: (?P<severity>\w+)\.\
 EXAMPLE = re.compile(r'```(?P<language>xml|yaml|python)\n(?P<code>.*?)```', re.S)
 
 # Words that a check needs to have the finding.
-FURTHER_WORDS = {'LF0107': ['--strict-ros2'], 'LF0209': ['--enable', 'LF0209'], 'LF0311': ['--strict-ros2'], 'LF0502': ['rat:=1']}
+FURTHER_WORDS = {'LF0107': ['--strict-ros2'], 'LF0209': ['--enable', 'LF0209'], 'LF0311': ['--strict-ros2'],
+                 'LF0406': ['--from-parameters', 'params.yaml'], 'LF0502': ['rat:=1']}
 
 
 def launch(*words):
@@ -97,7 +98,7 @@ Example:
                 Path(directory, 'params.yaml').write_text(files[1][1])
             result = subprocess.run(
                 [LAUNCH, 'check', '--format', 'json', str(path), *FURTHER_WORDS.get(section['id'], [])],
-                capture_output=True, text=True, env={**os.environ, 'AMENT_PREFIX_PATH': self.directory.name})
+                capture_output=True, text=True, cwd=directory, env={**os.environ, 'AMENT_PREFIX_PATH': self.directory.name})
             found = [(item['id'], item['severity']) for item in json.loads(result.stdout)]
             return section['id'], (section['id'], section['severity']), found
 

@@ -3,6 +3,7 @@
 
 import importlib.util
 import os
+import select
 import shutil
 import subprocess
 import sys
@@ -14,6 +15,7 @@ from pathlib import Path
 PACKAGES = Path(os.environ['LAUNCH_PROGRAM']).parent.parent / 'lib/launch/python'
 EXAMPLES = Path(os.environ['SOURCE_DIRECTORY']) / 'launch_examples'
 PATIENCE = 300  # seconds
+DOMAIN = str(1 + os.getpid() % 100)
 
 HEAD = '''
 import asyncio
@@ -307,8 +309,19 @@ class LaunchPytestTest(unittest.TestCase):
             def test_without_rclpy():
                 with pytest.raises(RuntimeError, match='MessagePump needs the Python package rclpy of ROS 2'):
                     MessagePump(object())
-        ''', ROS_DOMAIN_ID='77')
+        ''', ROS_DOMAIN_ID=DOMAIN)
         self.assertIn(' 4 passed', output)
+
+    def test_nobody_waits_for_topics_when_the_tests_were_killed(self):
+        words = ("from launch_testing_ros import WaitForTopics\n"
+                 "topics = WaitForTopics([('/silence', 'std_msgs/msg/String')], timeout=0.01)\n"
+                 "topics.wait()\nprint(topics._topics['/silence']._process.pid, flush=True)\ninput()\n")
+        with subprocess.Popen([sys.executable, '-B', '-c', words], env={**self.environment, 'ROS_DOMAIN_ID': DOMAIN},
+                              stdin=subprocess.PIPE, stdout=subprocess.PIPE) as tests:
+            process = os.pidfd_open(int(tests.stdout.readline()))
+            self.addCleanup(os.close, process)
+            tests.kill()
+        self.assertTrue(select.select([process], [], [], PATIENCE)[0])
 
     def test_filters(self):
         index = self.directory / 'share/ament_index/resource_index/rmw_output_prefixes'

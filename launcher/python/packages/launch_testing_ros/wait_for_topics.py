@@ -27,6 +27,11 @@ def _message(value):
     return [_message(item) for item in value] if isinstance(value, list) else value
 
 
+# Runs a program until the end of standard input, so until this process closes it or has ended.
+_UNTIL_END_OF_INPUT = '"$@" </dev/null & exec >&- 2>&-; read -r _; kill $!; wait $!'
+_ENDED_BY_SIGTERM = 128 + 15
+
+
 class _Topic:
     """The messages of one topic."""
 
@@ -39,9 +44,9 @@ class _Topic:
         self.messages = deque(maxlen=length)
         self.problem = None
         self._on_message = on_message
-        self._process = subprocess.Popen(
-            [_program.find(), 'topic', 'echo', name, _type_name(topic_type), '--full-length'], stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        command = [_program.find(), 'topic', 'echo', name, _type_name(topic_type), '--full-length']
+        self._process = subprocess.Popen(['sh', '-c', _UNTIL_END_OF_INPUT, 'sh', *command], stdin=subprocess.PIPE,
+                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self._errors = []
         self._readers = [threading.Thread(target=self._read, daemon=True),
                          threading.Thread(target=self._read_errors, daemon=True)]
@@ -61,12 +66,13 @@ class _Topic:
             else:
                 lines.append(line)
         self._readers[1].join()
-        if self._process.wait() not in (0, -2, -15):
+        self._process.stdin.close()
+        if self._process.wait() not in (0, _ENDED_BY_SIGTERM):
             self.problem = ''.join(self._errors).strip()
         self._on_message()
 
     def end(self):
-        self._process.terminate()
+        self._process.stdin.close()
         for reader in self._readers:
             reader.join()
         self._process.wait()
