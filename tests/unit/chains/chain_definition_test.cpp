@@ -53,6 +53,12 @@ TEST_F(Chains, OfATraceAreThoseOfItsParts) {
   EXPECT_TRUE(read_chains(directory_ / "snapshot/snapshot-1/deeper").empty());
 }
 
+TEST_F(Chains, NamesWithoutASlashAreBelowTheRoot) {
+  write(R"({"chains": [{"name": "brake", "nodes": ["lidar*", "*/fusion", "/front/brake"]}]})");
+  EXPECT_EQ(read_chains(directory_),
+            std::vector{(ChainDefinition{"brake", {"/lidar*", "*/fusion", "/front/brake"}, std::nullopt})});
+}
+
 TEST_F(Chains, AreThereOnce) {
   write_chains({kReaction}, directory_ / "a");
   write_chains({kReaction, kPath}, directory_ / "b");

@@ -25,6 +25,12 @@ constexpr int kLevelsAbove = 2;
   throw std::runtime_error(fmt::format("the chains in '{}' cannot be read: {}", file.string(), why));
 }
 
+// A name without a slash or star in front is one below the root, as in a launch file.
+std::string below_root(const std::string& node) {
+  const bool is_full = !node.empty() && (node.front() == '/' || node.front() == '*');
+  return is_full ? node : "/" + node;
+}
+
 ChainDefinition chain_of(const Json& json, const fs::path& file) {
   ChainDefinition chain;
   if (json.is_object() && json.contains("name") && json["name"].is_string()) {
@@ -38,7 +44,7 @@ ChainDefinition chain_of(const Json& json, const fs::path& file) {
       if (!node.is_string()) {
         fail(file, fmt::format("the nodes of chain '{}' are not all texts", chain.name));
       }
-      chain.nodes.push_back(node.get<std::string>());
+      chain.nodes.push_back(below_root(node.get<std::string>()));
     }
   }
   if (chain.nodes.size() < 2) {
