@@ -66,7 +66,10 @@ void write_twin(const Arguments& arguments, const System& system, bool ext_event
 void calibrate(const Arguments& arguments, const Figures& recorded, double duration_s, bool ext_events,
                System& system) {
   write_twin(arguments, system, ext_events, false);
-  const std::filesystem::path trace = twin_program::run_twin(arguments.folder, duration_s);
+  fmt::print(stderr, "launch twin: a first run of {:.1f} s shows how quick the stand-ins are; its trace is not kept\n",
+             duration_s);
+  const std::filesystem::path trace =
+      twin_program::run_twin(arguments.folder, duration_s, twin_program::RunOutput::kHidden);
   add_overheads(recorded, figures_of(tracing::twin::read_recording(trace), system), system);
   std::filesystem::remove_all(trace);
 }

@@ -27,7 +27,7 @@ std::set<std::filesystem::path> traces_in(const std::filesystem::path& folder) {
 
 }  // namespace
 
-std::filesystem::path run_twin(const std::filesystem::path& folder, double duration_s) {
+std::filesystem::path run_twin(const std::filesystem::path& folder, double duration_s, RunOutput output) {
   const std::set<std::filesystem::path> before = traces_in(folder);
   // In a network of its own: the twin has the names of the system that it stands for.
   const std::string file = (folder / "twin.xml").string();
@@ -35,9 +35,9 @@ std::filesystem::path run_twin(const std::filesystem::path& folder, double durat
   if (duration_s > 0) {
     words.push_back(fmt::format("duration:={:.3f}", duration_s));
   }
-  const int status = launch::wait_for(launch::spawn({.program = launch::own_prefix() + "/bin/launch",
-                                                     .argv = words,
-                                                     .descriptors = {{STDOUT_FILENO, STDERR_FILENO}}}));
+  const int out = output == RunOutput::kShown ? STDERR_FILENO : launch::kDevNull;
+  const int status = launch::wait_for(launch::spawn(
+      {.program = launch::own_prefix() + "/bin/launch", .argv = words, .descriptors = {{STDOUT_FILENO, out}}}));
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
     throw std::runtime_error(fmt::format("the twin did not run to its end: 'launch --isolate {}' failed", file));
   }

@@ -96,6 +96,14 @@ TEST_F(TracedRunOfAFakeTracer, FailsForLossesAfterItHasToldThem) {
   EXPECT_THAT(told_[1], HasSubstr("warning: trace is incomplete: "));
 }
 
+TEST_F(TracedRunOfAFakeTracer, ASessionWithoutASnapshotNamesNoTrace) {
+  config_.dual_session = true;
+  start();
+  told_.clear();
+  finish();
+  EXPECT_THAT(told_, ElementsAre("no trace was written: no snapshot was taken"));
+}
+
 TEST_F(TracedRunOfAFakeTracer, NamesTheSessionThatCannotBeFinished) {
   fake_->finish_error = TraceError("it is gone");
   start();

@@ -263,7 +263,27 @@ void TracedRun::make_report() {
   losses_.steps.push_back({"report", std::chrono::steady_clock::now() - before});
 }
 
+// A session of snapshots writes nothing before the first one.
+bool TracedRun::has_no_snapshot() const {
+  if (!config_.records_snapshots() || config_.over_network()) {
+    return false;
+  }
+  std::error_code failed;
+  std::filesystem::directory_iterator entry(config_.trace_directory(), failed);
+  for (; !failed && entry != std::filesystem::directory_iterator(); entry.increment(failed)) {
+    std::error_code gone;
+    if (entry->is_directory(gone)) {
+      return false;
+    }
+  }
+  return true;
+}
+
 void TracedRun::tell_result(const Tell& tell) const {
+  if (has_no_snapshot()) {
+    tell(false, "no trace was written: no snapshot was taken");
+    return;
+  }
   tell(false,
        fmt::format("trace written to: {}{}", config_.destination(), summary_.empty() ? "" : " (" + summary_ + ")"));
   if (!config_.records_snapshots()) {

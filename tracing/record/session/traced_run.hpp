@@ -104,6 +104,7 @@ class TracedRun {
   void stop_run_watch();
   void summarize();
   void make_report();
+  bool has_no_snapshot() const;
   void tell_result(const Tell& tell) const;
 
   TraceConfig config_;
