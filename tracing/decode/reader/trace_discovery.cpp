@@ -10,6 +10,7 @@
 #include "tracing/decode/ctf/metadata_text.hpp"
 #include "tracing/decode/ctf/trace_class.hpp"
 #include "tracing/decode/ctf/tsdl_cursor.hpp"
+#include "tracing/decode/reader/missing_files.hpp"
 #include "tracing/decode/reader/trace_read_error.hpp"
 
 namespace tracing {
@@ -82,6 +83,10 @@ std::vector<fs::path> find_traces(const fs::path& directory) {
                          "check the permissions of the directories below it");
   }
   if (directories.empty()) {
+    if (const std::vector<std::string> missing = missing_metadata(directory); !missing.empty()) {
+      throw TraceReadError(fmt::format("cannot read the trace '{}': {}", directory.string(), missing.front()),
+                           "no other file tells what the streams hold; copy the trace again with all of its files");
+    }
     throw TraceReadError(
         fmt::format("'{}' is not a trace: neither it nor a directory below it has a file '{}'", directory.string(),
                     kMetadata),
