@@ -20,7 +20,7 @@ class Views(page_case.PageTest):
     def test_overview_has_the_figures_and_what_is_worth_looking_at(self):
         tiles = self.texts('.tile')
         self.assertIn('298\ncallbacks run', tiles)
-        self.assertIn('200\nmessages', tiles)
+        self.assertIn('200\nmessages published', tiles)
         self.assertIn('3\nnodes', tiles)
         self.assertIn('none\nevents lost', tiles)
         found = [text.split('\n') for text in self.texts('.findings button')]
@@ -28,6 +28,12 @@ class Views(page_case.PageTest):
         self.assertEqual(found, [[finding[key] for key in ('title', 'subject', 'figures')] for finding in findings])
         self.assertEqual(self.texts('.findings .next'), [f'next: {finding["next"]}' for finding in findings if finding['next']])
         self.assertIn('Worst jitter', [title for title, _, _ in found])
+
+    def test_a_view_with_the_focus_has_no_frame(self):
+        self.show('graph')
+        self.browser.key('Tab')
+        self.browser.evaluate('document.getElementById("view").focus()')
+        self.assertEqual(self.browser.evaluate('getComputedStyle(document.getElementById("view")).outlineStyle'), 'none')
 
     def test_a_finding_opens_its_view(self):
         at = [text.split('\n')[0] for text in self.texts('.findings button')].index('Worst jitter')

@@ -30,7 +30,9 @@ function overviewView(data) {
   const counted = lossText(overview);
   const lost = counted === 'none' && data.error ? 'unknown' : counted;
   const nodes = data.nodes.length;
-  const topics = data.topics.filter(name => !isInternalTopic(name)).length;
+  // Each one is there once for each subscription that took it; the further ones are marked.
+  let published = 0;
+  for (let i = 0; i < data.messages.count; ++i) published += data.messages.repeated[i] ? 0 : 1;
   const found = data.findings;
   const ofKernel = data.folded.reduce((sum, {count}) => sum + count, 0);
   return [
@@ -41,8 +43,8 @@ function overviewView(data) {
     element('div', {class: 'tiles'},
       tile(formatDuration(data.duration), 'recorded'), tile(formatCount(overview.events), 'events'),
       tile(lost, lost === 'none' || lost === 'unknown' ? 'events lost' : 'lost', lost === 'none' ? 'good' : 'bad'),
-      tile(formatCount(data.processes.filter(process => process.events > 0).length), ofKernel === 0 ? 'processes' : `processes, ${formatCount(ofKernel)} more of the kernel's events`), tile(formatCount(nodes), 'nodes'), tile(formatCount(topics), 'topics'),
-      tile(formatCount(data.instances.count), 'callbacks run'), tile(formatCount(data.messages.count), 'messages')),
+      tile(formatCount(data.processes.filter(process => process.events > 0).length), ofKernel === 0 ? 'processes' : `processes, ${formatCount(ofKernel)} more of the kernel's events`), tile(formatCount(nodes), 'nodes'), tile(formatCount(data.topics.length), 'topics'),
+      tile(formatCount(data.instances.count), 'callbacks run'), tile(formatCount(published), 'messages published')),
     data.absences.length + data.unseen_chains.length + data.overwritten.length === 0 ? null : panel('Not there', element('ul', {class: 'absences'},
       ...[...data.absences, ...data.overwritten, ...data.unseen_chains.map(name => `chain '${name}': no callbacks were seen that cause one another in this order`)]
         .map(text => element('li', {}, text)))),
