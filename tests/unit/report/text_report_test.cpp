@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "tests/unit/report/example_reports.hpp"
 #include "tracing/model/findings/quantity_text.hpp"
@@ -152,6 +154,40 @@ TEST(TextReport, SortsAndChooses) {
   EXPECT_EQ(first_words({.node = "/[or]*"}), "/often /rare ");
   EXPECT_EQ(first_words({.topic = "/scan"}), "/often ");
   EXPECT_EQ(first_words({.topic = "/none"}), "");
+}
+
+// Those that a label cannot tell apart.
+TEST(TextReport, ChainsOfOneLabelSayWhatTheyDifferIn) {
+  Report report = busy_report();
+  ChainResult chain = report.results.ros2.chains.front();
+  const auto through = [&chain](const std::vector<std::string>& nodes, const std::string& topic) {
+    ChainResult other = chain;
+    other.steps.resize(nodes.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      other.steps[i].node = nodes[i];
+      other.steps[i].topic = i == 0 ? "" : topic;
+    }
+    return other;
+  };
+  report.results.ros2.chains = {through({"/map", "/a", "/b", "/brake"}, "/x"),
+                                through({"/map", "/a", "/c", "/brake"}, "/x"), through({"/lidar", "/brake"}, "/left"),
+                                through({"/lidar", "/brake"}, "/right")};
+  const std::string text = text_report(report, {.width = 130});
+  EXPECT_THAT(text, HasSubstr(R"(
+Chains                                       count      p50      p99      max  reaction p99  age max
+  /map -> 2 more -> /brake  timer 100 ms        20  41.0 ms  48.0 ms  55.0 ms        148 ms  55.0 ms
+    through /b
+  /map -> 2 more -> /brake  timer 100 ms        20  41.0 ms  48.0 ms  55.0 ms        148 ms  55.0 ms
+    through /c
+  /lidar -> /brake  timer 100 ms                20  41.0 ms  48.0 ms  55.0 ms        148 ms  55.0 ms
+    by /left
+  /lidar -> /brake  timer 100 ms                20  41.0 ms  48.0 ms  55.0 ms        148 ms  55.0 ms
+    by /right
+
+)"));
+  const std::string chosen = text_report(report, {.top = 1, .chain = {"/map", "/brake"}});
+  EXPECT_THAT(chosen, HasSubstr("\nChains   "));
+  EXPECT_THAT(chosen, HasSubstr("\n    through /c\n"));
 }
 
 TEST(TextReport, FollowsTheChosenChain) {

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "tracing/model/analysis/derived_results.hpp"
 #include "tracing/model/findings/hosts.hpp"
@@ -37,6 +39,60 @@ std::string topics_of(const ChainResult& chain) {
     }
   }
   return text;
+}
+
+// What the steps of a chain have that tells it from others: one text for each step.
+struct StepTexts {
+  const char* before;
+  std::string (*of)(const ChainResult::Step& step);
+};
+constexpr StepTexts kStepTexts[] = {
+    {"through ", [](const ChainResult::Step& step) { return step.node; }},
+    {"by ", [](const ChainResult::Step& step) { return step.topic; }},
+    {"with ", [](const ChainResult::Step& step) { return step.callback; }},
+};
+
+std::vector<std::string> texts_of(const ChainResult& chain, const StepTexts& texts) {
+  std::vector<std::string> list;
+  for (const ChainResult::Step& step : chain.steps) {
+    list.push_back(texts.of(step));
+  }
+  return list;
+}
+
+// "through /b, /c" of the chain /a -> 2 more -> /d, without what all chains of this label have. Empty for a single one.
+std::string difference(const ChainResult& chain, const std::vector<const ChainResult*>& alike) {
+  if (alike.size() < 2) {
+    return "";
+  }
+  for (const StepTexts& texts : kStepTexts) {
+    const std::vector<std::string> own = texts_of(chain, texts);
+    std::vector<std::string> common = own;
+    bool differs = true;
+    for (const ChainResult* other : alike) {
+      const std::vector<std::string> theirs = texts_of(*other, texts);
+      differs = differs && (other == &chain || theirs != own);
+      std::erase_if(common, [&theirs](const std::string& text) {
+        return std::find(theirs.begin(), theirs.end(), text) == theirs.end();
+      });
+    }
+    if (!differs) {
+      continue;
+    }
+    std::string text;
+    std::string whole;
+    for (const std::string& step : own) {
+      if (step.empty()) {
+        continue;
+      }
+      whole += (whole.empty() ? texts.before : ", ") + step;
+      if (std::find(common.begin(), common.end(), step) == common.end()) {
+        text += (text.empty() ? texts.before : ", ") + step;
+      }
+    }
+    return text.empty() ? whole : text;
+  }
+  return "";
 }
 
 }  // namespace
@@ -74,11 +130,19 @@ std::string chain_table(const TraceResults& results, const ReportOptions& option
   }
   table.time("reaction p99", &ChainResult::reaction, &DurationSummary::p99_ns);
   table.time("age max", &ChainResult::age, &DurationSummary::max_ns);
+  std::map<std::string, std::vector<const ChainResult*>> alike;  // by label
+  for (const ChainResult& chain : ros2.chains) {
+    if (is_chosen(chain, options)) {
+      alike[hosts.before(chain) + chain_label(chain)].push_back(&chain);
+    }
+  }
   for (const ChainResult& chain : ros2.chains) {
     if (!is_chosen(chain, options)) {
       continue;
     }
-    Row row{.label = marked(hosts.before(chain) + chain_label(chain), chain.doubtful)};
+    const std::string label = hosts.before(chain) + chain_label(chain);
+    Row row{.label = marked(label, chain.doubtful)};
+    row.below = difference(chain, alike[label]);
     row.remark = chain.name.empty() ? chain.steps.front().callback : topics_of(chain);
     sort_by(row, chain.response);
     table.add(std::move(row), chain);
@@ -150,7 +214,7 @@ std::string topic_table(const Ros2Results& ros2, const ReportOptions& options) {
   for (const TopicResult& topic : ros2.topics) {
     const std::uint64_t sent = std::max(topic.published, topic.intra_process_published);
     const std::uint64_t received = topic.received + topic.intra_process_received;
-    if (sent + received == 0 || !matches(options.topic, topic.name)) {
+    if (!matches(options.topic, topic.name)) {
       continue;
     }
     if (!options.node.empty() &&

@@ -143,7 +143,9 @@ std::string text_report(const Report& of, const ReportOptions& options) {
   const TraceResults& results = report.results;
   std::string text = head(report, options.color) + absence_section(absences_of(report), options.color);
   if (!options.chain.first.empty()) {
-    return text + chain_table(results, options) + chosen_chains(results, options);
+    ReportOptions all = options;  // each one has its steps below
+    all.top = 0;
+    return text + chain_table(results, all) + chosen_chains(results, options);
   }
   if (options.node.empty() && options.topic.empty()) {
     text += finding_section(report, options);

@@ -154,6 +154,9 @@ std::string ScreenTable::text(const ReportOptions& options) const {
       blanks = 0;
     }
     text += line + "\n";
+    if (!row.below.empty()) {
+      text += "    " + styled(shortened(row.below, options.width - 4), Style::kDim, options.color) + "\n";
+    }
   }
   return text;
 }

@@ -40,6 +40,7 @@ Cell percent_cell(double part);
 struct Row {
   std::string label;
   std::string remark{};  // shown behind the label if there is room
+  std::string below{};   // a line below the row: what tells it from others of the same label
   std::vector<Cell> cells{};
   double total = -1;
   double count = -1;
