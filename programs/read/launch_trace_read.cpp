@@ -2,7 +2,6 @@
 // `launch trace read DIRECTORY...`: prints the events of traces, or counts them. `launch` executes this program, so
 // that the launcher itself links no libraries for reading traces.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -20,6 +19,7 @@
 #include "programs/read/event_printer.hpp"
 #include "tracing/decode/reader/trace_reader.hpp"
 #include "tracing/model/selection/event_filter.hpp"
+#include "tracing/model/selection/missing_names.hpp"
 
 namespace {
 
@@ -168,17 +168,24 @@ void say_what_is_missing(const tracing::TraceReader& reader) {
   }
 }
 
-void say_that_there_is_no_such_node(const tracing::EventFilter& filter) {
-  if (filter.nodes.empty() || (filter.node_filter() != nullptr && filter.node_filter()->has_match())) {
-    return;
+void say_that_nothing_is_called(std::string_view kind, const std::vector<std::string>& patterns,
+                                const std::vector<std::string>& names) {
+  const std::string text = tracing::nothing_is_called(kind, patterns, names);
+  std::fputs(fmt::format("launch trace read: warning: {}\n", text).c_str(), stderr);
+}
+
+// Of what was asked for.
+void say_what_is_not_there(const tracing::EventFilter& filter) {
+  const tracing::NodeFilter* const nodes = filter.node_filter();
+  if (!filter.nodes.empty() && (nodes == nullptr || !nodes->has_match())) {
+    say_that_nothing_is_called("node", filter.nodes, nodes == nullptr ? std::vector<std::string>() : nodes->names());
   }
-  const std::vector<std::string> names =
-      filter.node_filter() == nullptr ? std::vector<std::string>() : filter.node_filter()->names();
-  const std::string there = names.empty() ? "no nodes" : fmt::format("{}", fmt::join(names, ", "));
-  std::fputs(fmt::format("launch trace read: warning: no node is called '{}'; what was read has {}\n",
-                         fmt::join(filter.nodes, "' or '"), there)
-                 .c_str(),
-             stderr);
+  for (const std::string& pattern : filter.missing_events()) {
+    say_that_nothing_is_called("event", {pattern}, filter.event_names());
+  }
+  for (const std::string& process : filter.missing_processes()) {
+    say_that_nothing_is_called("process", {process}, filter.process_names());
+  }
 }
 
 // Passes on all, and notes whether something was lost.
@@ -220,7 +227,7 @@ int read_all(const Arguments& arguments, tracing::TraceSink& sink, CountingSink*
         stderr);
   }
   if (arguments.limit != 0) {
-    say_that_there_is_no_such_node(arguments.filter);
+    say_what_is_not_there(arguments.filter);
   }
   return kSuccess;
 }
@@ -297,7 +304,7 @@ std::optional<tracing::TimeBound> time_bound(const std::string& option, const st
     return bound;
   }
   throw CLI::ValidationError(option, fmt::format("'{}' is no time; write seconds since the epoch, "
-                                                 "2026-01-31T12:00:00.5 or +SECONDS after the first event",
+                                                 "2026-01-31T12:00:00.5 or +SECONDS after the first event of the trace",
                                                  text));
 }
 
@@ -332,12 +339,15 @@ int main(int argc, char** argv) {
                  "Only events for which this holds, such as 'queue_depth > 3 && topic_name =~ \"scan\"'")
       ->allow_extra_args(false);
   app.add_option("--from", from,
-                 "Only from this time on: seconds since the epoch, 2026-01-31T12:00:00.5 (UTC), or +SECONDS");
+                 "Only from this time on: seconds since the epoch, 2026-01-31T12:00:00.5 (UTC), or +SECONDS "
+                 "after the first event of the trace");
   app.add_option("--to", to, "Only before this time");
   app.add_option("--format", arguments.format, "text, json (one object a line) or csv")
       ->check(CLI::IsMember({"text", "json", "csv"}))
       ->capture_default_str();
-  app.add_option("--limit", arguments.limit, "Print at most so many events");
+  app.add_option("--limit", arguments.limit, "Print at most so many events")->check([](const std::string& text) {
+    return text.starts_with('-') ? fmt::format("'{}' is below 0", text) : std::string();
+  });
   app.add_flag("--count", arguments.count, "Print how many events there are of each name instead")
       ->excludes("--format")
       ->excludes("--limit");
@@ -352,6 +362,9 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
     arguments.filter.begin = time_bound("--from", from);
     arguments.filter.end = time_bound("--to", to);
+    if (tracing::TimeBound::leave_nothing(arguments.filter.begin, arguments.filter.end)) {
+      throw CLI::ValidationError("--to", fmt::format("'{}' is not after --from '{}'", to, from));
+    }
     for (const std::string& expression : expressions) {
       add_expression(arguments.filter, expression);
     }

@@ -2,6 +2,7 @@
 // `launch report DIRECTORY`: reads a trace and prints a report, or compares traces. `launch` executes this program, so
 // that the launcher itself doesn't keep the reading libraries in memory while a system runs.
 #include <fmt/format.h>
+#include <fnmatch.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,12 +13,16 @@
 #include <cstring>
 #include <exception>
 #include <optional>
+#include <set>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 
 #include "base/diagnostics/command_error.hpp"
 #include "base/terminal/terminal.hpp"
 #include "programs/report/report_arguments.hpp"
 #include "tracing/model/analysis/trace_analysis.hpp"
+#include "tracing/model/selection/missing_names.hpp"
 #include "tracing/show/live/live_report.hpp"
 #include "tracing/show/report/comparison_command.hpp"
 #include "tracing/show/report/output_files.hpp"
@@ -175,6 +180,32 @@ int save_baseline(const Arguments& arguments) {
   return kSuccess;
 }
 
+void warn_of_missing(std::string_view kind, const std::string& pattern, std::set<std::string> names) {
+  names.erase("");
+  const bool fits = std::any_of(names.begin(), names.end(), [&pattern](const std::string& name) {
+    return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+  });
+  if (pattern.empty() || fits) {
+    return;
+  }
+  const std::string text = tracing::nothing_is_called(kind, {pattern}, {names.begin(), names.end()});
+  fmt::print(stderr, "launch report: warning: {}\n", text);
+}
+
+// Of the nodes and topics that the user asked for.
+void say_what_is_not_there(const tracing::ReportOptions& options, const tracing::Ros2Results& ros2) {
+  std::set<std::string> nodes;
+  for (const tracing::NodeResult& node : ros2.nodes) {
+    nodes.insert(node.name);
+  }
+  warn_of_missing("node", options.node, std::move(nodes));
+  std::set<std::string> topics;
+  for (const tracing::TopicResult& topic : ros2.topics) {
+    topics.insert(topic.name);
+  }
+  warn_of_missing("topic", options.topic, std::move(topics));
+}
+
 int print_report(const Arguments& arguments) {
   tracing::TraceAnalysis analysis(nullptr, named_chains(arguments.paths));
   tracing::Report report{arguments.paths.front(), {}, ""};
@@ -202,6 +233,7 @@ int print_report(const Arguments& arguments) {
       exit_code = kFailure;
     }
   }
+  say_what_is_not_there(arguments.text, report.results.ros2);
   report.lacks_descriptions = reader.lacks_descriptions();
   report.clocks = reader.clock_notes();
   report.sessions = tracing::several_sessions(reader.traces());

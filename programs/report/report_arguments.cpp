@@ -25,7 +25,7 @@ std::optional<tracing::TimeBound> time_bound(const std::string& option, const st
     return bound;
   }
   throw CLI::ValidationError(option, fmt::format("'{}' is no time; write seconds since the epoch, "
-                                                 "2026-01-31T12:00:00.5 or +SECONDS after the first event",
+                                                 "2026-01-31T12:00:00.5 or +SECONDS after the first event of the trace",
                                                  text));
 }
 
@@ -154,7 +154,11 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
         ->excludes(summary)
         ->excludes(live);
   }
-  app.add_option("--top", arguments.top, "Rows of each table; 0: all")->option_text("N");
+  app.add_option("--top", arguments.top, "Rows of each table; 0: all")
+      ->option_text("N")
+      ->check([](const std::string& text) {
+        return text.starts_with('-') ? fmt::format("'{}' is below 0", text) : std::string();
+      });
   app.add_option("--sort", arguments.text.sort, "What tables are sorted by: " + keys)
       ->option_text("KEY")
       ->check(CLI::IsMember(tracing::sort_keys()));
@@ -177,7 +181,7 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
   std::string to;
   app.add_option("--from", from,
                  "Only what begins from this time on goes to files: seconds since the epoch, 2026-01-31T12:00:00.5 "
-                 "(UTC), or +SECONDS")
+                 "(UTC), or +SECONDS after the first event of the trace")
       ->excludes(json)
       ->excludes(summary);
   app.add_option("--to", to, "Only what begins before this time")->excludes(json)->excludes(summary);
@@ -189,6 +193,9 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
     check_comparison(app, arguments);
     arguments.files.from = time_bound("--from", from, arguments.files);
     arguments.files.to = time_bound("--to", to, arguments.files);
+    if (tracing::TimeBound::leave_nothing(arguments.files.from, arguments.files.to)) {
+      throw CLI::ValidationError("--to", fmt::format("'{}' is not after --from '{}'", to, from));
+    }
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {
       return app.exit(error);  // --help

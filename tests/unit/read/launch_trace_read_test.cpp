@@ -78,6 +78,43 @@ TEST_F(LaunchTraceRead, SaysThatThereIsNoSuchNode) {
   EXPECT_EQ(result.err, "launch trace read: warning: no node is called '/nobody'; what was read has /ping, /pong\n");
 }
 
+TEST_F(LaunchTraceRead, SaysWhatEventsAndProcessesThereAreInstead) {
+  const CommandResult process = read({path(), "--process", "pnig", "--process", "72", "--limit", "100"});
+  EXPECT_EQ(process.exit_code, 0);
+  EXPECT_EQ(process.err,
+            "launch trace read: warning: no process is called 'pnig'; what was read has ping [71], pong [72]\n");
+  testing::TraceWriter writer(path() / "few", {.identity = 5});
+  writer.write(0, 5, testing::kPing, ros2::RclTake{9});
+  writer.write(0, 6, testing::kPing, ros2::CallbackStart{3, true});
+  writer.finish();
+  for (const char* option : {"--count", "--format=text", "--format=csv"}) {
+    const CommandResult event =
+        read({path() / "few", option, "--event", "ros2:rcl_tak?_it", "--event", "ros2:rcl_take"});
+    EXPECT_EQ(event.exit_code, 0);
+    EXPECT_EQ(event.err,
+              "launch trace read: warning: no event is called 'ros2:rcl_tak?_it'; what was read has "
+              "ros2:callback_start, ros2:rcl_take\n")
+        << option;
+    EXPECT_EQ(read({path() / "few", option, "--event", "ros2:rcl_tak"}).err,
+              "launch trace read: warning: no event is called 'ros2:rcl_tak'; what was read has ros2:callback_start, "
+              "ros2:rcl_take; did you mean 'ros2:rcl_take'?\n")
+        << option;
+  }
+  // It is there, though not in the time that is wanted.
+  EXPECT_EQ(read({path() / "few", "--event", "ros2:rcl_take", "--from", "+0.000000001"}).err, "");
+}
+
+TEST_F(LaunchTraceRead, CountsOffsetsFromTheFirstEventOfTheTraceWhateverIsChosen) {
+  const std::filesystem::path trace = path() / "offsets";
+  testing::TraceWriter writer(trace, {.identity = 6});
+  writer.write(0, 100, testing::kPing, ros2::RclTake{9});
+  writer.write(0, 150, testing::kPong, ros2::RclNodeInit{1, 2, "other", "/"});
+  writer.write(0, 200, testing::kPong, ros2::RclNodeInit{3, 4, "chosen", "/"});
+  writer.finish();
+  EXPECT_EQ(lines(read({trace, "--node", "/chosen", "--from", "+0.0000001"}).out), 1u);
+  EXPECT_EQ(lines(read({trace, "--node", "/chosen", "--from", "+0.000000101"}).out), 0u);
+}
+
 TEST_F(LaunchTraceRead, ChoosesAndLimits) {
   const CommandResult result = read({path(), "--process", "pong", "--where", "topic_name == '/ping'", "--limit", "1"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -191,7 +228,18 @@ TEST_F(LaunchTraceRead, RefusesWrongArguments) {
   EXPECT_EQ(time.exit_code, 2);
   EXPECT_THAT(time.err, StartsWith("launch trace read: error: --from: 'noon' is no time; write seconds since the "
                                    "epoch, 2026-01-31T12:00:00.5 or "
-                                   "+SECONDS after the first event\n"));
+                                   "+SECONDS after the first event of the trace\n"));
+  const CommandResult empty = read({path(), "--from", "+5", "--to", "+2"});
+  EXPECT_EQ(empty.exit_code, 2);
+  EXPECT_EQ(empty.err,
+            "launch trace read: error: --to: '+2' is not after --from '+5'\n"
+            "      = help: see 'launch trace read --help'\n");
+  EXPECT_EQ(read({path(), "--from", "+2", "--to", "+2"}).exit_code, 2);
+  const CommandResult limit = read({path(), "--limit", "-1"});
+  EXPECT_EQ(limit.exit_code, 2);
+  EXPECT_EQ(limit.err,
+            "launch trace read: error: --limit: '-1' is below 0\n"
+            "      = help: see 'launch trace read --help'\n");
   EXPECT_EQ(read({path(), "--format", "xml"}).exit_code, 2);
   EXPECT_EQ(read({}).exit_code, 2);
 }

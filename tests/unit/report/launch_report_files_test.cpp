@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -59,6 +60,24 @@ TEST_F(LaunchReportFiles, WritesAPartOfTheTrace) {
   EXPECT_THAT(launch_report(begin + " --to never").err, HasSubstr("--to: 'never' is no time; write seconds since "));
   EXPECT_THAT(launch_report(path_ + "/trace --from +1").err,
               HasSubstr("--from: goes with the options that write files, such as --html"));
+}
+
+// As `launch trace read` counts: the launcher has loaded its file 83 ms before the first event of a node.
+TEST_F(LaunchReportFiles, CountsOffsetsFromTheFirstEventOfTheTrace) {
+  TraceWriter writer(directory_.path() / "trace");
+  const std::uint16_t load = writer.declare("launch:load", "string _file;");
+  writer.write_raw(0, testing::kPingPongBegin - 83'000'000, {.vpid = 70, .vtid = 70, .procname = "launch"}, load,
+                   std::string("a.launch.xml\0", 13));
+  write_ping_pong(writer);
+  writer.finish();
+  const std::string trace = path_ + "/trace --csv " + path_ + "/csv --analysis-model " + path_ + "/model ";
+  EXPECT_EQ(launch_report(trace + "--from +0.59007 --to +0.590071").exit_code, 0);
+  EXPECT_THAT(content(path_ + "/csv/callback_instances.csv"),
+              ::testing::MatchesRegex("id,[^\n]*\n0,2,1,1767225600507070000,80000,0,\n"));
+  EXPECT_THAT(content(path_ + "/model/callback_instances.csv"),
+              ::testing::MatchesRegex("callback_object,[^\n]*\n[0-9]+,1767225600507070000,80000,False,72\n"));
+  EXPECT_EQ(launch_report(trace + "--from +0.590071").exit_code, 0);
+  EXPECT_THAT(content(path_ + "/model/callback_instances.csv"), ::testing::Not(HasSubstr(",1767225600507070000,")));
 }
 
 TEST_F(LaunchReportFiles, WritesWhatComesBeforeDamageToFiles) {

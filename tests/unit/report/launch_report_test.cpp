@@ -305,6 +305,19 @@ TEST_F(LaunchReport, ShowsWhatIsChosen) {
   EXPECT_THAT(launch_report(path_ + " --all").out, HasSubstr("\nWays of messages "));
 }
 
+TEST_F(LaunchReport, SaysWhatNodesAndTopicsThereAreInstead) {
+  TraceWriter writer(directory_.path());
+  write_ping_pong(writer);
+  writer.finish();
+  const Outcome node = launch_report(path_ + " --node '/camera*'");
+  EXPECT_EQ(node.exit_code, 0);
+  EXPECT_EQ(node.err, "launch report: warning: no node is called '/camera*'; what was read has /ping, /pong\n");
+  EXPECT_EQ(launch_report(path_ + " --topic ping").err,
+            "launch report: warning: no topic is called 'ping'; what was read has /ping, /pong; did you mean "
+            "'/ping'?\n");
+  EXPECT_EQ(launch_report(path_ + " --node '/p*' --topic /pong").err, "");
+}
+
 TEST_F(LaunchReport, FailsWithoutATrace) {
   for (const char* option : {"", " --json", " --summary"}) {
     const Outcome outcome = launch_report(path_ + option);
@@ -326,6 +339,16 @@ TEST_F(LaunchReport, RefusesWrongArguments) {
   EXPECT_EQ(launch_report("--summary --dot x.dot " + path_).exit_code, 2);
   EXPECT_EQ(launch_report("--sort size " + path_).exit_code, 2);
   EXPECT_EQ(launch_report("--chain /a " + path_).exit_code, 2);
+  const Outcome top = launch_report("--top -1 " + path_);
+  EXPECT_EQ(top.exit_code, 2);
+  EXPECT_EQ(top.err,
+            "launch report: error: --top: '-1' is below 0\n"
+            "      = help: see 'launch report --help'\n");
+  const Outcome empty = launch_report(path_ + " --csv " + path_ + "/csv --from +5 --to +2");
+  EXPECT_EQ(empty.exit_code, 2);
+  EXPECT_EQ(empty.err,
+            "launch report: error: --to: '+2' is not after --from '+5'\n"
+            "      = help: see 'launch report --help'\n");
 }
 
 TEST_F(LaunchReport, ExplainsItself) {

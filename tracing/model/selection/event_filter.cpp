@@ -69,6 +69,7 @@ bool EventFilter::accepts_name(const EventClass& event_class) {
   }
   std::int8_t& known = names_[event_class.id];
   if (known < 0) {
+    event_names_.insert(event_class.name);
     known = std::any_of(events.begin(), events.end(),
                         [&](const std::string& pattern) { return matches_pattern(pattern, event_class.name); })
                 ? 1
@@ -77,25 +78,69 @@ bool EventFilter::accepts_name(const EventClass& event_class) {
   return known == 1;
 }
 
-bool EventFilter::accepts_process(const Event& event) const {
-  return std::any_of(processes.begin(), processes.end(), [&](const std::string& process) {
-    return (event.vpid && std::to_string(*event.vpid) == process) ||
-           (event.procname && matches_pattern(process, *event.procname));
-  });
+namespace {
+
+bool is_process(const std::string& wanted, std::string_view name, const std::optional<std::int64_t>& id) {
+  return (id && std::to_string(*id) == wanted) || (!name.empty() && matches_pattern(wanted, name));
 }
 
-std::int64_t EventFilter::absolute(const TimeBound& bound, const Event& event) {
-  if (!first_ns_) {
-    first_ns_ = event.timestamp_ns;
+}  // namespace
+
+bool EventFilter::accepts_process(const Event& event) {
+  const std::string_view name = event.procname.value_or("");
+  if (const std::tuple key(name, event.vpid); !seen_processes_.contains(key)) {
+    seen_processes_.emplace(name, event.vpid);
   }
+  return std::any_of(processes.begin(), processes.end(),
+                     [&](const std::string& process) { return is_process(process, name, event.vpid); });
+}
+
+std::vector<std::string> EventFilter::missing_events() const {
+  std::vector<std::string> missing;
+  for (const std::string& pattern : events) {
+    if (std::none_of(event_names_.begin(), event_names_.end(),
+                     [&](const std::string& name) { return matches_pattern(pattern, name); })) {
+      missing.push_back(pattern);
+    }
+  }
+  return missing;
+}
+
+std::vector<std::string> EventFilter::missing_processes() const {
+  std::vector<std::string> missing;
+  for (const std::string& wanted : processes) {
+    if (std::none_of(seen_processes_.begin(), seen_processes_.end(),
+                     [&](const auto& seen) { return is_process(wanted, std::get<0>(seen), std::get<1>(seen)); })) {
+      missing.push_back(wanted);
+    }
+  }
+  return missing;
+}
+
+std::vector<std::string> EventFilter::process_names() const {
+  std::vector<std::string> names;
+  for (const auto& [name, id] : seen_processes_) {
+    names.push_back(id ? name + " [" + std::to_string(*id) + "]" : name);
+  }
+  return names;
+}
+
+std::int64_t EventFilter::absolute(const TimeBound& bound) const {
   return bound.since_first ? *first_ns_ + bound.ns : bound.ns;
 }
 
 bool EventFilter::is_behind(const Event& event) {
-  return end && event.timestamp_ns >= absolute(*end, event);
+  note_first(event);
+  return end && event.timestamp_ns >= absolute(*end);
 }
 
 bool EventFilter::accepts(const Event& event) {
+  note_first(event);
+  // What is noted of names and processes is of all events, also of those that are not wanted.
+  bool wanted = accepts_name(*event.event_class);
+  if (!processes.empty() && !accepts_process(event)) {
+    wanted = false;
+  }
   if (!nodes.empty()) {
     // It learns from all events, also from those that are not wanted.
     if (!node_filter_) {
@@ -105,20 +150,11 @@ bool EventFilter::accepts(const Event& event) {
       return false;
     }
   }
-  if (begin && event.timestamp_ns < absolute(*begin, event)) {
+  if ((begin && event.timestamp_ns < absolute(*begin)) || is_behind(event)) {
     return false;
   }
-  if (is_behind(event)) {
-    return false;
-  }
-  if (!accepts_name(*event.event_class)) {
-    return false;
-  }
-  if (!processes.empty() && !accepts_process(event)) {
-    return false;
-  }
-  return std::all_of(conditions.begin(), conditions.end(),
-                     [&](const EventCondition& condition) { return condition.holds(event); });
+  return wanted && std::all_of(conditions.begin(), conditions.end(),
+                               [&](const EventCondition& condition) { return condition.holds(event); });
 }
 
 }  // namespace tracing

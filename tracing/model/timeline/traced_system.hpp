@@ -2,6 +2,7 @@
 // Everything that a page or an export is made of.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@ namespace tracing {
 struct TracedSystem {
   std::filesystem::path directory;  // of the trace, absolute
   timeline::Timeline timeline;
+  std::int64_t first_event_ns = 0;  // the launcher's events count; 0: there is none
   TraceResults results;
   std::string error;                        // why reading stopped early; empty when all was read
   std::vector<std::filesystem::path> open;  // traces that were still being written

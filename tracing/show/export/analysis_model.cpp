@@ -178,9 +178,6 @@ void AnalysisModelWriter::on(const Event& event, const Struct& e) {
 }
 
 void AnalysisModelWriter::on_event(const Event& event) {
-  if (!window_ && event.name().starts_with("launch:")) {
-    return;  // no part of the traced system
-  }
   if (!window_) {
     window_ = choose_window_ ? choose_window_(event.timestamp_ns) : Window();
   }

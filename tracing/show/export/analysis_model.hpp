@@ -34,7 +34,8 @@ class AnalysisModelWriter : public TraceSink {
     std::optional<std::int64_t> end_ns;
   };
 
-  // Makes the directory if it does not exist. `window` gets the time of the first event. Throws OutputError.
+  // Makes the directory if it does not exist. `window` gets the time of the first event of the trace. Throws
+  // OutputError.
   explicit AnalysisModelWriter(const std::filesystem::path& directory,
                                std::function<Window(std::int64_t first_ns)> window = nullptr);
 

@@ -62,7 +62,7 @@ void choose_window(TracedSystem& system, const OutputFiles& files) {
     return;
   }
   timeline::Timeline& timeline = system.timeline;
-  const std::int64_t first_ns = timeline.begin_ns;
+  const std::int64_t first_ns = system.first_event_ns;
   const std::int64_t begin_ns = absolute(files.from, first_ns, timeline.begin_ns);
   timeline::keep_window(timeline, begin_ns, absolute(files.to, first_ns, timeline.end_ns + 1));
 }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/show/report/read_system.hpp"
 
+#include <cstdint>
+#include <optional>
+
 #include "tracing/decode/reader/trace_reader.hpp"
 #include "tracing/model/analysis/trace_analysis.hpp"
 #include "tracing/model/execution/sink_list.hpp"
@@ -16,6 +19,9 @@ class Readers : public TraceSink {
  public:
   Readers(TraceAnalysis& analysis, const SystemOptions& options) : analysis_(analysis), options_(options) {}
   void on_event(const Event& event) override {
+    if (!first_event_ns_) {
+      first_event_ns_ = event.timestamp_ns;
+    }
     if (!options_.processes.empty() && event.vpid && !options_.processes.contains(*event.vpid)) {
       return;
     }
@@ -29,11 +35,13 @@ class Readers : public TraceSink {
   }
   void on_loss(const Loss& loss) override { analysis_.on_loss(loss); }
   std::uint64_t events() const { return events_; }
+  std::optional<std::int64_t> first_event_ns() const { return first_event_ns_; }
 
  private:
   TraceAnalysis& analysis_;
   const SystemOptions& options_;
   std::uint64_t events_ = 0;
+  std::optional<std::int64_t> first_event_ns_;
 };
 
 }  // namespace
@@ -61,6 +69,7 @@ TracedSystem read_system(const std::vector<std::filesystem::path>& directories, 
     system.error = error.what();
     analysis.doubt_all();
   }
+  system.first_event_ns = readers.first_event_ns().value_or(0);
   system.results = analysis.finish();
   if (system.error.empty()) {
     system.error = missing_content(system.verdict, reader);
