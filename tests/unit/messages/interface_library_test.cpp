@@ -38,7 +38,7 @@ TEST_F(Interfaces, OfServicesAndActionsHaveTheirParts) {
   EXPECT_THAT(service.response->field_names(), ElementsAre("sum"));
   const auto event = library_.message("test_interfaces/srv/AddTwoInts_Event");
   EXPECT_THAT(event->field_names(), ElementsAre("info", "request", "response"));
-  EXPECT_EQ(to_string(event->find("response")->type), "test_interfaces/AddTwoInts_Response[<=1]");
+  EXPECT_EQ(to_string(event->find("response")->type), "test_interfaces/srv/AddTwoInts_Response[<=1]");
   EXPECT_EQ(library_.message("example_interfaces/action/Fibonacci_SendGoal_Event")->find("request")->type.message->name,
             "example_interfaces/action/Fibonacci_SendGoal_Request");
   const launch::ServiceType goal = library_.action_service("example_interfaces/action/Fibonacci", "SendGoal");
