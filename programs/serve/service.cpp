@@ -79,12 +79,11 @@ bool is_request(const Json& wanted) {
       (wanted.contains("signal") && !wanted["signal"].is_string())) {
     return false;
   }
-  if (!wanted.contains("processes")) {
-    return true;
-  }
-  const Json& processes = wanted["processes"];
-  return processes.is_array() &&
-         std::all_of(processes.begin(), processes.end(), [](const Json& pattern) { return pattern.is_string(); });
+  return std::all_of(wanted.begin(), wanted.end(), [](const Json& value) {
+    return !value.is_structured() ||
+           (value.is_array() &&
+            std::all_of(value.begin(), value.end(), [](const Json& pattern) { return pattern.is_string(); }));
+  });
 }
 
 int value_of_digit(char digit) {
