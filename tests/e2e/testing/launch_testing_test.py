@@ -68,6 +68,11 @@ class LaunchTest(unittest.TestCase):
         self.assertEqual(outcomes, {'TestAfter.test_it_has_ended_well': 'passed',
                                     'TestAfter.test_it_has_written': 'passed'})
 
+    def test_waiting_for_topics(self):
+        self.environment['ROS_DOMAIN_ID'] = str(1 + os.getpid() % 100)
+        _, outcomes = self.outcomes('topics.py')
+        self.assertEqual(outcomes, {'TestTalker.test_it_talks': 'passed'})
+
     def test_programs_that_tests_start(self):
         _, outcomes = self.outcomes('started_by_tests.py')
         self.assertEqual(set(outcomes.values()), {'passed'})

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Waits for messages. They are received by `launch topic echo`, a process for each topic."""
 
+import signal
 import subprocess
 import threading
 import types
@@ -32,6 +33,10 @@ _UNTIL_END_OF_INPUT = '"$@" </dev/null & exec >&- 2>&-; read -r _; kill $!; wait
 _ENDED_BY_SIGTERM = 128 + 15
 
 
+def _unblock_signals():
+    signal.pthread_sigmask(signal.SIG_SETMASK, [])
+
+
 class _Topic:
     """The messages of one topic."""
 
@@ -45,8 +50,10 @@ class _Topic:
         self.problem = None
         self._on_message = on_message
         command = [_program.find(), 'topic', 'echo', name, _type_name(topic_type), '--full-length']
+        # The launcher, in which launch_test runs tests, blocks signals, and a child would inherit that.
         self._process = subprocess.Popen(['sh', '-c', _UNTIL_END_OF_INPUT, 'sh', *command], stdin=subprocess.PIPE,
-                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                         preexec_fn=_unblock_signals)
         self._errors = []
         self._readers = [threading.Thread(target=self._read, daemon=True),
                          threading.Thread(target=self._read_errors, daemon=True)]
