@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -307,6 +308,57 @@ TEST(Comparison, NamesWhatIsLikely) {
   EXPECT_EQ(comparison.likely[0].subject, "/node_20");
   EXPECT_THAT(compared(run_with(100, 1), run_with(103, 1)).likely, IsEmpty());
   EXPECT_THAT(compared(run_with(100, 1), run_with(103, 4)).changes, Not(IsEmpty()));
+}
+
+// A small system: a timer, a callback with two sorts of work, and one that takes `ratio` times a random duration, as in
+// a twin whose durations are multiplied. The machine makes everything of a run longer by a part.
+RunSummary small_run(std::uint64_t seed, double ratio = 1) {
+  Random random(seed);
+  const double machine = 1 + 0.1 * random.uniform();
+  const auto spread = [&](double usual) { return machine * usual * std::exp(0.6 * random.normal()); };
+  RunSummary run;
+  run.measurements = {
+      measurement("/ping, subscription /pong",
+                  [&](int) { return (random.uniform() < 0.4 ? 2 : 53) * machine * kMicrosecond; }),
+      measurement("/ping, timer 20 ms", [&](int) { return spread(200 * kMicrosecond); }),
+      measurement("/pong, subscription /ping", [&](int) { return ratio * spread(200 * kMicrosecond); })};
+  return run;
+}
+
+TEST(Comparison, OfFewCallbacksAMultipliedOneIsFound) {
+  const std::vector<std::string> pong{"/pong, subscription /ping"};
+  int alarms = 0;
+  int three = 0;
+  for (std::uint64_t pair = 0; pair < 40; ++pair) {
+    const RunSummary before = small_run(2 * pair);
+    EXPECT_EQ(subjects(compared(before, small_run(2 * pair + 1, 14))), pong) << pair;
+    EXPECT_EQ(subjects(compared(small_run(2 * pair + 1, 14), before)), pong) << pair << ", the other way round";
+    three += subjects(compared(before, small_run(2 * pair + 1, 3))) == pong;
+    alarms += !compared(before, small_run(2 * pair + 1)).changes.empty();
+  }
+  EXPECT_GE(three, 38);
+  EXPECT_EQ(alarms, 0);
+  const Comparison comparison = compared(small_run(0), small_run(1, 14));
+  EXPECT_TRUE(std::any_of(comparison.changes.begin(), comparison.changes.end(),
+                          [](const Change& change) { return change.statistic == Statistic::kMedian; }));
+}
+
+// With six or more callbacks, the others tell what the machine delays. One that became much more scattered itself is
+// not asked.
+TEST(Comparison, AChangedCallbackIsNotAskedForTheDelay) {
+  const auto run_with = [](std::uint64_t seed, double ratio) {
+    Random random(seed);
+    RunSummary run;
+    for (int number = 0; number < 6; ++number) {
+      run.measurements.push_back(measurement("/node_" + std::to_string(number), [&](int) {
+        const double own = number >= 4 ? std::exp(1.5 * random.normal()) : 1 + 0.05 * random.normal();
+        return (number == 5 ? ratio : 1) * own * kMillisecond;
+      }));
+    }
+    return run;
+  };
+  EXPECT_THAT(subjects(compared(run_with(1, 1), run_with(2, 20))), ElementsAre("/node_5"));
+  EXPECT_THAT(compared(run_with(1, 1), run_with(3, 1)).changes, IsEmpty());
 }
 
 TEST(Comparison, TheKernelTellsWhyACallbackTakesLonger) {

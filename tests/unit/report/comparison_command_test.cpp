@@ -211,8 +211,21 @@ TEST_F(ComparisonCommand, SaysWhyABaselineCantBeUsed) {
   EXPECT_EQ(run(usual + " --save-baseline " + base_ + " --append").exit_code, 1);
   EXPECT_EQ(content(base_), "# Notes\n");
   fs::remove(base_);
-  EXPECT_EQ(run("--diff " + usual + " " + base_).err,
+  EXPECT_EQ(run(usual + " --baseline " + base_).err,
             "launch report: error: cannot read the baseline " + base_ + ": No such file or directory\n");
+}
+
+TEST_F(ComparisonCommand, SaysWhatASideCouldBe) {
+  const std::string usual = trace("usual", 200'000);
+  const std::string missing = directory_.path() / "missing";
+  const std::string error = "launch report: error: " + missing +
+                            " does not exist: --diff takes the directory of a trace or the file of a baseline on each "
+                            "side\n";
+  for (const std::string& sides : {usual + " " + missing, missing + " " + usual}) {
+    const Outcome outcome = run("--diff " + sides);
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(outcome.err, error);
+  }
 }
 
 TEST_F(ComparisonCommand, ChecksItsOptions) {

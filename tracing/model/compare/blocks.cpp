@@ -25,14 +25,15 @@ std::vector<double> values_of_blocks(const std::vector<std::int64_t>& samples, d
   return values;
 }
 
-// How far the tenths of a run are apart, without the two highest and the lowest one, as the logarithm of a ratio. If a
-// run drifts, or something disturbs it for a while, another run may differ from it by as much.
-double spread_of_tenths(const std::vector<std::int64_t>& samples, const BlockRule& rule) {
+// How far the tenths of a run are apart, with and without the two highest and the lowest one. If a run drifts, or
+// something disturbs it for a while, another run may differ from it by as much.
+void compare_tenths(BlockPair& pair, const std::vector<std::int64_t>& samples, const BlockRule& rule) {
   std::vector<double> tenths = values_of_blocks(samples, rule.share, std::max(rule.least_length, samples.size() / 10));
   std::sort(tenths.begin(), tenths.end());
   const std::size_t lowest = tenths.size() / 10;
   const std::size_t highest = (tenths.size() * 8 + 9) / 10 - 1;
-  return std::log(std::max(tenths[highest], 1.0) / std::max(tenths[lowest], 1.0));
+  pair.own_ratio = std::log(std::max(tenths[highest], 1.0) / std::max(tenths[lowest], 1.0));
+  pair.own_range = std::log(std::max(tenths.back(), 1.0) / std::max(tenths.front(), 1.0));
 }
 
 }  // namespace
@@ -54,7 +55,7 @@ std::optional<BlockPair> cut_into_blocks(const std::vector<std::int64_t>& before
     }
     length *= 2;
   }
-  pair.own_ratio = spread_of_tenths(before, rule);
+  compare_tenths(pair, before, rule);
   return pair;
 }
 

@@ -8,11 +8,13 @@
 
 namespace tracing::compare {
 
-// The blocks of two runs, which have equal lengths, and how much the run before differs within itself.
+// The blocks of two runs, which have equal lengths, and how much the tenths of the run before differ, as the natural
+// logarithms of ratios.
 struct BlockPair {
   std::vector<double> before;
   std::vector<double> after;
-  double own_ratio = 0;  // the natural logarithm of a ratio
+  double own_ratio = 0;  // of the third-highest and the second-lowest one
+  double own_range = 0;  // of the highest and the lowest one
 };
 
 // How to cut. A run needs at least `least_blocks` of `least_length` samples.

@@ -13,6 +13,7 @@
 
 #include "tracing/model/compare/blocks.hpp"
 #include "tracing/model/compare/change_cause.hpp"
+#include "tracing/model/compare/disturbance.hpp"
 #include "tracing/model/compare/peers.hpp"
 
 namespace tracing::compare {
@@ -76,29 +77,13 @@ std::vector<Statistic> statistics_of(const std::string& quantity) {
   return {Statistic::kP10, Statistic::kMedian, Statistic::kP90};
 }
 
-// How much longer the machine makes callbacks, as the logarithm of a ratio: from the 10th to the 90th percentile of the
-// durations of each callback; of these the one that a fifth of the callbacks exceeds. The lengths of a callback's own
-// work are in it, too.
-double disturbance_of(const RunSummary& run) {
-  constexpr std::size_t kEnough = 20;
-  std::vector<double> ratios;
-  for (const Measurement& one : run.measurements) {
-    if (one.kind == Kind::kCallback && one.quantity == "duration" && one.samples.size() >= kEnough) {
-      std::vector<double> samples(one.samples.begin(), one.samples.end());
-      const double high = quantile(samples, 0.9);
-      ratios.push_back(std::log(std::max(high, 1.0) / std::max(quantile(samples, 0.1), 1.0)));
-    }
-  }
-  return ratios.empty() ? 0 : quantile(ratios, 0.8);
-}
-
 // One statistic of a quantity in one run before and one run after.
 struct PairTest {
   BlockPair blocks;
   double before = 0;
   double shift = 0;
-  double ratio = 0;        // its logarithm
-  double disturbance = 0;  // of the run that was disturbed more
+  double ratio = 0;  // its logarithm
+  Disturbance disturbance;
 };
 
 // One statistic of a quantity that both sides have.
@@ -125,7 +110,7 @@ struct Tested {
 };
 
 // Returns false when a run has too few samples.
-bool cut(Tested& tested, const std::map<const Measurement*, double>& disturbance) {
+bool cut(Tested& tested, const std::map<const Measurement*, const Disturbances*>& disturbances) {
   for (const Measurement* earlier : *tested.before) {
     for (const Measurement* later : *tested.after) {
       const BlockRule rule = rule_of(tested.statistic, std::min(earlier->samples.size(), later->samples.size()));
@@ -139,7 +124,7 @@ bool cut(Tested& tested, const std::map<const Measurement*, double>& disturbance
       const double now = quantile(after, 0.5);
       pair.shift = now - pair.before;
       pair.ratio = std::log(std::max(now, 1.0) / std::max(pair.before, 1.0));
-      pair.disturbance = std::max(disturbance.at(earlier), disturbance.at(later));
+      pair.disturbance = disturbance_between(*disturbances.at(earlier), *disturbances.at(later), *earlier);
       tested.pairs.push_back(std::move(pair));
     }
   }
@@ -166,13 +151,28 @@ void test_sides(Tested::Sides& sides, const PairTest& pair, double usual, const 
   sides.less = std::max(sides.less, rank_probability(raised, pair.blocks.before));
 }
 
+// What the machine may delay a quantity by in one of the runs, as the logarithm of a ratio. `certainly`: half of it is
+// enough for what is likely, if many callbacks tell it.
+double delay_of(const Tested& tested, const PairTest& pair, bool certainly) {
+  if (tested.is_undisturbed()) {
+    return 0;
+  }
+  // A delay that a fifth of the callbacks has sometimes may hit the same one each time.
+  const double twice = 2 * pair.disturbance.ratio;
+  if (!pair.disturbance.by_few) {
+    return certainly ? twice : twice / 2;
+  }
+  // A few callbacks tell their own work as much as the machine, so no more counts than runs of small systems differ by.
+  // Latencies, which are the machine's, differ by more than work, and by what the tenths of the run before do.
+  const bool is_work = std::get<Kind>(tested.key) == Kind::kCallback;
+  return std::min(twice, is_work ? std::log(1.5) : std::max(std::log(3.0), pair.blocks.own_range));
+}
+
 // Tests one pair of runs of quantities that are of one sort, `place` of their pairs.
 void test_pair(const std::vector<Tested*>& sort, std::size_t place, const CompareOptions& options) {
   // So many times the spread of others are reached by chance less often than the confidence allows, even if the
   // distribution has more outliers than a normal one.
   constexpr double kSpreads = 8;
-  // A delay that a fifth of the callbacks has sometimes may hit the same one each time.
-  constexpr double kDisturbances = 2;
   std::vector<Shifted> shifts;
   for (const Tested* tested : sort) {
     shifts.push_back({tested->pairs[place].before, tested->pairs[place].ratio});
@@ -182,11 +182,12 @@ void test_pair(const std::vector<Tested*>& sort, std::size_t place, const Compar
     const PairTest& pair = sort[i]->pairs[place];
     const double least =
         std::log1p(std::max(options.least_ratio, static_cast<double>(options.least_ns) / std::max(pair.before, 1.0)));
-    const double of_machine = sort[i]->is_undisturbed() ? 0 : kDisturbances * pair.disturbance;
-    const double of_runs = std::max(kSpreads * peers[i].spread, of_machine);
+    const double spread = kSpreads * peers[i].spread;
     const double ns = kSpreads * peers[i].spread_ns;
-    test_sides(sort[i]->certain, pair, peers[i].usual, {std::max(of_runs, pair.blocks.own_ratio), ns}, least);
-    test_sides(sort[i]->likely, pair, peers[i].usual, {std::max(of_runs / 2, pair.blocks.own_ratio), ns / 2}, least);
+    const double certain = std::max({spread, delay_of(*sort[i], pair, true), pair.blocks.own_ratio});
+    const double likely = std::max({spread / 2, delay_of(*sort[i], pair, false), pair.blocks.own_ratio});
+    test_sides(sort[i]->certain, pair, peers[i].usual, {certain, ns}, least);
+    test_sides(sort[i]->likely, pair, peers[i].usual, {likely, ns / 2}, least);
   }
 }
 
@@ -314,12 +315,14 @@ Comparison compare(const Runs& before, const Runs& after, const CompareOptions& 
   const AllFound earlier = by_key(before);
   const AllFound later = by_key(after);
   std::set<std::pair<Kind, std::string>> subjects;
-  std::map<const Measurement*, double> disturbance;  // of its run
+  std::vector<Disturbances> of_runs;
+  of_runs.reserve(before.runs.size() + after.runs.size());
+  std::map<const Measurement*, const Disturbances*> disturbances;  // of its run
   for (const Runs* side : {&before, &after}) {
     for (const RunSummary& run : side->runs) {
-      const double of_run = disturbance_of(run);
+      of_runs.push_back(disturbances_of(run));
       for (const Measurement& one : run.measurements) {
-        disturbance[&one] = of_run;
+        disturbances[&one] = &of_runs.back();
       }
     }
   }
@@ -335,7 +338,7 @@ Comparison compare(const Runs& before, const Runs& after, const CompareOptions& 
     bool enough = statistics.empty();
     for (const Statistic statistic : statistics) {
       Tested tested{key, &found, &other->second, statistic};
-      if (!cut(tested, disturbance)) {
+      if (!cut(tested, disturbances)) {
         continue;
       }
       enough = true;

@@ -34,6 +34,10 @@ std::optional<std::pair<double, std::string>> number_and_unit(const std::string&
 
 // A directory is a trace, anything else a baseline.
 compare::Runs read_side(const std::string& path) {
+  if (!fs::exists(path)) {
+    throw std::runtime_error(fmt::format(
+        "{} does not exist: --diff takes the directory of a trace or the file of a baseline on each side", path));
+  }
   if (!fs::is_directory(path)) {
     return compare::read_baseline(path);
   }

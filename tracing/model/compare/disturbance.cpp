@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/model/compare/disturbance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tracing/model/compare/peers.hpp"
+#include "tracing/model/compare/rank_test.hpp"
+
+namespace tracing::compare {
+
+namespace {
+
+std::vector<double> of_others(const Disturbances& run, const Measurement& self) {
+  std::vector<double> others;
+  for (const auto& [subject, ratio] : run) {
+    const bool is_self = self.kind == Kind::kCallback && subject == self.subject;
+    if (!is_self && std::find(self.steps.begin(), self.steps.end(), subject) == self.steps.end()) {
+      others.push_back(ratio);
+    }
+  }
+  return others;
+}
+
+double exceeded_by_a_fifth(std::vector<double>& ratios) {
+  return ratios.empty() ? 0 : quantile(ratios, 0.8);
+}
+
+}  // namespace
+
+Disturbances disturbances_of(const RunSummary& run) {
+  constexpr std::size_t kEnough = 20;
+  Disturbances ratios;
+  for (const Measurement& one : run.measurements) {
+    if (one.kind == Kind::kCallback && one.quantity == "duration" && one.samples.size() >= kEnough) {
+      std::vector<double> samples(one.samples.begin(), one.samples.end());
+      const double high = quantile(samples, 0.9);
+      ratios[one.subject] = std::log(std::max(high, 1.0) / std::max(quantile(samples, 0.1), 1.0));
+    }
+  }
+  return ratios;
+}
+
+Disturbance disturbance_between(const Disturbances& before, const Disturbances& after, const Measurement& self) {
+  std::vector<double> earlier = of_others(before, self);
+  std::vector<double> later = of_others(after, self);
+  const bool by_few = std::min(earlier.size(), later.size()) < kLeastPeers;
+  if (by_few) {
+    earlier.clear();
+    for (const auto& [subject, ratio] : before) {
+      earlier.push_back(ratio);
+    }
+  }
+  return {std::max(exceeded_by_a_fifth(earlier), exceeded_by_a_fifth(later)), by_few};
+}
+
+}  // namespace tracing::compare
