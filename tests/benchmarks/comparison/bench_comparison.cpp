@@ -161,7 +161,8 @@ Named named_by_report(const std::vector<fs::path>& before, const fs::path& after
                             result.native()))) {
     return named;  // too few samples
   }
-  for (const json& change : parsed(result)["changes"]) {
+  const json comparison = parsed(result);
+  for (const json& change : comparison["changes"]) {
     if (change["kind"] == "callback") {
       named.callbacks.insert(change["subject"]);
     } else {
