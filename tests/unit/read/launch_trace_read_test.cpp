@@ -93,7 +93,7 @@ TEST_F(LaunchTraceRead, SaysWhatEventsAndProcessesThereAreInstead) {
     EXPECT_EQ(event.exit_code, 0);
     EXPECT_EQ(event.err,
               "launch trace read: warning: no event is called 'ros2:rcl_tak?_it'; what was read has "
-              "ros2:callback_start, ros2:rcl_take\n")
+              "ros2:callback_start, ros2:rcl_take; did you mean 'ros2:rcl_take'?\n")
         << option;
     EXPECT_EQ(read({path() / "few", option, "--event", "ros2:rcl_tak"}).err,
               "launch trace read: warning: no event is called 'ros2:rcl_tak'; what was read has ros2:callback_start, "

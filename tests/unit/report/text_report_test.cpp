@@ -45,6 +45,7 @@ Callbacks                             rate  count      p50      p99      max  ji
 
 Topics                                rate   sent  received  dropped     p50     p99      max
   /camera/front/image_raw/compressed     -  70010     70001        -  140 us  300 us  1.00 ms
+  /rosout                                -      -         -        -       -       -        -
 
 Services                   calls  unanswered      p50      p99      max
   /add, asked by /ns/node      2           1  3.00 us  3.00 us  3.00 us
@@ -174,14 +175,14 @@ TEST(TextReport, ChainsOfOneLabelSayWhatTheyDifferIn) {
                                 through({"/lidar", "/brake"}, "/right")};
   const std::string text = text_report(report, {.width = 130});
   EXPECT_THAT(text, HasSubstr(R"(
-Chains                                       count      p50      p99      max  reaction p99  age max
-  /map -> 2 more -> /brake  timer 100 ms        20  41.0 ms  48.0 ms  55.0 ms        148 ms  55.0 ms
+Chains                                    count      p50      p99      max  reaction p99  age max
+  /map -> 2 more -> /brake  timer 100 ms     20  41.0 ms  48.0 ms  55.0 ms        148 ms  55.0 ms
     through /b
-  /map -> 2 more -> /brake  timer 100 ms        20  41.0 ms  48.0 ms  55.0 ms        148 ms  55.0 ms
+  /map -> 2 more -> /brake  timer 100 ms     20  41.0 ms  48.0 ms  55.0 ms        148 ms  55.0 ms
     through /c
-  /lidar -> /brake  timer 100 ms                20  41.0 ms  48.0 ms  55.0 ms        148 ms  55.0 ms
+  /lidar -> /brake  timer 100 ms             20  41.0 ms  48.0 ms  55.0 ms        148 ms  55.0 ms
     by /left
-  /lidar -> /brake  timer 100 ms                20  41.0 ms  48.0 ms  55.0 ms        148 ms  55.0 ms
+  /lidar -> /brake  timer 100 ms             20  41.0 ms  48.0 ms  55.0 ms        148 ms  55.0 ms
     by /right
 
 )"));

@@ -260,7 +260,11 @@ Json whole_trace(const TracedSystem& system) {
   if (begin_ns == timeline.begin_ns && end_ns == timeline.end_ns) {
     return nullptr;
   }
-  return {{"begin", begin_ns - timeline.begin_ns}, {"end", end_ns - timeline.begin_ns}};
+  // What --from and --to count from.
+  const std::int64_t first_ns = system.first_event_ns != 0 ? system.first_event_ns : begin_ns;
+  return {{"begin", begin_ns - timeline.begin_ns},
+          {"end", end_ns - timeline.begin_ns},
+          {"first", first_ns - timeline.begin_ns}};
 }
 
 Json topic_at(const Timeline& timeline, const std::string& name) {

@@ -39,7 +39,7 @@ function overviewView(data) {
     data.error ? element('div', {class: 'panel trouble', role: 'alert'}, `The trace could not be read to its end: ${data.error}`) : null,
     data.is_open ? element('div', {class: 'panel', role: 'alert'}, 'The trace was still being written when this page was made. It holds what was complete then.') : null,
     data.whole ? element('div', {class: 'panel'}, `This page holds ${formatDuration(data.duration)} of ${formatDuration(data.whole.end - data.whole.begin)}, ` +
-      `from ${formatTime(-data.whole.begin)} on. launch report --html FILE --from +SECONDS --to +SECONDS chooses another part. Findings, chains, and the numbers of events and losses are those of the whole trace.`) : null,
+      `from ${formatTime(-data.whole.first)} on. launch report --html FILE --from +SECONDS --to +SECONDS chooses another part. Findings, chains, and the numbers of events and losses are those of the whole trace.`) : null,
     element('div', {class: 'tiles'},
       tile(formatDuration(data.duration), 'recorded'), tile(formatCount(overview.events), 'events'),
       tile(lost, lost === 'none' || lost === 'unknown' ? 'events lost' : 'lost', lost === 'none' ? 'good' : 'bad'),
