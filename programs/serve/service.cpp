@@ -79,11 +79,14 @@ bool is_request(const Json& wanted) {
       (wanted.contains("signal") && !wanted["signal"].is_string())) {
     return false;
   }
-  return std::all_of(wanted.begin(), wanted.end(), [](const Json& value) {
-    return !value.is_structured() ||
-           (value.is_array() &&
-            std::all_of(value.begin(), value.end(), [](const Json& pattern) { return pattern.is_string(); }));
-  });
+  const auto is_text = [](const Json& value) { return value.is_string(); };
+  for (const auto& [key, value] : wanted.items()) {
+    const bool is_list = key == "processes" || key == "groups";
+    if (is_list ? !value.is_array() || !std::all_of(value.begin(), value.end(), is_text) : value.is_structured()) {
+      return false;
+    }
+  }
+  return true;
 }
 
 int value_of_digit(char digit) {

@@ -53,8 +53,8 @@ class UnknownParameters {
     if (known == recorded_.end() || known->second.contains(parameter) || parameter.starts_with(kQosOverrides)) {
       return;
     }
-    report_({Severity::kWarning, fmt::format("node '{}' had no parameter '{}' when it was dumped", node, parameter), where,
-             did_you_mean(parameter, std::vector<std::string>(known->second.begin(), known->second.end())),
+    report_({Severity::kWarning, fmt::format("node '{}' had no parameter '{}' when it was dumped", node, parameter),
+             where, did_you_mean(parameter, std::vector<std::string>(known->second.begin(), known->second.end())),
              Finding::kUnknownParameter});
   }
 
@@ -92,7 +92,8 @@ class UnknownParameters {
     const std::size_t end = word.find(":=");
     const std::size_t begin = word.rfind(':', end == 0 ? 0 : end - 1);
     if (end != std::string::npos) {
-      check(node, begin == std::string::npos ? word.substr(0, end) : word.substr(begin + 1, end - begin - 1), spec.origin);
+      check(node, begin == std::string::npos ? word.substr(0, end) : word.substr(begin + 1, end - begin - 1),
+            spec.origin);
     }
   }
 
@@ -122,7 +123,8 @@ void read_recorded_parameters(const std::string& path, RecordedParameters& param
     throw LaunchError(std::vector<Diagnostic>{*dump.no_yaml});
   }
   if (dump.sections.empty()) {
-    throw LaunchError(fmt::format("'{}' holds no parameters of a node", path), {}, "launch param dump NODE > FILE writes them");
+    throw LaunchError(fmt::format("'{}' holds no parameters of a node", path), {},
+                      "launch param dump NODE > FILE writes them");
   }
   for (const ParameterSection& section : dump.sections) {
     std::set<std::string>& names = parameters[(section.pattern.starts_with('/') ? "" : "/") + section.pattern];

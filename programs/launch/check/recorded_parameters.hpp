@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parameters that the nodes of a run had. A launch file does not tell them: a program declares its parameters itself.
-// A trace does not tell them either; `launch param dump NODE` does.
+// The parameters that the nodes of a run had. A launch file does not tell them: a program declares its parameters
+// itself. A trace does not tell them either; `launch param dump NODE` does.
 #pragma once
 
 #include <functional>
@@ -20,8 +20,9 @@ using RecordedParameters = std::map<std::string, std::set<std::string>>;
 // LaunchError.
 void read_recorded_parameters(const std::string& path, RecordedParameters& parameters);
 
-// A warning for each parameter that the plan gives to a node which did not have it. Nothing is said of nodes that were not
-// dumped, nor of nodes whose program chooses the name. Of a file of parameters only sections for this one node count.
+// A warning for each parameter that the plan gives to a node which did not have it. Nothing is said of nodes that were
+// not dumped, nor of nodes whose program chooses the name. Of a file of parameters only sections for this one node
+// count.
 void find_unknown_parameters(const LaunchPlan& plan, const RecordedParameters& recorded,
                              const std::function<void(Diagnostic)>& report);
 

@@ -81,7 +81,8 @@ TEST_F(ServiceTest, TakesRequestsThatAreJson) {
   for (const char* const body :
        {"", "x", "[]", "1", "{}", R"({"do": 1})", R"({"do": null})", R"({"processes": []})",
         R"({"do": "ps", "processes": "x"})", R"({"do": "ps", "processes": [1]})", R"({"do": "ps", "signal": 9})",
-        R"({"do": "ps", "version": "1"})", R"({"do": "ps", "version": 1.5})", "{\"do\": \"\xff\"}"}) {
+        R"({"do": "ps", "groups": "x"})", R"({"do": "scale", "count": {"a": 1}})", R"({"do": "ps", "version": "1"})",
+        R"({"do": "ps", "version": 1.5})", "{\"do\": \"\xff\"}"}) {
     EXPECT_EQ(error(request("POST", "/api/launches/1", body)), refused) << body;
   }
   const std::string deep(30'000, '[');

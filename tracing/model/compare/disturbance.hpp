@@ -11,8 +11,8 @@
 
 namespace tracing::compare {
 
-// How far the durations of each callback of a run lie apart: from the 10th to the 90th percentile, as the logarithm of a
-// ratio, by subject. The lengths of a callback's own work are in it, too.
+// How far the durations of each callback of a run lie apart: from the 10th to the 90th percentile, as the logarithm of
+// a ratio, by subject. The lengths of a callback's own work are in it, too.
 using Disturbances = std::map<std::string, double>;
 
 Disturbances disturbances_of(const RunSummary& run);

@@ -113,6 +113,21 @@ def _file_of_caller():
     return os.path.abspath(frame.f_code.co_filename) if frame.f_code.co_filename[:1] != '<' else ''
 
 
+# More than any command line has: an endless iterator must not fill the memory.
+_MOST_WORDS = 100_000
+
+
+def _words(argv):
+    words = []
+    for word in argv or ():
+        if not isinstance(word, str):
+            raise TypeError(f'argv holds texts, got {type(word).__name__}')
+        if len(words) == _MOST_WORDS:
+            raise ValueError(f'argv holds more than {_MOST_WORDS} texts')
+        words.append(word)
+    return words
+
+
 class LaunchService:
     """
     Runs launch descriptions from a Python program, as ROS 2's class of this name does.
@@ -124,7 +139,7 @@ class LaunchService:
     def __init__(self, *, argv=None, noninteractive=False, debug=False):
         self._file = _file_of_caller()
         self._debug = debug
-        self._context = ServiceContext(list(argv or []), noninteractive)
+        self._context = ServiceContext(_words(argv), noninteractive)
         self._link = None
         self._process = None
         self._task = None
