@@ -88,9 +88,11 @@ bool is_process(const std::string& wanted, std::string_view name, const std::opt
 
 bool EventFilter::accepts_process(const Event& event) {
   const std::string_view name = event.procname.value_or("");
-  if (const std::tuple key(name, event.vpid); !seen_processes_.contains(key)) {
-    seen_processes_.emplace(name, event.vpid);
+  auto seen = seen_processes_.find(name);
+  if (seen == seen_processes_.end()) {
+    seen = seen_processes_.emplace(name, std::set<std::optional<std::int64_t>>()).first;
   }
+  seen->second.insert(event.vpid);
   return std::any_of(processes.begin(), processes.end(),
                      [&](const std::string& process) { return is_process(process, name, event.vpid); });
 }
@@ -109,8 +111,10 @@ std::vector<std::string> EventFilter::missing_events() const {
 std::vector<std::string> EventFilter::missing_processes() const {
   std::vector<std::string> missing;
   for (const std::string& wanted : processes) {
-    if (std::none_of(seen_processes_.begin(), seen_processes_.end(),
-                     [&](const auto& seen) { return is_process(wanted, std::get<0>(seen), std::get<1>(seen)); })) {
+    if (std::none_of(seen_processes_.begin(), seen_processes_.end(), [&wanted](const auto& seen) {
+          return std::any_of(seen.second.begin(), seen.second.end(),
+                             [&](const std::optional<std::int64_t>& id) { return is_process(wanted, seen.first, id); });
+        })) {
       missing.push_back(wanted);
     }
   }
@@ -119,8 +123,10 @@ std::vector<std::string> EventFilter::missing_processes() const {
 
 std::vector<std::string> EventFilter::process_names() const {
   std::vector<std::string> names;
-  for (const auto& [name, id] : seen_processes_) {
-    names.push_back(id ? name + " [" + std::to_string(*id) + "]" : name);
+  for (const auto& [name, ids] : seen_processes_) {
+    for (const std::optional<std::int64_t>& id : ids) {
+      names.push_back(id ? name + " [" + std::to_string(*id) + "]" : name);
+    }
   }
   return names;
 }

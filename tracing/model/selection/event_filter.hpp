@@ -4,12 +4,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "tracing/decode/reader/event_pattern.hpp"
@@ -80,7 +80,7 @@ class EventFilter {
 
   std::vector<std::int8_t> names_;  // by EventClass::id: 1 accepted, 0 not, -1 not known yet
   std::set<std::string> event_names_;
-  std::set<std::tuple<std::string, std::optional<std::int64_t>>, std::less<>> seen_processes_;  // names and ids
+  std::map<std::string, std::set<std::optional<std::int64_t>>, std::less<>> seen_processes_;  // ids by name
   std::optional<std::int64_t> first_ns_;
   std::unique_ptr<NodeFilter> node_filter_;
 };
