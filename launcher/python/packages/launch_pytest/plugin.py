@@ -61,7 +61,16 @@ def pytest_fixture_setup(fixturedef, request):
     service = request.getfixturevalue('launch_service')
     loop = request.getfixturevalue('event_loop')
     outcome = yield
-    result = outcome.get_result()
+    try:
+        _begin(fixturedef, options, service, loop, outcome.get_result())
+    except BaseException as error:
+        # What such a hook raises is a warning as well with newer versions of pluggy.
+        if not hasattr(outcome, 'force_exception'):
+            raise
+        outcome.force_exception(error)
+
+
+def _begin(fixturedef, options, service, loop, result):
     description = result[0] if isinstance(result, Sequence) and result else result
     if not isinstance(description, launch.LaunchDescription):
         pytest.fail(f"launch_pytest fixture '{options.name}': the return value must be either a launch description or a "
