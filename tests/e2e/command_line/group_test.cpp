@@ -71,7 +71,7 @@ TEST_F(Groups, ANameThatIsNoneIsAnErrorAtItsPlace) {
 using Debugging = Control;
 
 TEST_F(Debugging, StackShowsWhatTheThreadsOfAProcessDo) {
-  if (run_command({.argv = {"gdb", "--version"}}, kPatience).exit_code != 0) {
+  if (run_command({.argv = {"sh", "-c", "command -v gdb"}}, kPatience).exit_code != 0) {
     GTEST_SKIP() << "skipped, because gdb is not installed";
   }
   RunningCommand run(launch({write(R"xml(<executable name="a" shell="true" cmd="sleep 1000; true"/>)xml")}));
