@@ -133,6 +133,43 @@ TEST_F(MissingFiles, APacketThatIsGoneWithItsIndex) {
                                                      "' is broken, so nothing tells what else is missing"));
 }
 
+// Each verdict is held against what lies below it, whichever directory the user names.
+TEST_F(MissingFiles, OfOneOfTwoRecordings) {
+  const fs::path both = directory_.path() / "both";
+  for (const char* name : {"first", "second"}) {
+    write_trace(both / name / "ust");
+    fs::remove_all(both / name / "ust" / "index");
+    TraceReader reader(both / name);
+    reader.next();
+    std::ofstream(both / name / "verdict.json")
+        << R"({"channels": [{"domain": "ust", "counted_by": "packets", "bytes": )" << reader.content_bytes().value_or(0)
+        << "}]}";
+  }
+  testing::RecordingSink sink;
+  TraceReader(both).read(sink);
+  TraceReader({both / "first", both / "second"}).read(sink);
+  fs::remove(both / "second" / "ust" / "ros2_1");
+  for (const std::vector<fs::path>& directories : {std::vector{both}, {both / "first", both / "second"}}) {
+    TraceReader reader(directories);
+    EXPECT_THROW(reader.read(sink), TraceReadError);
+    ASSERT_EQ(reader.damage().size(), 1u);
+    EXPECT_THAT(reader.damage().front(), ::testing::StartsWith("'" + (both / "second").string() + "' lacks "));
+  }
+}
+
+TEST_F(MissingFiles, OfTheMetadataOfTheOnlyTrace) {
+  fs::remove(trace_ / "metadata");
+  try {
+    TraceReader reader(directory_.path());
+    FAIL() << "nothing was thrown";
+  } catch (const TraceReadError& error) {
+    EXPECT_EQ(error.what(),
+              "cannot read the trace '" + directory_.path().string() + "': '" + trace_.string() +
+                  "/metadata' is missing, without which the 2 stream files of the directory can't be read");
+    EXPECT_EQ(error.remedy(), "no other file tells what the streams hold; copy the trace again with all of its files");
+  }
+}
+
 TEST_F(MissingFiles, AnIndexThatIsNoneTellsNothing) {
   std::ofstream(trace_ / "index" / "ros2_1.idx") << "something else, but long enough";
   EXPECT_THAT(damage(directory_.path()), IsEmpty());

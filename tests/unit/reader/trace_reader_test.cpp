@@ -238,20 +238,6 @@ TEST(TraceReader, SaysThatADirectoryIsNoTrace) {
             "LTTng writes no trace when no traced process ran during the session, and none before 'snapshot record'");
 }
 
-TEST(TraceReader, SaysThatTheMetadataOfTheOnlyTraceIsMissing) {
-  const TemporaryDirectory directory;
-  const fs::path trace = directory.path() / "ust/uid/0/64-bit";
-  TraceWriter writer(trace);
-  writer.write(0, 5, kPing, ros2::RclTake{1});
-  writer.finish();
-  fs::remove(trace / "metadata");
-  RecordingSink sink;
-  const TraceReadError error = error_of(directory.path(), sink);
-  EXPECT_EQ(error.what(), "cannot read the trace '" + directory.path().string() + "': '" + trace.string() +
-                              "/metadata' is missing, without which the stream file of the directory can't be read");
-  EXPECT_EQ(error.remedy(), "no other file tells what the streams hold; copy the trace again with all of its files");
-}
-
 TEST(TraceReader, SaysThatAFileIsNoTrace) {
   const TemporaryDirectory directory;
   std::ofstream(directory.path() / "file") << "text";

@@ -8,8 +8,6 @@
 #include <cstdint>
 #include <fstream>
 #include <iterator>
-#include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 
@@ -20,8 +18,6 @@ namespace tracing {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr const char* kVerdict = "verdict.json";
 
 std::uint64_t big_endian(const std::string& bytes, std::size_t at, std::size_t count) {
   std::uint64_t value = 0;
@@ -144,52 +140,6 @@ std::vector<std::string> missing_metadata(const fs::path& directory) {
   }
   lines.erase("");
   return {lines.begin(), lines.end()};
-}
-
-std::map<std::string, std::uint64_t> recorded_bytes(const fs::path& trace) {
-  using nlohmann::json;
-  std::ifstream stream(trace / kVerdict);
-  const json verdict = json::parse(stream, nullptr, false);
-  if (!verdict.is_object()) {
-    return {};
-  }
-  const json damage = verdict.value("damage", json(std::string()));
-  if (!damage.is_string() || !damage.get_ref<const std::string&>().empty()) {
-    return {};
-  }
-  std::map<std::string, std::uint64_t> bytes;
-  if (verdict.contains("reasons")) {  // of a snapshot
-    const json domains = verdict.value("bytes", json::object());
-    for (const auto& [domain, size] : domains.items()) {
-      if (size.is_number_unsigned()) {
-        bytes[domain] = size.get<std::uint64_t>();
-      }
-    }
-    return bytes;
-  }
-  const json channels = verdict.value("channels", json());
-  if (!channels.is_array()) {
-    return {};
-  }
-  for (const json& channel : channels) {
-    if (!channel.is_object() || channel.value("counted_by", json("daemon")) == "daemon") {
-      continue;
-    }
-    const json domain = channel.value("domain", json());
-    const json size = channel.value("bytes", json());
-    if (domain.is_string() && size.is_number_unsigned()) {
-      bytes[domain.get<std::string>()] += size.get<std::uint64_t>();
-    }
-  }
-  return bytes;
-}
-
-std::string broken_verdict(const fs::path& trace) {
-  std::ifstream stream(trace / kVerdict);
-  if (!stream || nlohmann::json::parse(stream, nullptr, false).is_object()) {
-    return {};
-  }
-  return fmt::format("'{}' is broken, so nothing tells what else is missing", (trace / kVerdict).string());
 }
 
 }  // namespace tracing

@@ -3,12 +3,14 @@
 
 #include <set>
 #include <string>
+#include <utility>
 
 #include "tracing/decode/ctf/trace_class.hpp"
 #include "tracing/decode/reader/babeltrace_reader.hpp"
 #include "tracing/decode/reader/direct/direct_reader.hpp"
 #include "tracing/decode/reader/missing_files.hpp"
 #include "tracing/decode/reader/open_trace.hpp"
+#include "tracing/decode/reader/recorded_bytes.hpp"
 #include "tracing/decode/reader/trace_discovery.hpp"
 
 namespace tracing {
@@ -39,11 +41,8 @@ TraceReader::TraceReader(const std::vector<std::filesystem::path>& directories, 
   std::erase_if(traces, [&seen](const std::filesystem::path& trace) {
     return !seen.insert(std::filesystem::weakly_canonical(trace)).second;
   });
-  for (const std::filesystem::path& directory : directories) {
-    if (std::string line = broken_verdict(directory); !line.empty()) {
-      missing.push_back(std::move(line));
-    }
-  }
+  RecordedBytes recorded(directories);
+  missing.insert(missing.end(), recorded.broken().begin(), recorded.broken().end());
   std::vector<std::filesystem::path>& open = implementation_->open_directories;
   for (const std::filesystem::path& trace : traces) {
     if (is_being_written(trace)) {
@@ -59,9 +58,8 @@ TraceReader::TraceReader(const std::vector<std::filesystem::path>& directories, 
       for (const std::string& line : missing) {
         implementation_->direct->note(line);
       }
-      // What several directories have in common is counted once.
-      if (directories.size() == 1 && open.empty() && missing.empty()) {
-        implementation_->direct->expect_bytes(recorded_bytes(directories.front()));
+      if (open.empty() && missing.empty()) {
+        implementation_->direct->expect(std::move(recorded));
       }
       return;
     } catch (const ctf::UnsupportedTrace& unsupported) {

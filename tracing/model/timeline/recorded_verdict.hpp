@@ -30,8 +30,6 @@ struct RecordedVerdict {
   std::uint64_t lost_packets = 0;
   std::optional<double> ns_per_event = {};  // measured on the machine of the recording; the largest of several
   std::vector<ProcessCost> processes = {};  // from the one with the greatest cost
-  std::optional<std::uint64_t> content_bytes =
-      {};  // of the packets that the recording had at its end, if that is known
 };
 inline constexpr Field<RecordedVerdict::ProcessCost> RecordedVerdict::ProcessCost::kFields[] = {
     {"name", &ProcessCost::name, ""},

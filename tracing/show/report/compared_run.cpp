@@ -56,11 +56,8 @@ compare::RunSummary read_run(const std::vector<fs::path>& directories) {
     }
     error = failure.what();
   }
-  const RecordedVerdict verdict = read_verdicts(directories);
-  if (error.empty()) {
-    error = missing_content(verdict, reader);
-  }
-  return complete(recorder.finish(analysis, results), directories.front(), results.overview, verdict, error);
+  return complete(recorder.finish(analysis, results), directories.front(), results.overview, read_verdicts(directories),
+                  error);
 }
 
 PagedRun read_run_for_page(const fs::path& directory, const std::vector<ChainDefinition>& chains) {

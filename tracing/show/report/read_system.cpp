@@ -71,9 +71,6 @@ TracedSystem read_system(const std::vector<std::filesystem::path>& directories, 
   }
   system.first_event_ns = readers.first_event_ns().value_or(0);
   system.results = analysis.finish();
-  if (system.error.empty()) {
-    system.error = missing_content(system.verdict, reader);
-  }
   if (options.at_end) {
     options.at_end(analysis, system.results);
   }

@@ -7,11 +7,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
-#include <system_error>
 #include <utility>
 #include <variant>
 
+#include "tracing/decode/reader/recorded_bytes.hpp"
 #include "tracing/decode/reader/recording.hpp"
 #include "tracing/model/findings/quantity_text.hpp"
 
@@ -20,18 +19,6 @@ namespace tracing {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::set<fs::path> verdicts_in(const fs::path& directory) {
-  std::set<fs::path> files;
-  std::error_code error;
-  fs::recursive_directory_iterator entry(directory, fs::directory_options::skip_permission_denied, error);
-  for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
-    if (entry->path().filename() == "verdict.json") {
-      files.insert(entry->path());
-    }
-  }
-  return files;
-}
 
 std::string text(const nlohmann::json& json, const char* key) {
   return json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
@@ -61,21 +48,6 @@ void add_processes(const nlohmann::json& verdict, RecordedVerdict& result) {
     }
     result.processes.push_back(std::move(added));
   }
-}
-
-// Nothing when the verdict does not know all packets.
-std::optional<std::uint64_t> content_bytes(const nlohmann::json& verdict) {
-  if (verdict.contains("reasons") || !text(verdict, "damage").empty() || !verdict.contains("channels") ||
-      !verdict["channels"].is_array()) {
-    return std::nullopt;
-  }
-  std::uint64_t bytes = 0;
-  for (const nlohmann::json& channel : verdict["channels"]) {
-    if (channel.is_object() && text(channel, "counted_by") != "daemon") {
-      bytes += static_cast<std::uint64_t>(number(channel, "bytes"));
-    }
-  }
-  return bytes;
 }
 
 // What the files of limited size have overwritten, or somebody has removed.
@@ -139,11 +111,7 @@ std::vector<std::string> several_sessions(const std::deque<TraceDescription>& tr
 
 RecordedVerdict read_verdicts(const std::vector<fs::path>& directories) {
   RecordedVerdict result;
-  std::set<fs::path> files;
-  for (const fs::path& directory : directories) {
-    files.merge(verdicts_in(directory));
-  }
-  for (const fs::path& file : files) {
+  for (const fs::path& file : verdict_files(directories)) {
     std::ifstream stream(file);
     const nlohmann::json verdict = nlohmann::json::parse(stream, nullptr, false);
     if (!verdict.is_object()) {
@@ -175,22 +143,10 @@ RecordedVerdict read_verdicts(const std::vector<fs::path>& directories) {
       }
     }
     add_processes(verdict, result);
-    if (files.size() == 1) {
-      result.content_bytes = content_bytes(verdict);
-    }
   }
   std::stable_sort(result.processes.begin(), result.processes.end(),
                    [](const auto& a, const auto& b) { return a.seconds > b.seconds; });
   return result;
-}
-
-std::string missing_content(const RecordedVerdict& verdict, const TraceReader& reader) {
-  const std::optional<std::uint64_t> there = reader.content_bytes();
-  if (!verdict.content_bytes || !there || *there >= *verdict.content_bytes || !reader.open_directories().empty()) {
-    return {};
-  }
-  return fmt::format("{} of the {} that the session recorded are missing",
-                     format_count(*verdict.content_bytes - *there, "byte"), *verdict.content_bytes);
 }
 
 }  // namespace tracing

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "tracing/decode/reader/event.hpp"
-#include "tracing/decode/reader/trace_reader.hpp"
 #include "tracing/model/timeline/recorded_verdict.hpp"
 
 namespace tracing {
@@ -20,9 +19,5 @@ std::vector<std::string> several_sessions(const std::deque<TraceDescription>& tr
 // What all files verdict.json in the directories and below them say, each once. A file that cannot be read says
 // nothing.
 RecordedVerdict read_verdicts(const std::vector<std::filesystem::path>& directories);
-
-// A sentence if the packets of a trace that was read hold less than the verdict says; else empty. Thus files are missed
-// that are gone together with their index.
-std::string missing_content(const RecordedVerdict& verdict, const TraceReader& reader);
 
 }  // namespace tracing

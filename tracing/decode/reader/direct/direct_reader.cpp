@@ -195,8 +195,10 @@ void DirectReader::open_trace(Trace& trace) {
     std::vector<ctf::Packet> packets;
   };
   std::map<std::tuple<std::uint64_t, std::optional<std::uint64_t>, std::string>, Found> found;
+  const std::string domain(descriptions_[trace.number].text("domain"));
   for (const fs::path& path : descriptions_[trace.number].directories) {
     std::error_code gone;
+    std::uint64_t bytes = 0;
     for (const fs::path& file : stream_files(path, gone)) {
       ctf::PacketList list;
       try {
@@ -216,6 +218,7 @@ void DirectReader::open_trace(Trace& trace) {
         note(fmt::format("'{}', {}", file.string(), list.problem));
       }
       for (ctf::Packet& packet : list.packets) {
+        bytes += packet.content_bits / 8;
         // A stream without a number of its own is one file.
         const std::string name = packet.stream_instance_id ? std::string() : file.string();
         Found& stream = found[{packet.stream_id, packet.stream_instance_id, name}];
@@ -225,16 +228,15 @@ void DirectReader::open_trace(Trace& trace) {
         stream.packets.push_back(std::move(packet));
       }
     }
+    recorded_.add(path, domain, bytes);
     if (gone) {
       note(fmt::format("'{}': {}", path.string(), gone.message()));
     }
   }
-  std::uint64_t& bytes_of_domain = bytes_of_domains_[std::string(descriptions_[trace.number].text("domain"))];
   for (auto& [key, stream] : found) {
     put_in_order(stream.packets);
     for (const ctf::Packet& packet : stream.packets) {
       content_bytes_ += packet.content_bits / 8;
-      bytes_of_domain += packet.content_bits / 8;
     }
     Stream description{stream.name, trace.number, trace.declarations.environment_number("vpid")};
     streams_.push_back(std::make_unique<OpenStream>(trace, *trace.stream_classes.at(std::get<0>(key)),
@@ -279,14 +281,8 @@ void DirectReader::find_streams() {
   for (const auto& trace : traces_) {
     open_trace(*trace);
   }
-  if (damage_.empty()) {
-    for (const auto& [domain, expected] : expected_bytes_) {
-      if (const std::uint64_t there = bytes_of_domains_[domain]; there < expected) {
-        note(fmt::format("'{}' lacks {} of the {} bytes that the session recorded{}", directory_.string(),
-                         expected - there, expected,
-                         expected_bytes_.size() == 1 ? "" : fmt::format(" in domain {}", domain)));
-      }
-    }
+  for (const std::string& line : damage_.empty() ? recorded_.missing() : std::vector<std::string>()) {
+    note(line);
   }
   // What all streams have in memory is bounded as long as there are not too many of them.
   constexpr std::size_t kOfAll = 2 << 20;  // bytes

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "tracing/decode/reader/event_counts.hpp"
+#include "tracing/decode/reader/recorded_bytes.hpp"
 #include "tracing/decode/reader/trace_sink.hpp"
 
 namespace tracing {
@@ -28,10 +28,8 @@ class DirectReader {
 
   // Adds a line to damage().
   void note(const std::string& damage);
-  // Notes it when the packets of a domain have fewer bytes.
-  void expect_bytes(std::map<std::string, std::uint64_t> bytes_of_domains) {
-    expected_bytes_ = std::move(bytes_of_domains);
-  }
+  // Before the first item: notes it when the packets have fewer bytes.
+  void expect(RecordedBytes recorded) { recorded_ = std::move(recorded); }
   // Gives all items, and throws nothing of its own.
   void read(TraceSink& sink);
   // As in TraceReader.
@@ -67,8 +65,7 @@ class DirectReader {
   std::vector<std::string> clock_notes_;
   bool lacks_descriptions_ = false;
   std::uint64_t content_bytes_ = 0;
-  std::map<std::string, std::uint64_t> bytes_of_domains_;
-  std::map<std::string, std::uint64_t> expected_bytes_;
+  RecordedBytes recorded_;
 };
 
 }  // namespace tracing
