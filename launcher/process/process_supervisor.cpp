@@ -179,20 +179,6 @@ void Supervision::revive(Supervised& process) {
   spawn(process);
 }
 
-void Supervision::restart_unhealthy(Supervised& process) {
-  if (!shutting_down) {
-    process.request = Request::kRestartUnhealthy;
-    interrupt(process);
-  }
-}
-
-void Supervision::set_health(Supervised& process, HealthChanged change) {
-  change.pid = process.process.pid;
-  process.health = change.health;
-  process.health_reason = change.reason;
-  notify(process, std::move(change));
-}
-
 void Supervision::start_timer(Supervised& process, Duration delay) {
   process.timer_end = loop.now() + delay;
   process.timer = loop.after(delay, [this, &process] { handle(process, Event::kTimeout); });
@@ -329,24 +315,12 @@ void ProcessSupervisor::restart(ProcessId id) {
   impl_->handle(*impl_->processes.at(id - 1), Event::kRestart);
 }
 
-void ProcessSupervisor::restart_unhealthy(ProcessId id) {
-  impl_->handle(*impl_->processes.at(id - 1), Event::kUnhealthy);
-}
-
 ProcessRunner& ProcessSupervisor::runner() const {
   return impl_->runner;
 }
 
 const std::string& ProcessSupervisor::files_directory() const {
   return impl_->files.directory();
-}
-
-void ProcessSupervisor::set_status(ProcessId id, const std::string& text) {
-  impl_->processes.at(id - 1)->status = text;
-}
-
-void ProcessSupervisor::set_health(ProcessId id, HealthChanged change) {
-  impl_->set_health(*impl_->processes.at(id - 1), std::move(change));
 }
 
 Duration ProcessSupervisor::terminate_all() {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "participant/participant.hpp"
 
-#include <unistd.h>
-
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
@@ -26,6 +24,7 @@
 #include "participant/default_transports.hpp"
 #include "participant/discovery_range.hpp"
 #include "participant/discovery_traffic.hpp"
+#include "participant/profiles.hpp"
 #include "participant/shared_memory_ports.hpp"
 #include "participant/user_data.hpp"
 #include "process/end_of_process.hpp"
@@ -130,31 +129,6 @@ fdds::DomainParticipant* create_participant(std::uint32_t domain_id, fdds::Domai
     return nullptr;
   }
   return participant;
-}
-
-// Fast DDS 2 reads FASTRTPS_DEFAULT_PROFILES_FILE, Fast DDS 3 FASTDDS_DEFAULT_PROFILES_FILE. Here both have their
-// effect.
-void load_profiles(fdds::DomainParticipantFactory& factory) {
-  const char* const names[] = {"FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE"};
-  const auto file_of = [](const char* name) {
-    const char* value = std::getenv(name);
-    return value != nullptr && *value != '\0' ? value : nullptr;
-  };
-  const char* const of_fast_dds = names[RMW_FASTDDS_MAJOR >= 3 ? 1 : 0];
-  const char* const other = names[RMW_FASTDDS_MAJOR >= 3 ? 0 : 1];
-  const char* name = of_fast_dds;
-  const char* file = file_of(name);
-  bool is_read = true;
-  if (file != nullptr) {
-    is_read = access(file, R_OK) == 0;  // not every release of Fast DDS names the file that it misses
-  } else if (name = other, file = file_of(name); file != nullptr) {
-    is_read = factory.load_XML_profiles_file(file) == rmw_fastrtps::return_code::kOk;
-  }
-  if (!is_read) {
-    rcutils_log(nullptr, RCUTILS_LOG_SEVERITY_ERROR, "rmw_fastrtps",
-                "%s is '%s', whose profiles cannot be read; they have no effect", name, file);
-  }
-  factory.load_profiles();
 }
 
 }  // namespace
