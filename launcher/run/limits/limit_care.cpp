@@ -15,12 +15,13 @@ namespace launch {
 namespace {
 
 // Of a launcher that was killed: ends what is left of processes, at once and whatever they start meanwhile, where the
-// kernel can (cgroup.kill, Linux 5.14), and removes the cgroups. Groups are named with a dot, processes with a dash.
+// kernel can (cgroup.kill, Linux 5.14), and removes the cgroups, which the kernel allows when their processes are gone:
+// that is tried for eight seconds, on a busy machine. Groups are named with a dot, processes with a dash.
 // Then the processes outside of the launch go back to the delegated cgroup. The words: the tree, that cgroup, the one
 // outside.
 constexpr const char* kCleanUp =
     R"(find "$0" -mindepth 1 -type d -name '*-[0-9]*' ! -path '*.leave*' -exec sh -c 'echo 1 >"$0/cgroup.kill"' {} \; 2>/dev/null
-for i in 1 2 3 4 5 6 7 8 9 10; do
+for i in $(seq 80); do
   find "$0" -depth -type d -exec rmdir {} + 2>/dev/null
   test ! -d "$0" || { sleep 0.1; continue; }
   test -d "$2" || exit 0
