@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "tests/support/command.hpp"
+#include "tests/support/plain_terminal.hpp"
 #include "tests/support/sandbox.hpp"
 #include "tests/support/terminal.hpp"
 
@@ -24,23 +25,12 @@ namespace fs = std::filesystem;
 
 constexpr std::chrono::seconds kPatience{60};
 
-// A terminal that knows no more than to move, to clear and to write, so that the test can tell what its screen shows.
-constexpr const char* kTerminal =
-    "plain|a terminal of a test, cols#80, lines#24, clear=\\E[H\\E[2J, cup=\\E[%i%p1%d;%p2%dH, ed=\\E[J, "
-    "el=\\E[K,\n"
-    "  kcud1=\\E[B, kcuu1=\\E[A, kend=\\E[F, khome=\\E[H,\n";
-
 class TopTest : public testing::Test {
  protected:
   TopTest() {
     fs::create_directory(sandbox_.directory() / "run");
-    write_file(sandbox_.directory() / "plain.ti", kTerminal);
-    environment_ = {{"XDG_RUNTIME_DIR", sandbox_.directory() / "run"},
-                    {"TERMINFO", sandbox_.directory() / "terminfo"},
-                    {"TERM", "plain"}};
-    const CommandResult compiled =
-        run_command({"tic", "-o", sandbox_.directory() / "terminfo", sandbox_.directory() / "plain.ti"});
-    EXPECT_EQ(compiled.exit_code, 0) << compiled.err;
+    environment_ = plain_terminal(sandbox_);
+    environment_["XDG_RUNTIME_DIR"] = sandbox_.directory() / "run";
   }
 
   Command launch(const std::string& actions) const {

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <regex>
 
+#include "tests/e2e/nodes/graph_command_case.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
 
@@ -16,26 +17,8 @@ using testing::HasSubstr;
 using testing::MatchesRegex;
 using testing::StartsWith;
 
-constexpr auto kPatience = 60s;
-
-CommandResult launch_command(std::vector<std::string> words) {
-  words.insert(words.begin(), LAUNCH_PROGRAM);
-  return run_command(Command{words}, kPatience);
-}
-
 Command node(const std::string& name) {
-  return {{BUILD_DIRECTORY "/prefix/lib/demo_nodes/" + name}};
-}
-
-// Asks again until the answer has the text, because nodes are found a moment after they have started.
-CommandResult ask_until(const std::vector<std::string>& words, const std::string& text) {
-  const auto end = std::chrono::steady_clock::now() + kPatience;
-  while (true) {
-    const CommandResult result = launch_command(words);
-    if ((result.out + result.err).find(text) != std::string::npos || std::chrono::steady_clock::now() >= end) {
-      return result;
-    }
-  }
+  return program_of_stack("demo_nodes/" + name);
 }
 
 TEST(TopicCommand, ListsDescribesAndPrintsTopics) {

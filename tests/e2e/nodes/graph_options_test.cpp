@@ -9,6 +9,7 @@
 #include <chrono>
 #include <fstream>
 
+#include "tests/e2e/nodes/graph_command_case.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/sandbox.hpp"
 
@@ -20,36 +21,9 @@ using testing::HasSubstr;
 using testing::MatchesRegex;
 using testing::StartsWith;
 
-constexpr auto kPatience = 60s;
-
-Command launch_words(std::vector<std::string> words) {
-  words.insert(words.begin(), LAUNCH_PROGRAM);
-  return Command{words};
-}
-
-CommandResult launch_command(const std::vector<std::string>& words) {
-  return run_command(launch_words(words), kPatience);
-}
-
-Command node(const std::string& path, std::vector<std::string> arguments = {}) {
-  arguments.insert(arguments.begin(), BUILD_DIRECTORY "/prefix/lib/" + path);
-  return Command{arguments};
-}
-
-// Asks again until the answer has the text, because nodes are found a moment after they have started.
-CommandResult ask_until(const std::vector<std::string>& words, const std::string& text) {
-  const auto end = std::chrono::steady_clock::now() + kPatience;
-  while (true) {
-    const CommandResult result = launch_command(words);
-    if ((result.out + result.err).find(text) != std::string::npos || std::chrono::steady_clock::now() >= end) {
-      return result;
-    }
-  }
-}
-
 TEST(GraphOptions, RatesOfAllTopics) {
   Sandbox sandbox;
-  RunningCommand talker(node("demo_nodes/talker"));
+  RunningCommand talker(program_of_stack("demo_nodes/talker"));
   ask_until({"topic", "list"}, "/chatter");
   RunningCommand rate(launch_words({"topic", "hz", "--all"}));
   EXPECT_TRUE(rate.wait_for_output("Subscribed to [/chatter]", kPatience)) << rate.err();
@@ -89,8 +63,8 @@ TEST(GraphOptions, MessagesOfAFile) {
 
 TEST(GraphOptions, ServicesInDetail) {
   Sandbox sandbox;
-  RunningCommand service(
-      node("demo_nodes_cpp/introspection_service", {"--ros-args", "-p", "service_configure_introspection:=contents"}));
+  RunningCommand service(program_of_stack("demo_nodes_cpp/introspection_service",
+                                          {"--ros-args", "-p", "service_configure_introspection:=contents"}));
   const CommandResult info = ask_until({"service", "info", "-v", "/add_two_ints"}, "Node name: introspection_service");
   EXPECT_THAT(
       info.out,
@@ -115,7 +89,7 @@ TEST(GraphOptions, ServicesInDetail) {
 
 TEST(GraphOptions, ActionsAreFoundAndEchoed) {
   Sandbox sandbox;
-  RunningCommand server(node("demo_nodes/fibonacci_action_server", {"--ros-args", "-p", "period_ms:=20"}));
+  RunningCommand server(program_of_stack("demo_nodes/fibonacci_action_server", {"--ros-args", "-p", "period_ms:=20"}));
   const std::string action = ask_until({"action", "find", "example_interfaces/action/Fibonacci"}, "fibonacci").out;
   EXPECT_EQ(action, "/fibonacci\n");
   EXPECT_EQ(ask_until({"action", "find", "-c", "example_interfaces/Fibonacci"}, "1").out, "1\n");
@@ -134,7 +108,7 @@ TEST(GraphOptions, ActionsAreFoundAndEchoed) {
 
 TEST(GraphOptions, ParametersAreSetAtomically) {
   Sandbox sandbox;
-  RunningCommand server(node("demo_nodes/add_two_ints_server"));
+  RunningCommand server(program_of_stack("demo_nodes/add_two_ints_server"));
   ask_until({"param", "list"}, "  count");
   const std::vector<std::string> set = {
       "param", "set", "/add_two_ints_server", "--atomic", "--service-timeout", "60", "--timeout", "60"};

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "tests/support/command.hpp"
+#include "tests/support/plain_terminal.hpp"
 #include "tests/support/sandbox.hpp"
 #include "tests/support/terminal.hpp"
 
@@ -17,21 +18,12 @@ namespace fs = std::filesystem;
 
 constexpr std::chrono::seconds kPatience{60};
 
-constexpr const char* kTerminal =
-    "plain|a terminal of a test, cols#80, lines#24, clear=\\E[H\\E[2J, cup=\\E[%i%p1%d;%p2%dH, ed=\\E[J, "
-    "el=\\E[K,\n"
-    "  kcud1=\\E[B, kcuu1=\\E[A, kend=\\E[F, khome=\\E[H,\n";
-
 class TopOnOtherSideTest : public testing::Test {
  protected:
   TopOnOtherSideTest() {
     fs::create_directory(sandbox_.directory() / "run");
-    write_file(sandbox_.directory() / "plain.ti", kTerminal);
-    environment_ = {{"XDG_RUNTIME_DIR", sandbox_.directory() / "run"},
-                    {"TERMINFO", sandbox_.directory() / "terminfo"},
-                    {"TERM", "plain"}};
-    EXPECT_EQ(
-        run_command({"tic", "-o", sandbox_.directory() / "terminfo", sandbox_.directory() / "plain.ti"}).exit_code, 0);
+    environment_ = plain_terminal(sandbox_);
+    environment_["XDG_RUNTIME_DIR"] = sandbox_.directory() / "run";
     // As ssh: words are joined, a shell reads them, and little of the environment arrives.
     write_script("connect", "exec env -i TERMINFO=\"$TERMINFO\" XDG_RUNTIME_DIR=\"$XDG_RUNTIME_DIR\" PATH=" +
                                 fs::path(LAUNCH_PROGRAM).parent_path().string() + ":/usr/bin:/bin sh -c \"$*\"");

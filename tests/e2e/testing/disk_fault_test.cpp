@@ -96,7 +96,8 @@ TEST_F(DiskFaultTest, SupervisionGoesOnWhenTheDiskOfTheLogsIsFull) {
   <executable name="again" cmd="sh -c 'echo begun; exec sleep 100'" respawn="true" output="both"/>
   <test name="t">
     <fault do="fill_disk"/>
-    <fault process="again" do="kill"><depends_on process="noisy" condition="output" pattern="noise over"/></fault>
+    <fault process="again" do="kill"><depends_on process="noisy" condition="output" pattern="noise over"/>
+      <depends_on process="again" condition="output" pattern="begun"/></fault>
     <output process="again" text="begun" min="2"/>
     <output process="noisy" text="19999"/>
     <exit process="noisy" when="shutdown" code="any"/>

@@ -95,6 +95,16 @@ def _does_not_raise(validate, output):
     return holds
 
 
+async def _assert(context, handler, action, validate, output, timeout):
+    if not await _wait(context, handler, action, _does_not_raise(validate, output), timeout):
+        validate(output())
+
+
+def _assert_sync(context, handler, action, validate, output, timeout):
+    if not _wait_sync(context, handler, action, _does_not_raise(validate, output), timeout):
+        validate(output())
+
+
 async def wait_for_output(launch_context, execute_process_action, validate_output, timeout=None):
     """Whether `validate_output(stdout)` is true within the time."""
     return await _wait(launch_context, _of_stdout, execute_process_action,
@@ -103,10 +113,7 @@ async def wait_for_output(launch_context, execute_process_action, validate_outpu
 
 async def assert_output(launch_context, execute_process_action, validate_output, timeout=None):
     """Fails with the AssertionError of `validate_output(stdout)` unless it raises none within the time."""
-    output = execute_process_action.get_stdout
-    if not await _wait(launch_context, _of_stdout, execute_process_action, _does_not_raise(validate_output, output),
-                       timeout):
-        validate_output(output())
+    await _assert(launch_context, _of_stdout, execute_process_action, validate_output, execute_process_action.get_stdout, timeout)
 
 
 def wait_for_output_sync(launch_context, execute_process_action, validate_output, timeout=None):
@@ -115,9 +122,7 @@ def wait_for_output_sync(launch_context, execute_process_action, validate_output
 
 
 def assert_output_sync(launch_context, execute_process_action, validate_output, timeout=None):
-    output = execute_process_action.get_stdout
-    if not _wait_sync(launch_context, _of_stdout, execute_process_action, _does_not_raise(validate_output, output), timeout):
-        validate_output(output())
+    _assert_sync(launch_context, _of_stdout, execute_process_action, validate_output, execute_process_action.get_stdout, timeout)
 
 
 async def wait_for_stderr(launch_context, execute_process_action, validate_output, timeout=None):
@@ -126,10 +131,7 @@ async def wait_for_stderr(launch_context, execute_process_action, validate_outpu
 
 
 async def assert_stderr(launch_context, execute_process_action, validate_output, timeout=None):
-    output = execute_process_action.get_stderr
-    if not await _wait(launch_context, _of_stderr, execute_process_action, _does_not_raise(validate_output, output),
-                       timeout):
-        validate_output(output())
+    await _assert(launch_context, _of_stderr, execute_process_action, validate_output, execute_process_action.get_stderr, timeout)
 
 
 def wait_for_stderr_sync(launch_context, execute_process_action, validate_output, timeout=None):
@@ -138,9 +140,7 @@ def wait_for_stderr_sync(launch_context, execute_process_action, validate_output
 
 
 def assert_stderr_sync(launch_context, execute_process_action, validate_output, timeout=None):
-    output = execute_process_action.get_stderr
-    if not _wait_sync(launch_context, _of_stderr, execute_process_action, _does_not_raise(validate_output, output), timeout):
-        validate_output(output())
+    _assert_sync(launch_context, _of_stderr, execute_process_action, validate_output, execute_process_action.get_stderr, timeout)
 
 
 def _has_started(action):
