@@ -42,9 +42,11 @@ class TopOnOtherSideTest : public testing::Test {
             .environment = environment_,
             .directory = sandbox_.directory()};
   }
-  static void end(RunningCommand& run) {
+  // The other side's command ends by itself, which may take longer than the end of the connection.
+  void end(RunningCommand& run) {
     run.send_signal(SIGINT);
     EXPECT_EQ(run.wait().exit_code, 0);
+    sandbox_.wait_until_daemons_are_left();
   }
   std::vector<std::string> top_of(const RunningCommand& run, const std::string& connect = "connect") const {
     return {LAUNCH_PROGRAM, "top", "--launch", std::to_string(run.pid()), "--on", sandbox_.directory() / connect};
