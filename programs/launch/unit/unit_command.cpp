@@ -46,7 +46,13 @@ constexpr int kNoSuchUnit = 4;
 
 // Where units are, and how systemctl(1) is told whose they are.
 struct Manager {
-  explicit Manager(bool user) : of_user(user || ::geteuid() != 0) {}
+  explicit Manager(bool user) : of_user(user || ::geteuid() != 0) {
+    // Sessions of sudo(8) and cron(8) lack the variable, without which systemctl(1) finds no service manager.
+    const std::string usual = fmt::format("/run/user/{}", ::geteuid());
+    if (of_user && ::getenv("XDG_RUNTIME_DIR") == nullptr && fs::exists(usual)) {
+      ::setenv("XDG_RUNTIME_DIR", usual.c_str(), 0);
+    }
+  }
 
   fs::path directory() const {
     if (!of_user) {
@@ -57,7 +63,21 @@ struct Manager {
            "systemd/user";
   }
   fs::path path_of(const std::string& unit) const { return directory() / (unit + ".service"); }
-  bool runs() const { return of_user || fs::exists("/run/systemd/system"); }
+  fs::path link_of(const std::string& unit) const {
+    return directory() / (of_user ? "default.target.wants" : "multi-user.target.wants") / (unit + ".service");
+  }
+  bool runs() const {
+    const char* const runtime = ::getenv("XDG_RUNTIME_DIR");
+    std::error_code unreadable;
+    return of_user ? runtime != nullptr && fs::exists(fs::path(runtime) / "systemd/private", unreadable)
+                   : fs::exists("/run/systemd/system");
+  }
+  // Only then does the service manager of a user start with the machine, and not with the first login.
+  bool lingers() const {
+    const passwd* const user = ::getpwuid(::geteuid());
+    std::error_code unreadable;
+    return user != nullptr && fs::exists(fs::path("/var/lib/systemd/linger") / user->pw_name, unreadable);
+  }
 
   std::vector<std::string> words(std::vector<std::string> more) const {
     if (of_user) {
@@ -76,6 +96,14 @@ void tell_systemd(const Manager& manager, const std::vector<std::string>& words)
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
     throw std::runtime_error(fmt::format("'systemctl {}' has failed", words.front()));
   }
+}
+
+// What `systemctl enable` does, which for a user wants a service manager that runs.
+void enable_later(const Manager& manager, const std::string& unit) {
+  const fs::path link = manager.link_of(unit);
+  fs::create_directories(link.parent_path());
+  fs::remove(link);
+  fs::create_symlink(manager.path_of(unit), link);
 }
 
 // The properties of a unit, by name.
@@ -193,6 +221,7 @@ int install(const Words& words) {
   command.take_texts("--env", also, "take this variable of the environment along, too");
   command.take_texts("--option", options, "an option for the launch, such as --option=--trace");
   command.take_flag("--realtime", unit.realtime, "allow real-time priorities and locked memory");
+  command.take_flag("--hardened", unit.hardened, "take rights away that few nodes need, among them sudo");
   command.take_flag("--no-start", no_start, "start it with the machine only, not now");
   command.take_flag("--print", print, "print the unit, install nothing");
   if (const auto exit_code = command.parse(words)) {
@@ -246,9 +275,14 @@ int install(const Words& words) {
   }
   fmt::print("{} is written\n", path.string());
   std::fflush(stdout);
+  if (manager.of_user && !manager.lingers()) {
+    fmt::print("it starts when this user logs in; 'loginctl enable-linger' makes it start with the machine\n");
+    std::fflush(stdout);
+  }
   if (!manager.runs()) {
-    tell_systemd(manager, {"enable", name + ".service"});
-    fmt::print("systemd does not run here; it starts the launch with the machine\n");
+    enable_later(manager, name);
+    fmt::print("{}\n", manager.of_user ? "the service manager of this user does not run, so nothing starts now"
+                                       : "systemd does not run here; it starts the launch with the machine");
     return 0;
   }
   tell_systemd(manager, {"daemon-reload"});
@@ -276,7 +310,10 @@ int remove(const Words& words) {
   if (!is_ours(path)) {
     throw std::runtime_error(fmt::format("'{}' was not made by launch", path.string()));
   }
-  tell_systemd(manager, manager.runs() ? Words{"disable", "--now", service} : Words{"disable", service});
+  if (manager.runs()) {
+    tell_systemd(manager, {"disable", "--now", service});
+  }
+  fs::remove(manager.link_of(unit.name));
   fs::remove(path);
   if (manager.runs()) {
     tell_systemd(manager, {"daemon-reload"});

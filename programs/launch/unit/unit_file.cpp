@@ -48,6 +48,8 @@ std::string unit_text(const UnitFile& unit) {
   for (const std::string& word : unit.command) {
     text += (&word == &unit.command.front() ? "" : " ") + quoted(word, true);
   }
+  // The file as it is then. `systemctl reload` fails, and nothing changes, if the file has an error.
+  text += fmt::format("\nExecReload={} reload --launch $MAINPID", quoted(unit.command.front(), true));
   text += fmt::format("\nWorkingDirectory={}\n", unit.directory);
   if (!unit.user.empty()) {
     text += fmt::format("User={}\n", unit.user);
@@ -61,6 +63,12 @@ std::string unit_text(const UnitFile& unit) {
   text += "Delegate=yes\nOOMPolicy=continue\n";
   if (unit.realtime) {
     text += "LimitRTPRIO=99\nLimitMEMLOCK=infinity\nLimitNICE=-20\n";
+  }
+  if (unit.hardened) {
+    // Not PrivateTmp: commands find a launch by its socket in /tmp. Not PrivateDevices and the like: a robot has
+    // devices.
+    text += "NoNewPrivileges=yes\nProtectSystem=full\nProtectHostname=yes\nRestrictSUIDSGID=yes\n";
+    text += "LockPersonality=yes\nSystemCallArchitectures=native\n";
   }
   text += fmt::format("\n[Install]\nWantedBy={}\n", unit.of_user ? "default.target" : "multi-user.target");
   return text;

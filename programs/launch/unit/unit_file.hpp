@@ -19,6 +19,7 @@ struct UnitFile {
   std::vector<std::pair<std::string, std::string>> variables;
   std::chrono::seconds stop_timeout{90};
   bool realtime = false;
+  bool hardened = false;
   bool of_user = false;  // for the service manager of a user
 };
 

@@ -30,7 +30,8 @@ constexpr std::chrono::seconds kPatience{60};
 constexpr const char* kSystemd = "/lib/systemd/systemd";
 
 // Units of the machine must not start here: they would clean its /tmp, among other things. This systemd knows no more
-// than those of the journal and what the test installs.
+// than those of the journal and of the end, and what the test installs. Its last program, which would end file systems,
+// does nothing.
 constexpr const char* kBoot = R"sh(
 set -e
 mount --make-rprivate /
@@ -45,7 +46,11 @@ for name in sysinit basic multi-user; do
   printf "[Unit]\nDefaultDependencies=no\n" > /etc/systemd/system/$name.target
 done
 printf "[Unit]\nRequires=systemd-journald.service\nWants=multi-user.target\nAfter=multi-user.target\n" > /etc/systemd/system/default.target
+for name in poweroff.target systemd-poweroff.service shutdown.target umount.target final.target; do
+  cp "/lib/systemd/system/$name" /etc/systemd/system
+done
 mount --bind /bin/true "$(command -v systemd-tmpfiles)"
+mount --bind /bin/true /lib/systemd/systemd-shutdown
 exec env -i container=test PATH="$PATH" SYSTEMD_UNIT_PATH=/etc/systemd/system /lib/systemd/systemd --system --log-target=null'
 )sh";
 
@@ -157,6 +162,17 @@ TEST_F(Unit, PrintsAUnitOfTheFile) {
   EXPECT_THAT(text, HasSubstr("\nLimitRTPRIO=99\n"));
 }
 
+TEST_F(Unit, AHardenedUnitGivesRightsUp) {
+  const std::vector<std::string> words = {LAUNCH_PROGRAM, "unit", "install", "--print",
+                                          write(R"xml(<executable cmd="true"/>)xml")};
+  std::vector<std::string> hardened = words;
+  hardened.push_back("--hardened");
+  EXPECT_THAT(run_command(Command{.argv = hardened}).out,
+              HasSubstr("\nNoNewPrivileges=yes\nProtectSystem=full\nProtectHostname=yes\nRestrictSUIDSGID=yes\n"
+                        "LockPersonality=yes\nSystemCallArchitectures=native\n"));
+  EXPECT_THAT(run_command(Command{.argv = words}).out, Not(HasSubstr("NoNewPrivileges")));
+}
+
 TEST_F(Unit, AFileWithAnErrorMakesNoUnit) {
   const std::string file = write("<executable/>");
   const CommandResult result = run_command({LAUNCH_PROGRAM, "unit", "install", file});
@@ -229,6 +245,111 @@ TEST_F(Unit, SystemdRunsItAndTheJournalKnowsWhereLinesComeFrom) {
   const CommandResult gone = unit({"status", "launch-robot"});
   EXPECT_EQ(gone.exit_code, 4);
   EXPECT_EQ(gone.err, "launch unit status: error: there is no unit 'launch-robot'\n");
+}
+
+TEST_F(Unit, ReloadReadsTheFileAgain) {
+  if (const std::string why = boot(); !why.empty()) {
+    GTEST_SKIP() << why;
+  }
+  const std::string first = R"xml(<executable name="a" cmd="sleep 1000"/>)xml";
+  ASSERT_EQ(unit({"install", "--hardened", write(first)}).exit_code, 0);
+  ASSERT_TRUE(becomes("StatusText", "1 process runs")) << property("StatusText");
+  const std::string pid = inside({"pgrep", "-f", "^sleep 1000"}).out;
+
+  write("<executable/>");
+  EXPECT_NE(inside({"systemctl", "reload", "launch-robot"}).exit_code, 0);
+  EXPECT_EQ(property("ActiveState"), "active");
+
+  write(first + R"xml(<executable name="b" cmd="sleep 2000"/>)xml");
+  const CommandResult reloaded = inside({"systemctl", "reload", "launch-robot"});
+  EXPECT_EQ(reloaded.exit_code, 0) << reloaded.err << inside({"journalctl", "--unit=launch-robot"}).out;
+  EXPECT_TRUE(becomes("StatusText", "2 processes run")) << property("StatusText");
+  EXPECT_EQ(inside({"pgrep", "-f", "^sleep 1000"}).out, pid);
+}
+
+TEST_F(Unit, PowerOffEndsTheProcessesGently) {
+  if (const std::string why = boot(); !why.empty()) {
+    GTEST_SKIP() << why;
+  }
+  write_file(sandbox_.directory() / "node.sh",
+             "trap 'echo gentle > end; exit' INT\necho > begun\nwhile :; do sleep 0.01; done\n");
+  const std::string file = write(R"xml(<executable name="a" cmd="sh node.sh"/>)xml");
+  ASSERT_EQ(unit({"install", file}).exit_code, 0);
+  ASSERT_TRUE(becomes("ActiveState", "active"));
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (!fs::exists(sandbox_.directory() / "begun")) {
+    ASSERT_LT(std::chrono::steady_clock::now(), end);
+  }
+  // It may end with the others before it has been answered.
+  inside({"systemctl", "poweroff"});
+  boot_->wait(kPatience);
+  systemd_ = 0;
+  EXPECT_EQ(read_file(sandbox_.directory() / "end"), "gentle\n");
+}
+
+TEST_F(Unit, AUserHasUnitsOfTheirOwn) {
+  if (const std::string why = boot(); !why.empty()) {
+    GTEST_SKIP() << why;
+  }
+  const fs::path home = sandbox_.directory() / "daemon";
+  const fs::path units = home / ".config/systemd/user";
+  fs::create_directories(units);
+  fs::create_directories(home / "runtime");
+  for (const char* const name : {"default", "basic", "shutdown"}) {
+    write_file(units / (std::string(name) + ".target"), "[Unit]\nDefaultDependencies=no\n");
+  }
+  write_file(home / "robot.launch.xml", "<launch>\n<executable name=\"a\" cmd=\"sleep 1000\"/>\n</launch>\n");
+  fs::permissions(sandbox_.directory(), fs::perms::all);
+  ASSERT_EQ(run_command({"chown", "-R", "daemon:", home.string()}).exit_code, 0);
+  fs::permissions(home / "runtime", fs::perms::owner_all);
+  const std::string variables = "HOME=" + home.string() + " XDG_RUNTIME_DIR=" + (home / "runtime").string() +
+                                " SYSTEMD_UNIT_PATH=" + units.string();
+  const auto as_daemon = [&](const std::string& command) {
+    return inside({"setpriv", "--reuid=daemon", "--regid=daemon", "--clear-groups", "sh", "-c",
+                   "cd " + home.string() + "; exec env -i PATH=\"$PATH\" " + variables + " " + command});
+  };
+  const std::string launch = LAUNCH_PROGRAM;
+  if (as_daemon("test -x " + launch).exit_code != 0) {
+    GTEST_SKIP() << "skipped, because other users can't reach the build";
+  }
+
+  // Without a service manager of the user the unit is written for later.
+  const CommandResult early = as_daemon(launch + " unit install robot.launch.xml");
+  EXPECT_EQ(early.exit_code, 0) << early.err;
+  EXPECT_EQ(early.out,
+            (units / "launch-robot.service").string() +
+                " is written\n"
+                "it starts when this user logs in; 'loginctl enable-linger' makes it start with the machine\n"
+                "the service manager of this user does not run, so nothing starts now\n");
+
+  EXPECT_TRUE(fs::exists(units / "default.target.wants/launch-robot.service"));
+  EXPECT_EQ(as_daemon(launch + " unit remove launch-robot").exit_code, 0);
+  EXPECT_FALSE(fs::exists(fs::symlink_status(units / "default.target.wants/launch-robot.service")));
+  EXPECT_FALSE(fs::exists(units / "launch-robot.service"));
+
+  // As user@.service, without PAM.
+  write_file(sandbox_.directory() / "manager.service",
+             "[Service]\nType=notify\nUser=daemon\nDelegate=yes\nEnvironment=" + variables +
+                 "\nExecStart=/lib/systemd/systemd --user\n");
+  ASSERT_EQ(inside({"cp", (sandbox_.directory() / "manager.service").string(), "/etc/systemd/system"}).exit_code, 0);
+  const CommandResult logged_in = inside({"systemctl", "start", "manager"});
+  ASSERT_EQ(logged_in.exit_code, 0) << logged_in.err << inside({"journalctl", "--unit=manager"}).out;
+  EXPECT_EQ(as_daemon("systemctl --user is-active --quiet default.target").exit_code, 0);
+  const CommandResult installed = as_daemon(launch + " unit install robot.launch.xml");
+  EXPECT_EQ(installed.exit_code, 0) << installed.err;
+  EXPECT_THAT(installed.out, HasSubstr("launch-robot starts; see 'launch unit status launch-robot' and 'journalctl "
+                                       "--user -u launch-robot'\n"));
+  CommandResult status;
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  do {
+    status = as_daemon(launch + " unit status launch-robot");
+  } while (status.out.find("1 process runs") == std::string::npos && std::chrono::steady_clock::now() < end);
+  EXPECT_THAT(status.out, ContainsRegex("^launch-robot: active \\(running\\), 1 process runs, launch [0-9]+\n$"))
+      << status.err << inside({"journalctl", "--no-pager", "-n", "50"}).out;
+  EXPECT_EQ(inside({"pgrep", "-u", "daemon", "-c", "-f", "^sleep 1000"}).out, "1\n");
+  const CommandResult removed = as_daemon(launch + " unit remove launch-robot");
+  EXPECT_EQ(removed.exit_code, 0) << removed.err;
+  EXPECT_EQ(inside({"pgrep", "-u", "daemon", "-c", "-f", "^sleep 1000"}).out, "0\n");
 }
 
 // The launcher is stopped, so it does not feed the watchdog. systemd ends it and starts it anew.
