@@ -13,13 +13,23 @@ namespace {
 
 std::vector<double> of_others(const Disturbances& run, const Measurement& self) {
   std::vector<double> others;
-  for (const auto& [subject, ratio] : run) {
+  for (const auto& [subject, times] : run) {
     const bool is_self = self.kind == Kind::kCallback && subject == self.subject;
     if (!is_self && std::find(self.steps.begin(), self.steps.end(), subject) == self.steps.end()) {
-      others.push_back(ratio);
+      others.push_back(times.spread);
     }
   }
   return others;
+}
+
+double longest_other(const Disturbances& run, const Measurement& self) {
+  double longest = 0;
+  for (const auto& [subject, times] : run) {
+    if (self.kind != Kind::kCallback || subject != self.subject) {
+      longest = std::max(longest, times.median_ns);
+    }
+  }
+  return longest;
 }
 
 double exceeded_by_a_fifth(std::vector<double>& ratios) {
@@ -30,15 +40,16 @@ double exceeded_by_a_fifth(std::vector<double>& ratios) {
 
 Disturbances disturbances_of(const RunSummary& run) {
   constexpr std::size_t kEnough = 20;
-  Disturbances ratios;
+  Disturbances found;
   for (const Measurement& one : run.measurements) {
     if (one.kind == Kind::kCallback && one.quantity == "duration" && one.samples.size() >= kEnough) {
       std::vector<double> samples(one.samples.begin(), one.samples.end());
       const double high = quantile(samples, 0.9);
-      ratios[one.subject] = std::log(std::max(high, 1.0) / std::max(quantile(samples, 0.1), 1.0));
+      const double low = quantile(samples, 0.1);
+      found[one.subject] = {std::log(std::max(high, 1.0) / std::max(low, 1.0)), quantile(samples, 0.5)};
     }
   }
-  return ratios;
+  return found;
 }
 
 Disturbance disturbance_between(const Disturbances& before, const Disturbances& after, const Measurement& self) {
@@ -47,11 +58,11 @@ Disturbance disturbance_between(const Disturbances& before, const Disturbances& 
   const bool by_few = std::min(earlier.size(), later.size()) < kLeastPeers;
   if (by_few) {
     earlier.clear();
-    for (const auto& [subject, ratio] : before) {
-      earlier.push_back(ratio);
+    for (const auto& [subject, times] : before) {
+      earlier.push_back(times.spread);
     }
   }
-  return {std::max(exceeded_by_a_fifth(earlier), exceeded_by_a_fifth(later)), by_few};
+  return {std::max(exceeded_by_a_fifth(earlier), exceeded_by_a_fifth(later)), by_few, longest_other(before, self)};
 }
 
 }  // namespace tracing::compare

@@ -11,17 +11,24 @@
 
 namespace tracing::compare {
 
-// How far the durations of each callback of a run lie apart: from the 10th to the 90th percentile, as the logarithm of
-// a ratio, by subject. The lengths of a callback's own work are in it, too.
-using Disturbances = std::map<std::string, double>;
+// What the durations of a callback in a run tell.
+struct CallbackTimes {
+  // How far they lie apart: from the 10th to the 90th percentile, as the logarithm of a ratio. The lengths of the
+  // callback's own work are in it, too.
+  double spread = 0;
+  double median_ns = 0;
+};
+
+using Disturbances = std::map<std::string, CallbackTimes>;  // by subject
 
 Disturbances disturbances_of(const RunSummary& run);
 
 // What the machine delays callbacks by in one of two runs, the one that was disturbed more: what a fifth of the
 // callbacks of a run exceeds.
 struct Disturbance {
-  double ratio = 0;     // its logarithm
-  bool by_few = false;  // a run has fewer than kLeastPeers others, so that the run before counts with all its callbacks
+  double ratio = 0;          // its logarithm
+  bool by_few = false;       // a run has fewer than kLeastPeers others, so the run before counts with all its callbacks
+  double in_the_way_ns = 0;  // the longest median duration of another callback in the run before
 };
 
 // For `self`, a quantity of both runs. Others are all callbacks but `self`, and if it is a chain, but its steps.
