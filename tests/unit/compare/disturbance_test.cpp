@@ -42,16 +42,17 @@ std::vector<std::string> found(const std::vector<Change>& changes) {
   return names;
 }
 
-TEST(Disturbance, TheLongestOtherCallbackIsThatOfTheRunBefore) {
+TEST(Disturbance, OtherCallbacksAreThoseOfTheRunBefore) {
   const Disturbances before = disturbances_of(waiting(0));
   const Disturbances after = disturbances_of(waiting(0, 5000 * kUs));
-  const auto in_the_way = [](const Disturbances& one, const Disturbances& other, const Measurement& self) {
-    return disturbance_between(one, other, self).in_the_way_ns / kUs;
+  const auto longest = [](const Disturbances& one, const Disturbances& other, const Measurement& self) {
+    return disturbance_between(one, other, self).longest_ns / kUs;
   };
-  EXPECT_NEAR(in_the_way(before, after, waiting(0).measurements[0]), 404, 1);  // /a is delayed by /b,
-  EXPECT_NEAR(in_the_way(before, after, waiting(0).measurements[1]), 101, 1);  // /b by /a,
-  EXPECT_NEAR(in_the_way(before, after, waiting(0).measurements[2]), 404, 1);  // and a message by each
-  EXPECT_NEAR(in_the_way(after, before, waiting(0).measurements[2]), 5141, 1);
+  EXPECT_NEAR(longest(before, after, waiting(0).measurements[0]), 404, 1);  // /a is delayed by /b,
+  EXPECT_NEAR(longest(before, after, waiting(0).measurements[1]), 101, 1);  // /b by /a,
+  EXPECT_NEAR(longest(before, after, waiting(0).measurements[2]), 404, 1);  // and a message by each
+  EXPECT_NEAR(longest(after, before, waiting(0).measurements[2]), 5141, 1);
+  EXPECT_NEAR(disturbance_between(before, after, waiting(0).measurements[2]).longest_two_ns / kUs, 505, 1);
 }
 
 // Timers of the other run have other phases, so that the message comes while /b runs, each time.
@@ -66,9 +67,11 @@ TEST(Disturbance, ALongerWaitThanThatIsAChange) {
   EXPECT_THAT(found(comparison.changes), ElementsAre("/t to /a p10", "/t to /a median", "/t to /a p90"));
 }
 
-TEST(Disturbance, SeveralRunsHaveSeveralPhases) {
-  const Runs before{"before", {waiting(10 * kUs), waiting(12 * kUs)}};
-  EXPECT_THAT(found(compare(before, {"after", {waiting(380 * kUs)}}, {}).changes),
+TEST(Disturbance, OneRunMayHaveMetPhasesThatManyOthersHaveNot) {
+  const RunSummary usual = waiting(10 * kUs);
+  const RunSummary other = waiting(380 * kUs);
+  EXPECT_THAT(found(compare({"before", {usual, usual, usual}}, {"after", {other}}, {}).changes), IsEmpty());
+  EXPECT_THAT(found(compare({"before", {usual, usual, usual}}, {"after", {other, other, other}}, {}).changes),
               ElementsAre("/t to /a p10", "/t to /a median", "/t to /a p90"));
 }
 

@@ -168,11 +168,16 @@ double delay_of(const Tested& tested, const PairTest& pair, bool certainly) {
   return std::min(twice, is_work ? std::log(1.5) : std::max(std::log(3.0), pair.blocks.own_range));
 }
 
-// What another callback may add to a quantity for a whole run, because the phases of timers put it in the way each
-// time. Several runs on a side have several phases, so a change that holds for all of them is none of this kind.
-double in_the_way_of(const Tested& tested, const PairTest& pair) {
+// What other callbacks may add to a quantity for a whole run, because the phases of timers put them in the way each
+// time: seldom more than two of them, and most likely one. A single run may have met such phases, though many
+// others have not. Where both sides have several runs, a change that holds between every two is none of this kind.
+double in_the_way_of(const Tested& tested, const PairTest& pair, bool certainly) {
   const bool is_delayed = !tested.is_undisturbed() && std::get<2>(tested.key) != "interval";
-  return is_delayed && tested.pairs.size() == 1 ? pair.disturbance.in_the_way_ns : 0;
+  constexpr std::size_t kSeveral = 3;
+  if (!is_delayed || std::min(tested.before->size(), tested.after->size()) >= kSeveral) {
+    return 0;
+  }
+  return certainly ? pair.disturbance.longest_two_ns : pair.disturbance.longest_ns;
 }
 
 // Tests one pair of runs of quantities that are of one sort, `place` of their pairs.
@@ -193,9 +198,10 @@ void test_pair(const std::vector<Tested*>& sort, std::size_t place, const Compar
     const double ns = kSpreads * peers[i].spread_ns;
     const double certain = std::max({spread, delay_of(*sort[i], pair, true), pair.blocks.own_ratio});
     const double likely = std::max({spread / 2, delay_of(*sort[i], pair, false), pair.blocks.own_ratio});
-    const double in_the_way = in_the_way_of(*sort[i], pair);
-    test_sides(sort[i]->certain, pair, peers[i].usual, {certain, std::max(ns, in_the_way)}, least);
-    test_sides(sort[i]->likely, pair, peers[i].usual, {likely, std::max(ns / 2, in_the_way)}, least);
+    const double certain_ns = std::max(ns, in_the_way_of(*sort[i], pair, true));
+    const double likely_ns = std::max(ns / 2, in_the_way_of(*sort[i], pair, false));
+    test_sides(sort[i]->certain, pair, peers[i].usual, {certain, certain_ns}, least);
+    test_sides(sort[i]->likely, pair, peers[i].usual, {likely, likely_ns}, least);
   }
 }
 

@@ -6,9 +6,9 @@
 // values of the blocks (10th percentile, median, 90th percentile) are compared by a rank test. A ratio counts if it is
 // larger than the least one that the user cares for, than what the run before differs within itself, than what other
 // quantities of the sort differ between the runs, and, unless it is the 10th percentile of a callback's duration, than
-// what the machine delays callbacks in either run and, if each side has one run, than the longest other callback takes.
-// Probabilities are corrected for the number of tests. If a side has several runs, a difference must hold between every
-// two of them.
+// what the machine delays callbacks in either run and, unless both sides have several runs, than two other
+// callbacks take. Probabilities are corrected for the number of tests. If a side has several runs, a difference must
+// hold between every two of them.
 #pragma once
 
 #include "tracing/model/compare/rank_test.hpp"

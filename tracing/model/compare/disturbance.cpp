@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "tracing/model/compare/peers.hpp"
 #include "tracing/model/compare/rank_test.hpp"
@@ -20,16 +21,6 @@ std::vector<double> of_others(const Disturbances& run, const Measurement& self) 
     }
   }
   return others;
-}
-
-double longest_other(const Disturbances& run, const Measurement& self) {
-  double longest = 0;
-  for (const auto& [subject, times] : run) {
-    if (self.kind != Kind::kCallback || subject != self.subject) {
-      longest = std::max(longest, times.median_ns);
-    }
-  }
-  return longest;
 }
 
 double exceeded_by_a_fifth(std::vector<double>& ratios) {
@@ -62,7 +53,15 @@ Disturbance disturbance_between(const Disturbances& before, const Disturbances& 
       earlier.push_back(times.spread);
     }
   }
-  return {std::max(exceeded_by_a_fifth(earlier), exceeded_by_a_fifth(later)), by_few, longest_other(before, self)};
+  std::vector<double> durations = {0, 0};
+  for (const auto& [subject, times] : before) {
+    if (self.kind != Kind::kCallback || subject != self.subject) {
+      durations.push_back(times.median_ns);
+    }
+  }
+  std::partial_sort(durations.begin(), durations.begin() + 2, durations.end(), std::greater<>());
+  return {std::max(exceeded_by_a_fifth(earlier), exceeded_by_a_fifth(later)), by_few, durations[0],
+          durations[0] + durations[1]};
 }
 
 }  // namespace tracing::compare

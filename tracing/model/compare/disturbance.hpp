@@ -26,9 +26,11 @@ Disturbances disturbances_of(const RunSummary& run);
 // What the machine delays callbacks by in one of two runs, the one that was disturbed more: what a fifth of the
 // callbacks of a run exceeds.
 struct Disturbance {
-  double ratio = 0;          // its logarithm
-  bool by_few = false;       // a run has fewer than kLeastPeers others, so the run before counts with all its callbacks
-  double in_the_way_ns = 0;  // the longest median duration of another callback in the run before
+  double ratio = 0;     // its logarithm
+  bool by_few = false;  // a run has fewer than kLeastPeers others, so the run before counts with all its callbacks
+  // Of the other callbacks' median durations in the run before: the longest one, and the sum of the longest two.
+  double longest_ns = 0;
+  double longest_two_ns = 0;
 };
 
 // For `self`, a quantity of both runs. Others are all callbacks but `self`, and if it is a chain, but its steps.
