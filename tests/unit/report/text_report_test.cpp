@@ -109,6 +109,28 @@ TEST(TextReport, ARequestInFlightIsNotUnanswered) {
   EXPECT_THAT(text, Not(HasSubstr("without a response")));
 }
 
+// A subscription takes the copy that comes through the middleware, too, and drops it.
+TEST(TextReport, AMessageThatGoesBothWaysIsReceivedOnce) {
+  Report report{"/traces/run", {}, ""};
+  TopicResult topic;
+  topic.name = "/chatter";
+  topic.published = 7;
+  topic.intra_process_published = 7;
+  topic.received = 14;
+  topic.intra_process_received = 7;
+  report.results.ros2.topics = {topic};
+  for (const char* const node : {"/within", "/outside"}) {
+    SubscriptionResult subscription;
+    subscription.node = node;
+    subscription.topic = "/chatter";
+    subscription.received = subscription.delivered = 7;
+    report.results.ros2.subscriptions.push_back(subscription);
+  }
+  EXPECT_THAT(text_report(report, {.all = true}),
+              HasSubstr("\nTopics      rate  sent  received  dropped  p50  p99  max\n"
+                        "  /chatter     -     7        14        -    -    -    -\n"));
+}
+
 TEST(TextReport, FitsTheWidth) {
   for (const std::size_t width : {60U, 80U, 100U, 200U}) {
     for (const bool compact : {false, true}) {

@@ -190,8 +190,10 @@ std::string callback_table(const TraceResults& results, const ReportOptions& opt
 
 std::string topic_table(const Ros2Results& ros2, const ReportOptions& options) {
   std::map<std::string, std::uint64_t> dropped;
+  std::map<std::string, std::uint64_t> taken;      // by subscriptions: each message once, whichever way it comes
   std::map<std::string, DurationSummary> slowest;  // of the subscriptions
   for (const SubscriptionResult& subscription : ros2.subscriptions) {
+    taken[subscription.topic] += subscription.received;
     dropped[subscription.topic] += subscription.dropped();
     DurationSummary& known = slowest[subscription.topic];
     if (known.count == 0 || subscription.latency.p99_ns > known.p99_ns) {
@@ -213,7 +215,8 @@ std::string topic_table(const Ros2Results& ros2, const ReportOptions& options) {
   table.times(&Traffic::latency);
   for (const TopicResult& topic : ros2.topics) {
     const std::uint64_t sent = std::max(topic.published, topic.intra_process_published);
-    const std::uint64_t received = topic.received + topic.intra_process_received;
+    const auto known = taken.find(topic.name);
+    const std::uint64_t received = known == taken.end() ? topic.received : known->second;
     if (!matches(options.topic, topic.name)) {
       continue;
     }

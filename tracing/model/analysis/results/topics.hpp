@@ -30,7 +30,9 @@ inline constexpr Field<TopicResult> TopicResult::kFields[] = {
     {"publishers", &TopicResult::publishers, "objects in the trace"},
     {"subscriptions", &TopicResult::subscriptions, "likewise"},
     {"published", &TopicResult::published, "messages handed to the middleware"},
-    {"received", &TopicResult::received, "messages taken; each subscription counts its own"},
+    {"received", &TopicResult::received,
+     "messages taken from the middleware; each subscription counts its own, also copies of what it gets without the "
+     "middleware"},
     {"published_only", &TopicResult::published_only,
      "part of `published`: messages that no subscription in the trace took"},
     {"received_only", &TopicResult::received_only, "part of `received`: messages published outside the trace"},
