@@ -63,7 +63,7 @@ class HeldSignals {
 
 // Appends what can be read now; false at the end of the stream.
 bool read_some(int fd, std::string& text) {
-  std::array<char, 4096> buffer;
+  std::array<char, 4096> buffer{};
   const ssize_t count = ::read(fd, buffer.data(), buffer.size());
   if (count > 0) {
     text.append(buffer.data(), static_cast<std::size_t>(count));
