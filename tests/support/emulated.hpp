@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What QEMU lacks when it runs programs for another processor: a child that shares the memory and the descriptors of
-// its parent. Its vfork() copies the memory, so a child can't tell its parent why it did not start a program.
+// its parent. Its vfork() copies the memory, so a child can't tell its parent why it did not start a program. And what
+// it makes up: /proc/self/stat, without use of memory or processors.
 #pragma once
 
 #include <sys/wait.h>
@@ -25,4 +26,10 @@ inline bool vfork_shares_memory() {
   if (!test_support::vfork_shares_memory()) {                                         \
     GTEST_SKIP() << "skipped, because vfork() copies the memory here, as under QEMU"; \
   }                                                                                   \
+  static_assert(true)
+
+#define NEEDS_PROC_SELF()                                                           \
+  if (!test_support::vfork_shares_memory()) {                                       \
+    GTEST_SKIP() << "skipped, because /proc/self/stat is made up here, as by QEMU"; \
+  }                                                                                 \
   static_assert(true)

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "base/files/small_file.hpp"
+#include "tests/support/emulated.hpp"
 
 namespace {
 
@@ -53,6 +54,7 @@ TEST(ProcessStat, AYoungerProcessStartedNotEarlierThanThisOne) {
 }
 
 TEST(ProcessStat, CountsTheTimeOnProcessors) {
+  NEEDS_PROC_SELF();
   const std::uint64_t before = launch::read_process_stat(getpid()).processor_time;
   std::uint64_t now = before;
   while (now == before) {  // until a clock tick has passed

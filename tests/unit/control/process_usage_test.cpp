@@ -7,10 +7,13 @@
 
 #include <cstddef>
 
+#include "tests/support/emulated.hpp"
+
 namespace launch {
 namespace {
 
 TEST(ProcessUsage, CountsTheProcessorTimeAndTheMemoryOfAProcess) {
+  NEEDS_PROC_SELF();
   timespec used{};
   do {
     ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);

@@ -8,6 +8,8 @@
 
 #include <vector>
 
+#include "tests/support/emulated.hpp"
+
 namespace launch {
 namespace {
 
@@ -17,6 +19,7 @@ using testing::StartsWith;
 
 class CommandProbeTest : public testing::Test {
  protected:
+  void SetUp() override { NEEDS_VFORK(); }
   std::unique_ptr<CommandProbe> probe_of(const std::string& script, Duration timeout = 30s) {
     ProcessSpec command;
     command.name = "check";
