@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "tests/support/emulated.hpp"
 #include "tests/support/trace_writer/temporary_directory.hpp"
 #include "tests/support/traced_example/traced_example.hpp"
 #include "tracing/show/export/export.hpp"
@@ -49,6 +50,7 @@ TEST_F(SvgExport, IsWhatDotDraws) {
 }
 
 TEST_F(SvgExport, SaysThatGraphvizIsMissing) {
+  NEEDS_VFORK();
   setenv("PATH", directory_.path().c_str(), 1);
   EXPECT_EQ(error(), "cannot write " + file_.string() +
                          ": Graphviz draws it, and there is no program dot in PATH; install the package graphviz, or "
