@@ -84,6 +84,8 @@ void find_variables_with_blanks(const std::vector<Template>& words, LaunchContex
 void find_lost_backslash(const std::shared_ptr<const SourceFile>& file, LaunchContext& context) {
   const std::string_view text = file->text();
   int depth = 0;  // of substitutions, which need backslashes
+  std::size_t first = 0;
+  std::size_t count = 0;
   for (std::size_t i = 0; i + 1 < text.size(); ++i) {
     if (text[i] == '#' && depth == 0 &&
         (i == 0 || std::string_view(" \t\n").find(text[i - 1]) != std::string_view::npos)) {
@@ -95,16 +97,18 @@ void find_lost_backslash(const std::shared_ptr<const SourceFile>& file, LaunchCo
       depth += text[i] == '(' ? 1 : -1;
     } else if (text[i] == '\\') {
       if (depth == 0 && text[i + 1] != '\\' && text[i + 1] != '$' && text[i + 1] != '\n') {
-        context.exploration().remark(
-            {Severity::kWarning,
-             fmt::format("the backslash of '{}' goes", text.substr(i, 2)),
-             {file, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(i + 2)},
-             "performing the substitutions of a file takes backslashes away: write two for one",
-             Finding::kLostBackslash});
-        return;
+        first = count++ == 0 ? i : first;
       }
       ++i;
     }
+  }
+  if (count > 0) {  // one warning for a file
+    context.exploration().remark({Severity::kWarning,
+                                  fmt::format("the backslash of '{}' goes", text.substr(first, 2)) +
+                                      (count > 1 ? fmt::format(", and {} more of this file", count - 1) : ""),
+                                  {file, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(first + 2)},
+                                  "performing the substitutions of a file takes backslashes away: write two for one",
+                                  Finding::kLostBackslash});
   }
 }
 

@@ -236,8 +236,18 @@ TEST(TraceReport, TellsWhyThereIsNone) {
   const Sandbox sandbox;
   const CommandResult result = launch_with_report(sandbox, "launch-events=\"false\"", "true");
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
-  EXPECT_THAT(result.out + result.err, HasSubstr("no report: see what 'launch report " +
-                                                 (sandbox.trace_directory() / "run").string() + "' says\n"));
+  EXPECT_THAT(result.out + result.err, HasSubstr("no report: see what `launch report " +
+                                                 (sandbox.trace_directory() / "run").string() + "` says\n"));
+}
+
+TEST(TraceReport, IsNamedByACommandThatAShellReads) {
+  const Sandbox sandbox;
+  const auto path = sandbox.directory() / "system.launch.xml";
+  write_file(path, "<launch>\n<trace session-name=\"a run\"/>\n<executable cmd=\"true\"/>\n</launch>\n");
+  const CommandResult result = run_command({LAUNCH_PROGRAM, path.string()});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(result.out + result.err,
+              HasSubstr("what is in it: launch report '" + (sandbox.trace_directory() / "a run").string() + "'\n"));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/text/quoted_text.hpp"
 #include "tracing/record/lttng/consumer_priority.hpp"
 #include "tracing/record/lttng/session_daemon.hpp"
 #include "tracing/record/plan/trace_error.hpp"
@@ -29,7 +30,7 @@ std::optional<RelayConnection> connection_of(const SessionSummary& session) {
 }
 
 std::string end_it_later(const std::string& session_name) {
-  return fmt::format("then end the session with `launch trace stop {}`", session_name);
+  return fmt::format("then end the session with `launch trace stop {}`", launch::shell_quoted(session_name));
 }
 
 std::optional<Absence> look_for_relay_daemon(const SessionSummary& session) {

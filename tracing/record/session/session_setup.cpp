@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/text/quoted_text.hpp"
 #include "tracing/record/account/counters/counter_directory.hpp"
 #include "tracing/record/checks/context_check.hpp"
 #include "tracing/record/checks/kernel_checks.hpp"
@@ -97,8 +98,9 @@ NewSession::NewSession(const TraceConfig& config)
   }
   const int result = create(config, directory);
   if (result == -LTTNG_ERR_EXIST_SESS) {
-    throw TraceError(fmt::format("trace session '{}' exists already", name_),
-                     fmt::format("end it with `lttng destroy {}`, or choose another session-name", name_));
+    throw TraceError(
+        fmt::format("trace session '{}' exists already", name_),
+        fmt::format("end it with `lttng destroy {}`, or choose another session-name", launch::shell_quoted(name_)));
   }
   check_lttng(result, fmt::format("create trace session '{}'", name_));
 }

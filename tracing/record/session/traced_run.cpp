@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/monotonic_clock.hpp"
+#include "base/text/quoted_text.hpp"
 #include "tracing/record/account/counters/process_ends.hpp"
 #include "tracing/record/account/loss_text.hpp"
 #include "tracing/record/lttng/installed_program.hpp"
@@ -299,14 +300,15 @@ void TracedRun::tell_result(const Tell& tell) const {
   if (!losses_.unwritten_verdict.empty()) {
     tell(true, losses_.unwritten_verdict);
   }
+  const std::string report_command = "launch report " + launch::shell_quoted(config_.trace_directory());
   if (!report_.empty()) {
     tell(false, "report: " + report_);
   } else if (choices_.report) {
     tell(true, "no report: " + (config_.over_network() ? "the trace is on another machine"
                                 : hurry_               ? "the launch was to end at once"
-                                         : fmt::format("see what 'launch report {}' says", config_.trace_directory())));
+                                                       : fmt::format("see what `{}` says", report_command)));
   } else if (!config_.over_network() && !config_.records_snapshots()) {
-    tell(false, fmt::format("what is in it: launch report {}", config_.trace_directory()));
+    tell(false, "what is in it: " + report_command);
   }
 }
 
