@@ -10,14 +10,20 @@
 #include <algorithm>
 #include <rclcpp/exceptions.hpp>
 
+#include "programs/ros/participants.hpp"
+
 namespace launch {
 
 namespace {
 
-// A participant is found within a few hundredths of a second, and announced anew each tenth.
+// A participant is found within a few hundredths of a second, and announced anew each tenth. On a busy machine this and
+// what it has to tell may take longer, as everything does.
 constexpr std::chrono::milliseconds kShortestLook{300};
 constexpr std::chrono::milliseconds kQuiet{200};
+constexpr int kQuietOfLateness = 5;
 constexpr std::chrono::seconds kLongestLook{3};
+// Each participant tells its nodes on this topic of DDS.
+constexpr const char* kTopicOfParticipants = "ros_discovery_info";
 // Matches are no changes of the graph, and a signal may come just before a wait.
 constexpr std::chrono::milliseconds kPatience{50};
 
@@ -87,12 +93,22 @@ void GraphSession::discover(std::optional<Seconds> time) {
   const SessionClock::time_point begin = SessionClock::now();
   const auto longest = begin + std::chrono::duration_cast<SessionClock::duration>(time.value_or(kLongestLook));
   while (!is_stopped() && SessionClock::now() < longest) {
-    const SessionClock::time_point quiet = std::max(last_change_ + kQuiet, begin + kShortestLook);
-    if (!time && SessionClock::now() >= quiet) {
+    const SessionClock::time_point quiet =
+        std::max(last_change_ + kQuiet + kQuietOfLateness * lateness_, begin + kShortestLook);
+    if (time || SessionClock::now() < quiet) {
+      wait({}, time ? longest : std::min(quiet, longest));
+    } else if (has_found_host()) {
       return;
+    } else {
+      wait({}, longest);
     }
-    wait({}, time ? longest : std::min(quiet, longest));
   }
+}
+
+bool GraphSession::has_found_host() const {
+  constexpr bool kNameOfDds = true;
+  return node_->get_publishers_info_by_topic(kTopicOfParticipants, kNameOfDds).size() >=
+         participants_of_host(node_->get_node_base_interface()->get_context()->get_domain_id());
 }
 
 bool GraphSession::wait_until(const std::function<bool()>& holds, std::optional<Seconds> time) {
@@ -126,6 +142,7 @@ void GraphSession::wait(const WakeUps& wake_ups, SessionClock::time_point until)
     require_ok(rcl_wait_set_add_client(&wait.set(), client, nullptr));
   }
   const rcl_ret_t ret = rcl_wait(&wait.set(), std::chrono::nanoseconds(time).count());
+  lateness_ = std::max(lateness_, SessionClock::now() - (now + time));
   if (ret == RCL_RET_TIMEOUT) {
     rcl_reset_error();
     return;

@@ -39,7 +39,8 @@ class GraphSession {
   // So that what must be done before the end can wait. Only the next signal stops it.
   static void forget_stop();
 
-  // Waits until nothing has been found for a moment. With `time`: exactly so long.
+  // Waits until all participants of this host have been found, and nothing more for a moment. With `time`: exactly so
+  // long.
   void discover(std::optional<Seconds> time);
   // Looks again after each change until `holds` is true. False when `time` is over or the user has asked to stop.
   bool wait_until(const std::function<bool()>& holds, std::optional<Seconds> time = std::nullopt);
@@ -55,7 +56,10 @@ class GraphSession {
 
  private:
   std::shared_ptr<rclcpp::Node> node_;
+  bool has_found_host() const;
+
   SessionClock::time_point last_change_;
+  SessionClock::duration lateness_{0};  // the longest time that a busy machine has kept this thread waiting
   Seconds answer_time_{10};
 };
 

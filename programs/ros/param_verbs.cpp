@@ -21,6 +21,24 @@ constexpr const char* kLabels[] = {
     "Parameter not set.", "Boolean value is:",   "Integer value is:",   "Double value is:",   "String value is:",
     "Byte values are:",   "Boolean values are:", "Integer values are:", "Double values are:", "String values are:"};
 
+// Calls it for each node. Names those that do not answer, and goes on. Returns the exit code.
+template <typename Function>
+int for_each_that_answers(const std::vector<std::string>& nodes, const Function& function) {
+  int exit_code = 0;
+  for (const std::string& node : nodes) {
+    if (GraphSession::is_stopped()) {
+      return 1;
+    }
+    try {
+      function(node);
+    } catch (const CommandError& error) {
+      fmt::print(stderr, "node '{}' is left out: {}\n", node, error.what());
+      exit_code = 1;
+    }
+  }
+  return exit_code;
+}
+
 class ParamList final : public Verb {
  public:
   void declare(CLI::App& app) override {
@@ -30,44 +48,27 @@ class ParamList final : public Verb {
     app.add_option("--param-prefixes", prefixes_, "only parameters below these names")->expected(1, 100);
     app.add_flag("--param-type", types_, "also print the types");
     app.add_option("--filter", filter_, "only names that begin like this regular expression");
-    app.add_option("--timeout", timeout_, "wait so many seconds for the node that is named")
+    app.add_option("--timeout", timeout_,
+                   "wait so many seconds for the node that is named, or for any, and for each answer")
         ->check(CLI::PositiveNumber);
   }
 
   int run() override {
     GraphSession session;
+    if (timeout_ > 0) {
+      session.set_answer_time(Seconds(timeout_));
+    }
     session.discover(look_.time());
+    if (!node_.empty()) {
+      list(session, require_node(session, node_, timeout_ > 0 ? Seconds(timeout_) : look_.time()));
+      return 0;
+    }
     std::vector<std::string> nodes;
-    if (node_.empty()) {
-      nodes = nodes_with_service(session, "/list_parameters", "rcl_interfaces/srv/ListParameters");
-      std::erase_if(nodes, [this](const std::string& node) { return !hidden_ && is_hidden(node); });
-    } else {
-      nodes.push_back(require_node(session, node_, timeout_ > 0 ? Seconds(timeout_) : look_.time()));
+    session.wait_until([&] { return !(nodes = nodes_to_list(session)).empty(); }, Seconds(timeout_));
+    if (nodes.empty()) {
+      fmt::print(stderr, "launch param list: there is no node with parameters\n");
     }
-    for (const std::string& node : nodes) {
-      std::vector<std::string> names = parameter_names(session, node, prefixes_);
-      if (!filter_.empty()) {
-        const std::regex pattern(filter_);
-        std::erase_if(names, [&](const std::string& name) {
-          return !std::regex_search(name, pattern, std::regex_constants::match_continuous);
-        });
-      }
-      put(node_.empty() && !names.empty() ? node + ":\n" : "");
-      std::vector<std::int64_t> types;
-      if (types_ && !names.empty()) {
-        const Reply reply = ask(session, node + "/describe_parameters", "rcl_interfaces/srv/DescribeParameters",
-                                fmt::format("{{names: {}}}", yaml_list(names)));
-        const MessageType& descriptor = *reply.type->find("descriptors")->type.message;
-        for (const MessageValue& each : reply.at("descriptors").list()) {
-          types.push_back(number_of(member(descriptor, each, "type")));
-        }
-      }
-      for (std::size_t i = 0; i < names.size(); ++i) {
-        put(i < types.size() ? fmt::format("  {} (type: {})\n", names[i], kTypeNames[types[i]])
-                             : fmt::format("  {}\n", names[i]));
-      }
-    }
-    return 0;
+    return for_each_that_answers(nodes, [&](const std::string& node) { list(session, node); });
   }
 
   std::vector<std::string> complete(const std::vector<std::string>& words) override {
@@ -75,6 +76,37 @@ class ParamList final : public Verb {
   }
 
  private:
+  std::vector<std::string> nodes_to_list(GraphSession& session) const {
+    std::vector<std::string> nodes =
+        nodes_with_service(session, "/list_parameters", "rcl_interfaces/srv/ListParameters");
+    std::erase_if(nodes, [this](const std::string& node) { return !hidden_ && is_hidden(node); });
+    return nodes;
+  }
+
+  void list(GraphSession& session, const std::string& node) const {
+    std::vector<std::string> names = parameter_names(session, node, prefixes_);
+    if (!filter_.empty()) {
+      const std::regex pattern(filter_);
+      std::erase_if(names, [&](const std::string& name) {
+        return !std::regex_search(name, pattern, std::regex_constants::match_continuous);
+      });
+    }
+    std::vector<std::int64_t> types;
+    if (types_ && !names.empty()) {
+      const Reply reply = ask(session, node + "/describe_parameters", "rcl_interfaces/srv/DescribeParameters",
+                              fmt::format("{{names: {}}}", yaml_list(names)));
+      const MessageType& descriptor = *reply.type->find("descriptors")->type.message;
+      for (const MessageValue& each : reply.at("descriptors").list()) {
+        types.push_back(number_of(member(descriptor, each, "type")));
+      }
+    }
+    put(node_.empty() && !names.empty() ? node + ":\n" : "");
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      put(i < types.size() ? fmt::format("  {} (type: {})\n", names[i], kTypeNames[types[i]])
+                           : fmt::format("  {}\n", names[i]));
+    }
+  }
+
   std::string node_, filter_;
   LookOptions look_;
   bool hidden_ = false;
@@ -142,20 +174,19 @@ class ParamGet final : public ParameterVerb {
   int of_all_nodes(GraphSession& session, const std::string& parameter) const {
     session.discover(look_time());
     bool found = false;
-    for (const std::string& node : nodes_with_service(session, "/get_parameters", "rcl_interfaces/srv/GetParameters")) {
-      if (is_hidden(node)) {
-        continue;
-      }
+    std::vector<std::string> nodes = nodes_with_service(session, "/get_parameters", "rcl_interfaces/srv/GetParameters");
+    std::erase_if(nodes, [](const std::string& node) { return is_hidden(node); });
+    const int exit_code = for_each_that_answers(nodes, [&](const std::string& node) {
       const std::vector<ParameterReading> values = parameter_values(session, node, {parameter});
       if (!values.empty() && values.front().type != 0) {
         put(fmt::format("{}:\n  {}\n", node, text(values.front())));
         found = true;
       }
-    }
+    });
     if (!found) {
       throw CommandError(fmt::format("no node has a parameter '{}' that is set", parameter));
     }
-    return 0;
+    return exit_code;
   }
 
   std::vector<std::string> parameters_;

@@ -33,6 +33,30 @@ double rate_of(const RateStatistics::Summary& periods) {
   return periods.mean > 0.0 ? 1.0 / periods.mean : 0.0;
 }
 
+// The first row has the titles. Empty if there is no other.
+std::string table(const std::vector<std::array<std::string, 6>>& cells) {
+  if (cells.size() < 2) {
+    return {};
+  }
+  std::string text;
+  std::size_t width = 0;
+  for (std::size_t row = 0; row < cells.size(); ++row) {
+    std::string line;
+    for (std::size_t column = 0; column < cells[row].size(); ++column) {
+      std::size_t size = 0;
+      for (const auto& each : cells) {
+        size = std::max(size, each[column].size());
+      }
+      line += column == 0 ? "" : "   ";
+      line +=
+          row == 0 ? fmt::format("{:^{}}", cells[row][column], size) : fmt::format("{:<{}}", cells[row][column], size);
+    }
+    width = std::max(width, line.size());
+    text += line + "\n" + (row == 0 ? std::string(width, '=') + "\n" : "");
+  }
+  return text + "\n";
+}
+
 }  // namespace
 
 void RateStatistics::add(double value) {
@@ -76,11 +100,12 @@ void BandwidthStatistics::add(double now, std::size_t size) {
   if (messages_.size() > window_) {
     messages_.pop_front();
   }
+  is_new_ = true;
 }
 
-std::string BandwidthStatistics::text(double now) const {
+std::optional<BandwidthStatistics::Summary> BandwidthStatistics::summary(double now) const {
   if (messages_.size() < 2 || now <= messages_.front().first) {
-    return {};
+    return std::nullopt;
   }
   std::size_t total = 0;
   std::size_t least = messages_.front().second;
@@ -90,11 +115,13 @@ std::string BandwidthStatistics::text(double now) const {
     least = std::min(least, size);
     most = std::max(most, size);
   }
-  const double per_second = static_cast<double>(total) / (now - messages_.front().first);
-  const auto text = [&](double bytes) { return size_text(bytes, per_second); };
-  return fmt::format("{}/s from {} messages\n\tMessage size mean: {} min: {} max: {}\n", text(per_second),
-                     messages_.size(), text(static_cast<double>(total) / static_cast<double>(messages_.size())),
-                     text(static_cast<double>(least)), text(static_cast<double>(most)));
+  return Summary{static_cast<double>(total) / (now - messages_.front().first),
+                 static_cast<double>(total) / static_cast<double>(messages_.size()), static_cast<double>(least),
+                 static_cast<double>(most), messages_.size()};
+}
+
+std::optional<BandwidthStatistics::Summary> BandwidthStatistics::take_summary(double now) {
+  return std::exchange(is_new_, false) ? summary(now) : std::nullopt;
 }
 
 std::string rate_text(const RateStatistics::Summary& periods) {
@@ -105,32 +132,29 @@ std::string delay_text(const RateStatistics::Summary& delays) {
   return fmt::format("average delay: {:.3f}\n", delays.mean) + statistics_line(delays);
 }
 
+std::string bandwidth_text(const BandwidthStatistics::Summary& messages) {
+  const auto text = [&](double bytes) { return size_text(bytes, messages.per_second); };
+  return fmt::format("{}/s from {} messages\n\tMessage size mean: {} min: {} max: {}\n", text(messages.per_second),
+                     messages.count, text(messages.mean), text(messages.least), text(messages.most));
+}
+
 std::string rate_table(const std::vector<std::pair<std::string, RateStatistics::Summary>>& rows) {
-  if (rows.empty()) {
-    return {};
-  }
   std::vector<std::array<std::string, 6>> cells = {{"topic", "rate", "min_delta", "max_delta", "std_dev", "window"}};
   for (const auto& [topic, s] : rows) {
     cells.push_back({topic, fmt::format("{:.3f}", rate_of(s)), fmt::format("{:.3f}", s.least),
                      fmt::format("{:.3f}", s.most), fmt::format("{:.5f}", s.deviation), fmt::to_string(s.count)});
   }
-  std::string text;
-  std::size_t width = 0;
-  for (std::size_t row = 0; row < cells.size(); ++row) {
-    std::string line;
-    for (std::size_t column = 0; column < cells[row].size(); ++column) {
-      std::size_t size = 0;
-      for (const auto& each : cells) {
-        size = std::max(size, each[column].size());
-      }
-      line += column == 0 ? "" : "   ";
-      line +=
-          row == 0 ? fmt::format("{:^{}}", cells[row][column], size) : fmt::format("{:<{}}", cells[row][column], size);
-    }
-    width = std::max(width, line.size());
-    text += line + "\n" + (row == 0 ? std::string(width, '=') + "\n" : "");
+  return table(cells);
+}
+
+std::string bandwidth_table(const std::vector<std::pair<std::string, BandwidthStatistics::Summary>>& rows) {
+  std::vector<std::array<std::string, 6>> cells = {{"topic", "bandwidth", "window", "mean", "min", "max"}};
+  for (const auto& [topic, s] : rows) {
+    const auto text = [&per_second = s.per_second](double bytes) { return size_text(bytes, per_second); };
+    cells.push_back(
+        {topic, text(s.per_second) + "/s", fmt::to_string(s.count), text(s.mean), text(s.least), text(s.most)});
   }
-  return text + "\n";
+  return table(cells);
 }
 
 }  // namespace launch

@@ -37,18 +37,28 @@ class BandwidthStatistics {
  public:
   explicit BandwidthStatistics(std::size_t window) : window_(window) {}
 
+  struct Summary {
+    double per_second = 0.0, mean = 0.0, least = 0.0, most = 0.0;  // bytes
+    std::size_t count = 0;
+  };
+
   void add(double now, std::size_t size);
-  // Empty before the second message.
-  std::string text(double now) const;
+  // None before the second message.
+  std::optional<Summary> summary(double now) const;
+  // The same, if a message was added since the last call.
+  std::optional<Summary> take_summary(double now);
 
  private:
   std::size_t window_;
   std::deque<std::pair<double, std::size_t>> messages_;
+  bool is_new_ = false;
 };
 
 std::string rate_text(const RateStatistics::Summary& periods);
 std::string delay_text(const RateStatistics::Summary& delays);
-// Empty without rows.
+std::string bandwidth_text(const BandwidthStatistics::Summary& messages);
+// By topic. Empty without rows.
 std::string rate_table(const std::vector<std::pair<std::string, RateStatistics::Summary>>& rows);
+std::string bandwidth_table(const std::vector<std::pair<std::string, BandwidthStatistics::Summary>>& rows);
 
 }  // namespace launch

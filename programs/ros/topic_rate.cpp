@@ -210,10 +210,19 @@ class TopicBw final : public Verb {
           statistics.at(topic.topic).add(now_seconds(session), message.bytes.size());
         },
         [&] {
-          for (const auto& [topic, of_topic] : statistics) {
-            const std::string text = of_topic.text(now_seconds(session));
-            put(statistics.size() > 1 && !text.empty() ? fmt::format("{}: {}", topic, text) : text);
+          const double now = now_seconds(session);
+          if (statistics.size() == 1) {
+            const auto summary = statistics.begin()->second.summary(now);
+            put(summary ? bandwidth_text(*summary) : "");
+            return;
           }
+          std::vector<std::pair<std::string, BandwidthStatistics::Summary>> rows;
+          for (const Measured& one : measured) {
+            if (const auto summary = statistics.at(one.topic).take_summary(now)) {
+              rows.emplace_back(one.topic, *summary);
+            }
+          }
+          put(bandwidth_table(rows));
         });
     return 0;
   }
