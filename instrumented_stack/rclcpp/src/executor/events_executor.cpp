@@ -72,23 +72,20 @@ void EventsExecutor::spin() {
     timers_.start();
     timers_thread_runs_ = true;
   }
-  bool was_wake_up = false;
   while (context_->is_valid() && spinning_) {
-    execute_next(nanoseconds::max(), was_wake_up);
+    take_turn(nanoseconds::max(), !timers_thread_runs_, true);
   }
 }
 
 void EventsExecutor::spin_once_impl(nanoseconds timeout) {
   const auto start = steady_clock::now();
-  bool was_wake_up = true;
-  while (context_->is_valid() && spinning_ && was_wake_up) {
+  Turn turn = Turn::kWakeUp;
+  while (context_->is_valid() && spinning_ && turn == Turn::kWakeUp) {
     nanoseconds left = nanoseconds::max();
     if (timeout >= nanoseconds::zero()) {
       left = std::max<nanoseconds>(timeout - (steady_clock::now() - start), nanoseconds::zero());
     }
-    if (!execute_next(left, was_wake_up)) {
-      return;
-    }
+    turn = take_turn(left, true, true);
   }
 }
 
@@ -99,17 +96,19 @@ void EventsExecutor::spin_some_impl(nanoseconds max_duration, bool exhaustive) {
   };
   wake_up_queued_ = false;
   refresh();  // what it finds waiting is in the queue then
-  size_t events = events_queue_->size();
+  size_t events = events_queue_->size() + (next_ ? 1 : 0);
   size_t timers = timers_.get_number_ready_timers();
   while (context_->is_valid() && spinning_ && time_left()) {
-    ExecutorEvent event;
-    if ((exhaustive || events > 0) && events_queue_->dequeue(event, nanoseconds::zero())) {
-      events -= std::min<size_t>(events, 1);
-      execute_event(event);
-    } else if (!(exhaustive || timers > 0) || !timers_.execute_head_timer()) {
-      return;
-    } else {
-      timers -= std::min<size_t>(timers, 1);
+    switch (take_turn(nanoseconds::zero(), exhaustive || timers > 0, exhaustive || events > 0)) {
+      case Turn::kNone:
+        return;
+      case Turn::kTimer:
+        timers -= std::min<size_t>(timers, 1);
+        break;
+      case Turn::kEvent:
+      case Turn::kWakeUp:
+        events -= std::min<size_t>(events, 1);
+        break;
     }
   }
 }
@@ -156,26 +155,49 @@ void EventsExecutor::remove_and_disconnect(RemoveT remove) {
   }
 }
 
-bool EventsExecutor::execute_next(nanoseconds timeout, bool& was_wake_up) {
-  was_wake_up = false;
-  const nanoseconds until_timer = timers_thread_runs_ ? nanoseconds::max() : timers_.get_head_timeout();
-  // A due timer goes before the queue, which may never become empty; then it is the queue's turn.
-  if (until_timer <= nanoseconds::zero() && !timer_was_last_ && timers_.execute_head_timer()) {
-    timer_was_last_ = true;
-    return true;
+EventsExecutor::Turn EventsExecutor::take_turn(nanoseconds timeout, bool of_timers, bool of_events) {
+  if (of_timers && timers_left_ > 0) {
+    --timers_left_;
+    if (timers_.execute_head_timer()) {
+      return Turn::kTimer;
+    }
+    timers_left_ = 0;
   }
-  timer_was_last_ = false;
+  const nanoseconds until_timer = of_timers ? timers_.get_head_timeout() : nanoseconds::max();
+  const bool is_due = until_timer <= nanoseconds::zero();
+  if (!is_due) {
+    had_turns_.clear();
+  }
   ExecutorEvent event;
-  const nanoseconds longest = std::clamp(until_timer, nanoseconds::zero(), timeout);
-  progress::waits(longest);
-  const bool has_event = events_queue_->dequeue(event, longest);
-  progress::does(progress::Doing::kBetween);
-  if (has_event) {
-    was_wake_up = is_wake_up(event);
-    execute_event(event);
-    return true;
+  bool has_event = false;
+  if (of_events && next_) {
+    event = *next_;
+    next_.reset();
+    has_event = true;
+  } else if (of_events) {
+    const nanoseconds longest = std::clamp(until_timer, nanoseconds::zero(), timeout);
+    progress::waits(longest);
+    has_event = events_queue_->dequeue(event, longest);
+    progress::does(progress::Doing::kBetween);
   }
-  return until_timer <= timeout && timers_.execute_head_timer();
+  if (!has_event) {
+    return of_timers && until_timer <= timeout && timers_.execute_head_timer() ? Turn::kTimer : Turn::kNone;
+  }
+  if (is_due && has_had_turn(event)) {
+    had_turns_.clear();
+    timers_left_ = timers_.get_number_ready_timers();
+    next_ = event;
+    return take_turn(timeout, of_timers, of_events);
+  }
+  if (is_due) {
+    had_turns_.push_back(event.entity_key);
+  }
+  execute_event(event);
+  return is_wake_up(event) ? Turn::kWakeUp : Turn::kEvent;
+}
+
+bool EventsExecutor::has_had_turn(const ExecutorEvent& event) const {
+  return std::find(had_turns_.begin(), had_turns_.end(), event.entity_key) != had_turns_.end();
 }
 
 void EventsExecutor::execute_event(const ExecutorEvent& event) {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -59,8 +60,13 @@ class EventsExecutor : public rclcpp::Executor {
   template <typename EntityT, typename StartT, typename StopT>
   void update(Served<EntityT>& served, Served<EntityT> found, StartT start, StopT stop);
   void enqueue(const void* entity, ExecutorEventType type, size_t count, int waitable_data = 0);
-  // Returns false if the queue stayed empty for the time.
-  bool execute_next(std::chrono::nanoseconds timeout, bool& was_wake_up);
+  // Whose turn it was; kWakeUp is that of a wake-up.
+  enum class Turn { kNone, kTimer, kEvent, kWakeUp };
+  // Executes what is ready, or gets ready within the time. Timers that are due go first, once each; then each entity
+  // has a turn before they go first again.
+  Turn take_turn(std::chrono::nanoseconds timeout, bool of_timers, bool of_events);
+  // Whether the entity of the event has had its turn since timers are due.
+  bool has_had_turn(const ExecutorEvent& event) const;
   void execute_event(const ExecutorEvent& event);
 
   const EventsQueue::UniquePtr events_queue_;
@@ -72,7 +78,9 @@ class EventsExecutor : public rclcpp::Executor {
   std::vector<const void*> disconnected_;  // since the last refresh(), of what is served below
   // Used only by the spinning thread.
   bool timers_thread_runs_ = false;
-  bool timer_was_last_ = false;
+  size_t timers_left_ = 0;              // turns of timers that are due, before the next entity
+  std::optional<ExecutorEvent> next_;   // out of the queue, and waits for them
+  std::vector<const void*> had_turns_;  // since timers are due
   size_t removals_seen_ = 0;
   // Changed by the spinning thread with the mutex held.
   Served<SubscriptionBase> subscriptions_;
