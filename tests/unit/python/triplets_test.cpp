@@ -41,6 +41,11 @@ json comparable(json value) {
       }
     }
   }
+  if (value.is_object() && value.contains("limits")) {
+    for (auto& limit : value["limits"]) {
+      limit = std::regex_replace(limit.get<std::string>(), std::regex(" \\([^()]*\\)$"), "");
+    }
+  }
   if (value.is_structured()) {
     for (auto& item : value) {
       item = comparable(item);

@@ -4,7 +4,8 @@
 import _launch_engine
 from launch._entities import entities, entity
 from launch._places import of_function
-from launch._values import LaunchFileError, WrongKind, boolean, function as callable_of, items, mapping, pairs, text
+from launch._values import (LaunchFileError, WrongKind, boolean, function as callable_of, items, mapping, number, pairs, reject,
+                            text)
 from launch.action import Action
 from launch.launch_description_source import LaunchDescriptionSource
 from launch.launch_description_sources import AnyLaunchDescriptionSource
@@ -12,10 +13,15 @@ from launch.substitutions import parts_of
 
 
 class GroupAction(Action):
+    # Arguments that only this launcher has, named as in XML.
+    _EXTENSIONS = ('name', 'ns', 'memory_max', 'memory_high', 'cpu_quota', 'cpu_weight', 'io_weight', 'pids_max')
 
-    def __init__(self, actions, *, scoped=True, forwarding=True, launch_configurations=None, **kwargs):
-        super().__init__(**kwargs)
+    def __init__(self, actions, *, scoped=True, forwarding=True, launch_configurations=None, condition=None, **extensions):
+        reject(type(self), [each for each in extensions if each not in self._EXTENSIONS],
+               ['scoped', 'forwarding', 'launch_configurations', 'condition', *self._EXTENSIONS])
+        super().__init__(condition=condition)
         self._actions = actions
+        self._extensions = [(name, number(value, name)) for name, value in extensions.items() if value is not None]
         self._scoped = boolean(scoped, 'scoped')
         self._forwarding = boolean(forwarding, 'forwarding')
         self._keep = pairs(mapping(launch_configurations, 'launch_configurations'), 'launch_configurations')
@@ -27,14 +33,15 @@ class GroupAction(Action):
         keep = [entity('keep', self._place(), [('name', name), ('value', value)]) for name, value in self._keep]
         attributes = [] if self._scoped == 'true' else [('scoped', self._scoped)]
         attributes += [] if self._forwarding == 'true' else [('forwarding', self._forwarding)]
-        return [entity('group', self._place(), [*attributes, *self._when()],
+        return [entity('group', self._place(), self._with_places([*attributes, *self._extensions, *self._when()]),
                        keep + entities(self._actions, self._place()))]
 
 
 class IncludeLaunchDescription(Action):
 
-    def __init__(self, launch_description_source, *, launch_arguments=None, **kwargs):
+    def __init__(self, launch_description_source, *, launch_arguments=None, scoped=None, **kwargs):
         super().__init__(**kwargs)
+        self._scoped = None if scoped is None else boolean(scoped, 'scoped')  # an extension of this launcher
         if not isinstance(launch_description_source, LaunchDescriptionSource):
             launch_description_source = AnyLaunchDescriptionSource(launch_description_source)
         self._source = launch_description_source
@@ -58,10 +65,12 @@ class IncludeLaunchDescription(Action):
         place = self._place()
         if self._source._description is not None:
             arguments = [entity('let', place, [('name', name), ('value', value)]) for name, value in self._arguments]
-            return [entity('group', place, [('scoped', 'false'), *self._when()],
+            return [entity('group', place, [('scoped', self._scoped or 'false'), *self._when()],
                            arguments + entities(self._source._description))]
         arguments = [entity('arg', place, [('name', name), ('value', value)]) for name, value in self._arguments]
-        return [entity('include', place, self._with_places([('file', self._source._path), *self._when()]), arguments)]
+        scoped = [] if self._scoped is None else [('scoped', self._scoped)]
+        return [entity('include', place, self._with_places([('file', self._source._path), *scoped, *self._when()]),
+                       arguments)]
 
 
 class OpaqueFunction(Action):

@@ -1,0 +1,8 @@
+from launch import LaunchDescription
+from launch.actions import ExecuteProcess, GroupAction
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        GroupAction([ExecuteProcess(cmd=['true'])], memory_most='1G'),
+    ])
