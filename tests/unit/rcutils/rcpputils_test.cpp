@@ -16,8 +16,10 @@
 #include <rcpputils/scope_exit.hpp>
 #include <rcpputils/shared_library.hpp>
 #include <rcpputils/split.hpp>
+#include <rcpputils/thread_name.hpp>
 #include <rcpputils/time.hpp>
 #include <rcpputils/unique_lock.hpp>
+#include <thread>
 #include <vector>
 
 namespace {
@@ -102,6 +104,13 @@ TEST(RollingMean, IsThatOfTheLastValues) {
 
 TEST(Endian, IsThatOfTheMachine) {
   static_assert(rcpputils::endian::native == rcpputils::endian::little);
+}
+
+TEST(ThreadName, IsThatOfTheCurrentThread) {
+  std::thread([] {
+    rcpputils::set_thread_name("a name that is too long");
+    EXPECT_EQ(rcpputils::get_thread_name(), "a name that is ");
+  }).join();
 }
 
 }  // namespace
