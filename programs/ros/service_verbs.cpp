@@ -13,6 +13,7 @@
 #include "programs/ros/endpoints.hpp"
 #include "programs/ros/graph_names.hpp"
 #include "programs/ros/topic_graph.hpp"
+#include "programs/ros/type_hash.hpp"
 
 namespace launch {
 
@@ -44,16 +45,35 @@ std::vector<ServiceEnd> service_ends(GraphSession& session, const std::string& s
   return ends;
 }
 
+// The hash of the type that both know, "INVALID" if it is not installed here, or the end has another definition of it.
+std::string hash_of_type(const ServiceEnd& end, const std::string& name, bool is_client) {
+  try {
+    const ServiceType type = installed_interfaces().service(name);
+    const std::string announced = hash_text((is_client ? end.published : end.taken).topic_type_hash());
+    if (announced == type_hash(*type.request)) {
+      return service_type_hash(type, *installed_interfaces().message(name + "_Event"));
+    }
+  } catch (const LaunchError&) {
+    // said by the word for it
+  }
+  return hash_text({});
+}
+
 std::string service_end_text(const ServiceEnd& end, const std::string& type, bool is_client) {
-  std::string text =
-      fmt::format("Node name: {}\nNode namespace: {}\nService type: {}\nEndpoint type: {}\nEndpoint count: 2\nGIDs:\n",
-                  end.published.node_name(), end.published.node_namespace(), type, is_client ? "CLIENT" : "SERVER");
-  for (const auto* const endpoint : {&end.published, &end.taken}) {
-    text += fmt::format("- {}\n", gid_text(*endpoint));
+  std::string text = fmt::format(
+      "Node name: {}\nNode namespace: {}\nService type: {}\nService type hash: {}\nEndpoint type: {}\n"
+      "Endpoint count: 2\nGIDs:\n",
+      end.published.node_name(), end.published.node_namespace(), type, hash_of_type(end, type, is_client),
+      is_client ? "CLIENT" : "SERVER");
+  const std::pair<const char*, const rclcpp::TopicEndpointInfo&> endpoints[] = {
+      {is_client ? "Request Writer" : "Request Reader", is_client ? end.published : end.taken},
+      {is_client ? "Response Reader" : "Response Writer", is_client ? end.taken : end.published}};
+  for (const auto& [what, endpoint] : endpoints) {
+    text += fmt::format("- {} : {}\n", what, gid_text(endpoint));
   }
   text += "QoS profiles:";
-  for (const auto* const endpoint : {&end.published, &end.taken}) {
-    text += "\n- " + qos_text(*endpoint, "  ").substr(2);
+  for (const auto& [what, endpoint] : endpoints) {
+    text += fmt::format("\n- {} :\n{}", what, qos_text(endpoint, "      "));
   }
   return text;
 }
@@ -63,7 +83,8 @@ class ServiceInfo final : public Verb {
   void declare(CLI::App& app) override {
     app.add_option("service", service_, "name of the service")->required();
     look_.declare(app);
-    app.add_flag("-v,--verbose", verbose_, "also print node, GIDs and quality of service of each client and server");
+    app.add_flag("-v,--verbose", verbose_,
+                 "also print node, hash of the type, GIDs and quality of service of each client and server");
   }
 
   int run() override {

@@ -17,6 +17,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using namespace test_support;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::MatchesRegex;
 using testing::StartsWith;
@@ -30,8 +31,10 @@ TEST(GraphOptions, RatesOfAllTopics) {
   EXPECT_TRUE(rate.wait_for_output("min_delta", kPatience)) << rate.out();
   EXPECT_EQ(rate.end_gently().exit_code, 0);
   RunningCommand bandwidth(launch_words({"topic", "bw", "/chatter", "/rosout"}));
-  EXPECT_TRUE(bandwidth.wait_for_output("/chatter: ", kPatience)) << bandwidth.err();
+  EXPECT_TRUE(bandwidth.wait_for_output("/chatter   ", kPatience)) << bandwidth.err();
   EXPECT_THAT(bandwidth.out(), StartsWith("Subscribed to [/chatter]\nSubscribed to [/rosout]\n"));
+  EXPECT_THAT(bandwidth.out(),
+              ContainsRegex("\n +topic +bandwidth +window +mean +min +max *\n=+\n/chatter +[0-9]+ B/s "));
   EXPECT_EQ(bandwidth.end_gently().exit_code, 0);
   EXPECT_EQ(launch_command({"topic", "hz"}).err,
             "launch topic hz: error: no topic is given\n      = help: name topics, or use --all\n");
@@ -68,12 +71,15 @@ TEST(GraphOptions, ServicesInDetail) {
   const CommandResult info = ask_until({"service", "info", "-v", "/add_two_ints"}, "Node name: introspection_service");
   EXPECT_THAT(
       info.out,
-      MatchesRegex(
-          "Type: example_interfaces/srv/AddTwoInts\nClients count: 0\n\nServices count: 1\n\n"
-          "Node name: introspection_service\nNode namespace: /\n"
-          "Service type: example_interfaces/srv/AddTwoInts\nEndpoint type: SERVER\nEndpoint count: 2\n"
-          "GIDs:\n- [0-9a-f.]+\n- [0-9a-f.]+\nQoS profiles:\n- Reliability: RELIABLE\n"
-          "  History \\(Depth\\): [^\n]*\n  Durability: VOLATILE\n(.|\n)*- Reliability: RELIABLE\n(.|\n)*\n\n"));
+      MatchesRegex("Type: example_interfaces/srv/AddTwoInts\nClients count: 0\n\nServices count: 1\n\n"
+                   "Node name: introspection_service\nNode namespace: /\n"
+                   "Service type: example_interfaces/srv/AddTwoInts\n"
+                   "Service type hash: RIHS01_e118de6bf5eeb66a2491b5bda11202e7b68f198d6f67922cf30364858239c81a\n"
+                   "Endpoint type: SERVER\nEndpoint count: 2\n"
+                   "GIDs:\n- Request Reader : [0-9a-f.]+\n- Response Writer : [0-9a-f.]+\n"
+                   "QoS profiles:\n- Request Reader :\n      Reliability: RELIABLE\n"
+                   "      History \\(Depth\\): [^\n]*\n      Durability: VOLATILE\n(.|\n)*"
+                   "- Response Writer :\n      Reliability: RELIABLE\n(.|\n)*\n\n"));
   RunningCommand echo(launch_words({"service", "echo", "/add_two_ints", "--flow-style"}));
   RunningCommand call(
       launch_words({"service", "call", "/add_two_ints", "example_interfaces/srv/AddTwoInts", "{a: 1, b: 2}", "--rate",
@@ -123,6 +129,28 @@ TEST(GraphOptions, ParametersAreSetAtomically) {
   EXPECT_EQ(launch_command({"param", "get", "--hide-type", "/add_two_ints_server", "count", "--timeout", "60"}).out,
             "7\n");
   server.end_gently();
+}
+
+TEST(GraphOptions, ANodeThatDoesNotAnswerIsNamed) {
+  Sandbox sandbox;
+  RunningCommand server(program_of_stack("demo_nodes/add_two_ints_server"));
+  RunningCommand hanging(Command{{HANGING_NODE, "sleep"}});
+  EXPECT_TRUE(hanging.wait_for_output("tick 5\n", kPatience)) << hanging.err();
+  ask_until({"node", "list"}, "/add_two_ints_server");
+  const CommandResult list = launch_command({"param", "list", "--timeout", "10"});
+  EXPECT_EQ(list.exit_code, 1);
+  EXPECT_THAT(list.out, StartsWith("/add_two_ints_server:\n  count\n"));
+  EXPECT_EQ(list.err, "node '/hanging_node' is left out: service '/hanging_node/list_parameters' has not answered\n");
+  hanging.send_signal(SIGKILL);
+  server.end_gently();
+}
+
+TEST(GraphOptions, ParametersOfNoNode) {
+  Sandbox sandbox;
+  const CommandResult list = launch_command({"param", "list"});
+  EXPECT_EQ(list.exit_code, 0);
+  EXPECT_EQ(list.out, "");
+  EXPECT_EQ(list.err, "launch param list: there is no node with parameters\n");
 }
 
 TEST(GraphOptions, AComponentOfItsOwn) {
