@@ -4,6 +4,7 @@
 #include <tracetools/tracetools.h>
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -66,6 +67,19 @@ bool is_waitable(const detail::ReadyEntity& ready) {
   return std::holds_alternative<Waitable::WeakPtr>(ready.entity);
 }
 
+// The numbers that executors give to what they pass over: an executor's own number, and a count in the lower bits. An
+// entity that comes from another executor may still have one of its numbers.
+constexpr unsigned kBitsOfCount = 40;
+
+std::uint64_t first_number_of_new_executor() {
+  static std::atomic<std::uint64_t> executors{0};
+  return ++executors << kBitsOfCount;
+}
+
+bool are_of_same_executor(std::uint64_t number, std::uint64_t other) {
+  return number >> kBitsOfCount == other >> kBitsOfCount;
+}
+
 bool are_same_waitable(const detail::ReadyEntity& a, const detail::ReadyEntity& b) {
   const auto* waitable_a = std::get_if<Waitable::WeakPtr>(&a.entity);
   const auto* waitable_b = std::get_if<Waitable::WeakPtr>(&b.entity);
@@ -98,6 +112,7 @@ Executor::SpinningScope::SpinningScope(Executor& executor, const char* function)
 
 Executor::Executor(const ExecutorOptions& options)
     : context_(options.context), entities_(std::make_shared<ExecutorEntities>(options.context)) {
+  last_passed_over_ = first_number_of_new_executor();
   progress::join();
   shutdown_callback_ = context_->add_on_shutdown_callback([weak = std::weak_ptr(entities_)] {
     if (const auto entities = weak.lock()) {
@@ -285,7 +300,7 @@ bool Executor::choose_living(const std::shared_ptr<EntityT>& entity, AnyExecutab
   if (!entity) {
     return false;
   }
-  if (std::exchange(passed_over(*entity), 0) != 0 && count_passed_over_ > 0) {
+  if (are_of_same_executor(std::exchange(passed_over(*entity), 0), last_passed_over_) && count_passed_over_ > 0) {
     --count_passed_over_;
   }
   return choose(entity, any_executable);
@@ -294,7 +309,7 @@ bool Executor::choose_living(const std::shared_ptr<EntityT>& entity, AnyExecutab
 void Executor::pass_over(detail::ReadyEntity ready) {
   std::visit(
       [this](const auto& weak) {
-        if (const auto entity = weak.lock(); entity && passed_over(*entity) == 0) {
+        if (const auto entity = weak.lock(); entity && !are_of_same_executor(passed_over(*entity), last_passed_over_)) {
           passed_over(*entity) = ++last_passed_over_;
           ++count_passed_over_;
         }
@@ -313,7 +328,7 @@ void Executor::put_in_order() {
           return entity ? passed_over(*entity) : 0;
         },
         ready.entity);
-    ready.turn = turn != 0 ? turn : std::numeric_limits<std::uint64_t>::max();
+    ready.turn = are_of_same_executor(turn, last_passed_over_) ? turn : std::numeric_limits<std::uint64_t>::max();
   }
   std::stable_sort(ready_.begin(), ready_.end(), [](const auto& a, const auto& b) { return a.turn < b.turn; });
 }
