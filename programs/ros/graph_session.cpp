@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <rclcpp/exceptions.hpp>
 
-#include "programs/ros/participants.hpp"
+#include "programs/ros/calculations/participants.hpp"
 
 namespace launch {
 

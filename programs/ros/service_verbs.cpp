@@ -9,11 +9,11 @@
 #include "base/diagnostics/diagnostic.hpp"
 #include "launcher/message_types/print_value.hpp"
 #include "launcher/message_types/read_value.hpp"
+#include "programs/ros/calculations/type_hash.hpp"
 #include "programs/ros/endpoint_text.hpp"
 #include "programs/ros/endpoints.hpp"
 #include "programs/ros/graph_names.hpp"
 #include "programs/ros/topic_graph.hpp"
-#include "programs/ros/type_hash.hpp"
 
 namespace launch {
 

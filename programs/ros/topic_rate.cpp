@@ -9,9 +9,9 @@
 #include "launcher/message_types/cdr/cdr_codec.hpp"
 #include "launcher/message_types/message_condition.hpp"
 #include "launcher/message_types/message_part.hpp"
+#include "programs/ros/calculations/rate_statistics.hpp"
 #include "programs/ros/endpoints.hpp"
 #include "programs/ros/graph_names.hpp"
-#include "programs/ros/rate_statistics.hpp"
 #include "programs/ros/topic_graph.hpp"
 
 namespace launch {

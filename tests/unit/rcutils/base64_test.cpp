@@ -11,12 +11,12 @@
 
 namespace {
 
-const rcutils_allocator_t kAllocator = rcutils_get_default_allocator();
+const rcutils_allocator_t kTextAllocator = rcutils_get_default_allocator();
 
 // "!" and the code if it fails.
 std::string decoded(const char* text) {
   rcutils_uint8_array_t array = rcutils_get_zero_initialized_uint8_array();
-  const rcutils_ret_t result = rcutils_decode_base64(text, &array, &kAllocator);
+  const rcutils_ret_t result = rcutils_decode_base64(text, &array, &kTextAllocator);
   rcutils_reset_error();
   std::string bytes = result == RCUTILS_RET_OK ? std::string(array.buffer, array.buffer + array.buffer_length)
                                                : "!" + std::to_string(result);
@@ -31,7 +31,7 @@ std::string encoded(std::string bytes) {
   array.buffer = reinterpret_cast<std::uint8_t*>(bytes.data());
   array.buffer_length = bytes.size();
   char* text = nullptr;
-  EXPECT_EQ(rcutils_encode_base64(&array, &text, &kAllocator), RCUTILS_RET_OK);
+  EXPECT_EQ(rcutils_encode_base64(&array, &text, &kTextAllocator), RCUTILS_RET_OK);
   std::string result = text;
   free(text);
   return result;
@@ -62,9 +62,9 @@ TEST(Base64, IsRefusedWhereItIsNone) {
   rcutils_uint8_array_t array = rcutils_get_zero_initialized_uint8_array();
   EXPECT_EQ(rcutils_decode_base64("Zg==", &array, nullptr), RCUTILS_RET_INVALID_ARGUMENT);
   array.buffer_length = 1;
-  EXPECT_EQ(rcutils_decode_base64("Zg==", &array, &kAllocator), RCUTILS_RET_INVALID_ARGUMENT);
+  EXPECT_EQ(rcutils_decode_base64("Zg==", &array, &kTextAllocator), RCUTILS_RET_INVALID_ARGUMENT);
   char* text = nullptr;
-  EXPECT_EQ(rcutils_encode_base64(&array, &text, &kAllocator), RCUTILS_RET_INVALID_ARGUMENT);
+  EXPECT_EQ(rcutils_encode_base64(&array, &text, &kTextAllocator), RCUTILS_RET_INVALID_ARGUMENT);
   rcutils_reset_error();
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "programs/ros/participants.hpp"
+#include "programs/ros/calculations/participants.hpp"
 
 #include <gtest/gtest.h>
 

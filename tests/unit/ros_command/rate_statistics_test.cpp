@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "programs/ros/rate_statistics.hpp"
+#include "programs/ros/calculations/rate_statistics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Against the hashes that ROS 2 Jazzy and Lyrical announce.
-#include "programs/ros/type_hash.hpp"
+#include "programs/ros/calculations/type_hash.hpp"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>

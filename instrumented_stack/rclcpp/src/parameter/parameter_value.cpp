@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/parameter_value.hpp"
 
+#include <ios>
+#include <locale>
 #include <sstream>
 
 namespace rclcpp {
@@ -18,9 +20,22 @@ void write(std::ostream& stream, bool value) {
   stream << (value ? "true" : "false");
 }
 
+// Texts are the same in each locale: programs and people read them, and other nodes.
+std::ostringstream plain_stream() {
+  std::ostringstream stream;
+  stream.imbue(std::locale::classic());
+  return stream;
+}
+
+std::string number(double value) {
+  std::ostringstream stream = plain_stream();
+  stream << std::fixed << value;
+  return stream.str();
+}
+
 template <typename ContainerT>
 std::string list(const ContainerT& values) {
-  std::ostringstream stream;
+  std::ostringstream stream = plain_stream();
   const char* separator = "";
   stream << "[";
   for (auto&& value : values) {
@@ -72,7 +87,7 @@ std::string to_string(const ParameterValue& value) {
     case PARAMETER_INTEGER:
       return std::to_string(message.integer_value);
     case PARAMETER_DOUBLE:
-      return std::to_string(message.double_value);
+      return number(message.double_value);
     case PARAMETER_STRING:
       return message.string_value;
     case PARAMETER_BYTE_ARRAY:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <locale>
 #include <rclcpp/parameter.hpp>
 
 using rclcpp::Parameter;
@@ -22,6 +23,16 @@ TEST(ParameterValue, KeepsEachTypeAndPrintsIt) {
   EXPECT_EQ(to_string(ParameterValue(std::vector<uint8_t>{10, 255})), "[0xa, 0xff]");
   EXPECT_EQ(to_string(ParameterValue(std::vector<std::string>{"a", "b"})), "[a, b]");
   EXPECT_EQ(to_string(rclcpp::PARAMETER_DOUBLE_ARRAY), "double_array");
+}
+
+TEST(ParameterValue, PrintsNumbersInTheSameWayInEachLocale) {
+  struct Commas : std::numpunct<char> {
+    char do_decimal_point() const override { return ','; }
+  };
+  const std::locale before = std::locale::global(std::locale(std::locale(), new Commas));
+  EXPECT_EQ(to_string(ParameterValue(1.5)), "1.500000");
+  EXPECT_EQ(to_string(ParameterValue(std::vector<double>{0.25, 1e-6})), "[0.25, 1e-06]");
+  std::locale::global(before);
 }
 
 TEST(ParameterValue, RefusesAnotherType) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "programs/ros/type_hash.hpp"
+#include "programs/ros/calculations/type_hash.hpp"
 
 #include <fmt/format.h>
 #include <rcutils/sha256.h>
