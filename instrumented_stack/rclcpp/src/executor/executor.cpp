@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -62,6 +63,9 @@ bool choose(const Waitable::SharedPtr& waitable, AnyExecutable& any_executable) 
   any_executable.waitable = waitable;
   return true;
 }
+
+// After a wait beside which a group was given back. A thread that gives one back may be kept from ending it for long.
+constexpr int kMostLooks = 3;
 
 bool is_waitable(const detail::ReadyEntity& ready) {
   return std::holds_alternative<Waitable::WeakPtr>(ready.entity);
@@ -347,7 +351,14 @@ void Executor::erase_unserved() {
   }
   ready_.clear();
   next_ready_ = 0;
+  size_t given_back = entities_->count_given_back();
   entities_->wait(timeout, ready_, postponed_);
+  for (int again = 0; again < kMostLooks && !ready_.empty() && entities_->is_given_back_since(given_back); ++again) {
+    std::copy_if(ready_.begin(), ready_.end(), std::back_inserter(postponed_), is_waitable);
+    ready_.clear();
+    given_back = entities_->count_given_back();
+    entities_->wait(nanoseconds::zero(), ready_, postponed_);
+  }
   for (detail::ReadyEntity& postponed : postponed_) {
     if (std::none_of(ready_.begin(), ready_.end(),
                      [&](const detail::ReadyEntity& ready) { return are_same_waitable(ready, postponed); })) {

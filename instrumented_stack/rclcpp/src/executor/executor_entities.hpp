@@ -58,6 +58,14 @@ class ExecutorEntities : public std::enable_shared_from_this<ExecutorEntities> {
   // Ends the wait that is going on. If there is none, the next wait ends at once.
   void interrupt();
 
+  // For executors that execute beside the wait: calls enclose the moment in which a group may be taken from again. A
+  // wait in which it falls may have left out some entities of the group and found others.
+  void begin_giving_back() { ++begun_giving_back_; }
+  void end_giving_back() { ++ended_giving_back_; }
+  // How often it was ended; and whether it was begun since then, or is going on.
+  size_t count_given_back() const { return ended_giving_back_; }
+  bool is_given_back_since(size_t count) const { return begun_giving_back_ != count; }
+
   // For executors that do not call wait(). `on_change` is called under a lock: after each change of nodes, groups or
   // entities, and by interrupt(). An empty function ends the calls.
   void set_on_change(std::function<void()> on_change);
@@ -89,6 +97,8 @@ class ExecutorEntities : public std::enable_shared_from_this<ExecutorEntities> {
   GuardCondition interrupt_;
 
   std::atomic<size_t> removals_{0};
+  std::atomic<size_t> begun_giving_back_{0};
+  std::atomic<size_t> ended_giving_back_{0};
   std::mutex mutex_;
   std::vector<node_interfaces::NodeBaseInterface::WeakPtr> nodes_;
   std::vector<ServedGroup> groups_;

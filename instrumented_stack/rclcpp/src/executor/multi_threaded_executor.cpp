@@ -7,8 +7,30 @@
 #include <vector>
 
 #include "base/progress.hpp"
+#include "executor/executor_entities.hpp"
 
 namespace rclcpp::executors {
+
+namespace {
+
+// Gives the group back at its end.
+class BusyGroup {
+ public:
+  BusyGroup(CallbackGroup::SharedPtr group, ExecutorEntities& entities)
+      : group_(std::move(group)), entities_(entities) {}
+  ~BusyGroup() {
+    entities_.begin_giving_back();
+    group_->give_back();
+    entities_.end_giving_back();
+  }
+  RCLCPP_DISABLE_COPY(BusyGroup)
+
+ private:
+  const CallbackGroup::SharedPtr group_;
+  ExecutorEntities& entities_;
+};
+
+}  // namespace
 
 MultiThreadedExecutor::MultiThreadedExecutor(const ExecutorOptions& options, size_t number_of_threads,
                                              bool yield_before_execute, std::chrono::nanoseconds timeout)
@@ -64,11 +86,14 @@ void MultiThreadedExecutor::run() {
     if (yield_before_execute_) {
       std::this_thread::yield();
     }
-    const bool was_exclusive = any_executable.callback_group->type() == CallbackGroupType::MutuallyExclusive;
-    execute_any_executable(any_executable);
-    any_executable.release_group();
-    if (was_exclusive) {
+    if (any_executable.callback_group->type() == CallbackGroupType::MutuallyExclusive) {
+      {
+        const BusyGroup group(std::move(any_executable.callback_group), *entities_);
+        execute_any_executable(any_executable);
+      }
       interrupt();  // the thread that waits passes over the group
+    } else {
+      execute_any_executable(any_executable);
     }
   }
 }
