@@ -17,11 +17,15 @@ struct Overtaking {
   std::size_t times = 0;  // that another one took more than kFairTurns
 };
 
-// `turns`: the names of those whose turn it was, one after the other. `name` is one that was always ready.
+// `turns`: the names of those whose turn it was, one after the other. `name` is one that was always ready. What was
+// before its first turn does not count, if it had one: an executor with several threads may execute what it has
+// connected while it connects the rest.
 inline Overtaking overtaking(const std::vector<std::string>& turns, const std::string& name) {
   Overtaking found;
   std::map<std::string, std::size_t> others;
-  for (const std::string& turn : turns) {
+  const auto first = std::find(turns.begin(), turns.end(), name);
+  for (auto at = first == turns.end() ? turns.begin() : first; at != turns.end(); ++at) {
+    const std::string& turn = *at;
     if (turn == name) {
       others.clear();
       continue;
