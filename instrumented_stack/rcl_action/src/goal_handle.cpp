@@ -136,6 +136,11 @@ bool rcl_action_goal_handle_is_cancelable(const rcl_action_goal_handle_t* goal_h
          rcl_action_transition_goal_state(goal_handle->impl->state, GOAL_EVENT_CANCEL_GOAL) == GOAL_STATE_CANCELING;
 }
 
+bool rcl_action_goal_handle_is_abortable(const rcl_action_goal_handle_t* goal_handle) {
+  return rcl_action_goal_handle_is_valid(goal_handle) &&
+         rcl_action_transition_goal_state(goal_handle->impl->state, GOAL_EVENT_ABORT) == GOAL_STATE_ABORTED;
+}
+
 bool rcl_action_goal_handle_is_valid(const rcl_action_goal_handle_t* goal_handle) {
   RCUTILS_CHECK_FOR_NULL_WITH_MSG(goal_handle, "the goal handle is null", return false);
   RCUTILS_CHECK_FOR_NULL_WITH_MSG(goal_handle->impl, "the goal handle is not initialized", return false);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "rcl/error_handling.h"
+#include "rcl_action/names.h"
 
 namespace {
 
@@ -90,6 +91,20 @@ rcl_ret_t get_actions(const std::function<rcl_ret_t(rcl_names_and_types_t*)>& ge
   return hand_out(actions, *allocator, action_names_and_types);
 }
 
+// Each client and each server has one goal service.
+template <typename CountT>
+rcl_ret_t count_by_goal_service(CountT count_ends, const rcl_node_t* node, const char* action_name, size_t* count) {
+  const rcl_allocator_t allocator = rcl_get_default_allocator();
+  char* service = nullptr;
+  if (const rcl_ret_t result = rcl_action_get_goal_service_name(action_name, allocator, &service);
+      result != RCL_RET_OK) {
+    return result;
+  }
+  const rcl_ret_t result = count_ends(node, service, count);
+  allocator.deallocate(service, allocator.state);
+  return result;
+}
+
 }  // namespace
 
 rcl_ret_t rcl_action_get_names_and_types(const rcl_node_t* node, rcl_allocator_t* allocator,
@@ -117,4 +132,12 @@ rcl_ret_t rcl_action_get_client_names_and_types_by_node(const rcl_node_t* node, 
         return rcl_get_subscriber_names_and_types_by_node(node, allocator, false, node_name, node_namespace, topics);
       },
       allocator, action_names_and_types);
+}
+
+rcl_ret_t rcl_action_count_clients(const rcl_node_t* node, const char* action_name, size_t* count) {
+  return count_by_goal_service(rcl_count_clients, node, action_name, count);
+}
+
+rcl_ret_t rcl_action_count_servers(const rcl_node_t* node, const char* action_name, size_t* count) {
+  return count_by_goal_service(rcl_count_services, node, action_name, count);
 }

@@ -41,11 +41,14 @@ TEST(GoalHandle, SaysWhatIsNotAllowed) {
   EXPECT_EQ(rcl_action_update_goal_state(&goal, GOAL_EVENT_SUCCEED), RCL_RET_ACTION_GOAL_EVENT_INVALID);
   EXPECT_THAT(rcl_get_error_string().str, testing::StartsWith("a goal that is accepted cannot succeed, at "));
   rcl_reset_error();
+  EXPECT_FALSE(rcl_action_goal_handle_is_abortable(&goal));
   EXPECT_EQ(rcl_action_update_goal_state(&goal, GOAL_EVENT_EXECUTE), RCL_RET_OK);
   EXPECT_TRUE(rcl_action_goal_handle_is_cancelable(&goal));
+  EXPECT_TRUE(rcl_action_goal_handle_is_abortable(&goal));
   EXPECT_EQ(rcl_action_update_goal_state(&goal, GOAL_EVENT_ABORT), RCL_RET_OK);
   EXPECT_FALSE(rcl_action_goal_handle_is_active(&goal));
   EXPECT_FALSE(rcl_action_goal_handle_is_cancelable(&goal));
+  EXPECT_FALSE(rcl_action_goal_handle_is_abortable(&goal));
   rcl_reset_error();
   EXPECT_EQ(rcl_action_goal_handle_fini(&goal), RCL_RET_OK);
 }

@@ -203,6 +203,15 @@ TEST_F(ActionTest, IsFoundInTheGraph) {
   EXPECT_THAT(names_and_types(rcl_action_get_server_names_and_types_by_node, "server", "/"), ElementsAre(action));
   EXPECT_THAT(names_and_types(rcl_action_get_server_names_and_types_by_node, "client", "/"), IsEmpty());
   EXPECT_THAT(names_and_types(rcl_action_get_client_names_and_types_by_node, "client", "/"), ElementsAre(action));
+
+  const auto count = [&](auto get, const char* name) {
+    size_t found = 17;
+    EXPECT_EQ(get(client_node_->get_node_base_interface()->get_rcl_node_handle(), name, &found), RCL_RET_OK);
+    return found;
+  };
+  EXPECT_EQ(count(rcl_action_count_clients, "/fibonacci"), 1u);
+  EXPECT_EQ(count(rcl_action_count_servers, "/fibonacci"), 1u);
+  EXPECT_EQ(count(rcl_action_count_servers, "/nobody"), 0u);
 }
 
 TEST_F(ActionTest, WrongNameIsAnException) {

@@ -41,6 +41,7 @@ rcl_ret_t rcl_action_goal_handle_set_goal_terminal_timestamp(const rcl_action_go
 // Whether the goal is accepted, executing or canceling.
 bool rcl_action_goal_handle_is_active(const rcl_action_goal_handle_t* goal_handle);
 bool rcl_action_goal_handle_is_cancelable(const rcl_action_goal_handle_t* goal_handle);
+bool rcl_action_goal_handle_is_abortable(const rcl_action_goal_handle_t* goal_handle);
 bool rcl_action_goal_handle_is_valid(const rcl_action_goal_handle_t* goal_handle);
 #ifdef __cplusplus
 }

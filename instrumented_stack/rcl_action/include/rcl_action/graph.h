@@ -22,6 +22,11 @@ rcl_ret_t rcl_action_get_client_names_and_types_by_node(const rcl_node_t* node, 
                                                         const char* node_name, const char* node_namespace,
                                                         rcl_names_and_types_t* action_names_and_types);
 
+// How many clients or servers of the action there are, those of `node` included. `action_name` is a full name. One that
+// nobody has is found 0 times.
+rcl_ret_t rcl_action_count_clients(const rcl_node_t* node, const char* action_name, size_t* count);
+rcl_ret_t rcl_action_count_servers(const rcl_node_t* node, const char* action_name, size_t* count);
+
 #ifdef __cplusplus
 }
 #endif
