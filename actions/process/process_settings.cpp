@@ -11,6 +11,7 @@
 #include "actions/process/cpu_faults.hpp"
 #include "actions/process/depends_on.hpp"
 #include "actions/process/resource_settings.hpp"
+#include "actions/process/terminal_settings.hpp"
 #include "actions/process/watch.hpp"
 #include "actions/values/pair_items.hpp"
 #include "base/processes/process_mark.hpp"
@@ -182,15 +183,6 @@ void perform_on_exit(const Fields& fields, Scope&, ProcessSpec& spec) {
   spec.shutdown_on_exit = true;
 }
 
-void perform_stdin(const Fields& fields, Scope& scope, ProcessSpec& spec) {
-  const std::string text = fields.text("stdin").perform(scope);
-  if (text != "terminal" && text != "none") {
-    throw LaunchError(fmt::format("'{}' is no standard input, expected terminal or none", text), fields.where("stdin"),
-                      did_you_mean(text, {"terminal", "none"}));
-  }
-  spec.terminal_input = text == "terminal";
-}
-
 using Type = AttributeType;
 
 // A row without a place is read by request_process(), with the context or with what another row doesn't know.
@@ -258,6 +250,9 @@ const std::vector<Setting<ProcessSpec>>& process_settings() {
       {.attribute = {"stdin", Type::kText, false, "none",
                      "terminal: the process reads the terminal of the launch; none: it has nothing to read", true},
        .perform = perform_stdin},
+      {.attribute = {"tty", Type::kBoolean, false, "false",
+                     "true: standard input, output and error are a terminal of its own, for launch attach", true},
+       .perform = perform_tty},
       {.attribute = {"trace", Type::kBoolean, false, "true", "false: no trace records this process", true},
        .place = place_of(&ProcessSpec::traced)},
       {.attribute = {"leave-running", Type::kBoolean, false, "false",
@@ -271,20 +266,6 @@ const std::vector<Setting<ProcessSpec>>& process_settings() {
                      true}},
   };
   return settings;
-}
-
-// A launch configuration overrules the attribute.
-bool emulate_tty(const Fields& fields, Scope& scope) {
-  if (const std::string* const configuration = find_configuration(scope, "emulate_tty")) {
-    const std::optional<bool> value = condition_boolean(*configuration);
-    if (!value) {
-      throw LaunchError(
-          fmt::format("launch configuration 'emulate_tty' is expected to be true or false, got '{}'", *configuration),
-          fields.where());
-    }
-    return *value;
-  }
-  return fields.boolean("emulate_tty", false).perform(scope);
 }
 
 // A launch configuration of the name of an attribute holds where the attribute is not given.
@@ -308,7 +289,7 @@ void perform_configurations(const Fields& fields, Scope& scope, ProcessSpec& spe
   if (crash_directory != nullptr && !fields.has("crash-dir")) {
     spec.crash_directory = *crash_directory;
   }
-  spec.emulate_tty = emulate_tty(fields, scope);
+  perform_emulated_terminals(fields, scope, spec);
   perform_configured_timeout(fields, "sigterm_timeout", scope, spec.sigterm_timeout);
   perform_configured_timeout(fields, "sigkill_timeout", scope, spec.sigkill_timeout);
 }

@@ -7,6 +7,7 @@
 #include <poll.h>
 #include <sched.h>
 #include <signal.h>
+#include <sys/ioctl.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -122,8 +123,11 @@ RUNS_IN_CHILD int be_born(void* data) {
     return fail_in_child(birth);
   }
   set_signals(birth);
-  if ((birth.child.group == ChildGroup::kOwnSession && ::syscall(SYS_setsid) < 0) ||
-      (birth.child.group == ChildGroup::kOwn && ::syscall(SYS_setpgid, 0, 0) != 0) || !give_descriptors(birth) ||
+  const ChildGroup group = birth.child.group;
+  const bool leads_session = group == ChildGroup::kOwnSession || group == ChildGroup::kOwnTerminal;
+  if ((leads_session && ::syscall(SYS_setsid) < 0) ||
+      (group == ChildGroup::kOwn && ::syscall(SYS_setpgid, 0, 0) != 0) || !give_descriptors(birth) ||
+      (group == ChildGroup::kOwnTerminal && ::syscall(SYS_ioctl, STDIN_FILENO, TIOCSCTTY, 0) != 0) ||
       (!birth.child.directory.empty() && ::syscall(SYS_chdir, birth.child.directory.c_str()) != 0)) {
     return fail_in_child(birth);
   }

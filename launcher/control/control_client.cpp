@@ -92,13 +92,15 @@ std::optional<Json> ControlClient::next(milliseconds patience) {
 
 // Events may come before the answer to a request.
 std::optional<Json> ControlClient::take(bool answer) {
-  if (!answer && !events_.empty()) {
-    std::optional<Json> event = std::move(events_.front());
-    events_.pop_front();
-    return event;
-  }
-  std::size_t begin = 0;
   std::optional<Json> found;
+  const auto take_kept = [&] {
+    if (!answer && !found && !events_.empty()) {
+      found = std::move(events_.front());
+      events_.pop_front();
+    }
+  };
+  take_kept();
+  std::size_t begin = 0;
   for (std::size_t end; !found && (end = buffer_.find('\n', begin)) != std::string::npos; begin = end + 1) {
     Json line = Json::parse(buffer_.begin() + static_cast<std::ptrdiff_t>(begin),
                             buffer_.begin() + static_cast<std::ptrdiff_t>(end), nullptr, false);
@@ -112,6 +114,7 @@ std::optional<Json> ControlClient::take(bool answer) {
     }
   }
   buffer_.erase(0, begin);
+  take_kept();  // an answer that nobody has waited for
   return found;
 }
 

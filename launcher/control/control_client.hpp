@@ -45,6 +45,9 @@ class ControlClient {
   // As ask(), but returns the line of the answer as it is, also a refusal. Only for a client that follows nothing.
   std::string ask_for_line(const Json& request);
 
+  // Sends a request without waiting: next() gives the answer.
+  void tell(const Json& request) { send_request(request); }
+
   // What the launch tells, after a request for it: waits for the next line. Nothing when the launch has ended, or when
   // the time is over.
   std::optional<Json> next();

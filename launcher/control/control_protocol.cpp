@@ -2,47 +2,26 @@
 #include "launcher/control/control_protocol.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <string.h>
 #include <sys/time.h>
 #include <time.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <utility>
 #include <variant>
 
 #include "base/diagnostics/diagnostic.hpp"
 #include "base/processes/outside_number.hpp"
+#include "base/text/base64.hpp"
 #include "launcher/control/control_groups_text.hpp"
-#include "launcher/language/exit_code_filter.hpp"
-#include "launcher/run/user/scaling.hpp"
 
 namespace launch {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Kind = ControlRequest::Kind;
-
-struct KindName {
-  Kind kind;
-  const char* name;
-};
-constexpr std::array<KindName, 11> kKinds{{{Kind::kInfo, "info"},
-                                           {Kind::kPs, "ps"},
-                                           {Kind::kStop, "stop"},
-                                           {Kind::kStart, "start"},
-                                           {Kind::kRestart, "restart"},
-                                           {Kind::kSignal, "signal"},
-                                           {Kind::kShutdown, "shutdown"},
-                                           {Kind::kEvents, "events"},
-                                           {Kind::kOutput, "output"},
-                                           {Kind::kReload, "reload"},
-                                           {Kind::kScale, "scale"}}};
 
 // Names and lines of programs may hold any bytes.
 std::string dump(const Json& json) {
@@ -138,6 +117,8 @@ void append_process(std::string& text, const SteeredProcess& process, const Proc
   if (!process.groups.empty()) {
     text += ",\"groups\":" + dump(Json(process.groups));
   }
+  text += process.scalable ? ",\"scalable\":true" : "";
+  text += process.tty ? ",\"tty\":true" : "";
   if (process.id == 0) {
     fmt::format_to(to, ",\"state\":\"{}\"", process.waits ? "waiting" : "skipped");
   } else {
@@ -243,80 +224,7 @@ struct EventWriter {
   void operator()(const ProcessDone&) const { json["event"] = "done"; }
 };
 
-[[noreturn]] void refuse(const std::string& why) {
-  throw std::runtime_error(why);
-}
-
-Kind kind_of(const Json& name) {
-  if (!name.is_string()) {
-    refuse("\"do\" is missing, it names what to do");
-  }
-  const std::string text = name.get<std::string>();
-  std::vector<std::string> known;
-  for (const KindName& entry : kKinds) {
-    if (text == entry.name) {
-      return entry.kind;
-    }
-    known.emplace_back(entry.name);
-  }
-  refuse(fmt::format("\"do\": \"{}\" is unknown; there are {}", text, fmt::join(known, ", ")));
-}
-
-std::vector<std::string> names_of(const Json& json, const char* key) {
-  const Json names = json.value(key, Json::array());
-  if (!names.is_array() ||
-      !std::all_of(names.begin(), names.end(), [](const Json& name) { return name.is_string(); })) {
-    refuse(fmt::format("\"{}\" must be a list of names", key));
-  }
-  return names.get<std::vector<std::string>>();
-}
-
-int signal_of(const Json& signal) {
-  const int number = signal.is_string() ? signal_number(signal.get<std::string>()) : 0;
-  if (number == 0) {
-    refuse("\"signal\" must be the name of a signal, such as \"SIGUSR1\"");
-  }
-  return number;
-}
-
 }  // namespace
-
-ControlRequest parse_control_request(std::string_view line) {
-  const Json json = Json::parse(line, nullptr, false);
-  if (!json.is_object()) {
-    refuse("a request is a JSON object on one line, such as {\"version\": 1, \"do\": \"ps\"}");
-  }
-  const Json version = json.value("version", Json());
-  if (version != kControlVersion) {
-    refuse(fmt::format("\"version\" must be {}", kControlVersion));
-  }
-  ControlRequest request{.kind = kind_of(json.value("do", Json()))};
-  request.processes = names_of(json, "processes");
-  request.groups = names_of(json, "groups");
-  const bool names_processes = request.kind == Kind::kStop || request.kind == Kind::kStart ||
-                               request.kind == Kind::kRestart || request.kind == Kind::kSignal;
-  if (names_processes && request.processes.empty() && request.groups.empty()) {
-    refuse("\"processes\" is missing, it names the processes");
-  }
-  for (const auto& [key, flag] : {std::pair{"dry_run", &request.dry_run}, {"restart", &request.restart}}) {
-    const Json value = json.value(key, Json(false));
-    if (!value.is_boolean()) {
-      refuse(fmt::format("\"{}\" must be true or false", key));
-    }
-    *flag = value.get<bool>();
-  }
-  if (request.kind == Kind::kScale) {
-    const Json count = json.value("count", Json());
-    if (request.processes.size() != 1 || !count.is_number_unsigned() || count == 0U || count > Scaling::kMost) {
-      refuse(fmt::format("\"processes\" must hold one name, and \"count\" be a number from 1 to {}", Scaling::kMost));
-    }
-    request.count = count.get<std::size_t>();
-  }
-  if (request.kind == Kind::kSignal) {
-    request.signal = signal_of(json.value("signal", Json()));
-  }
-  return request;
-}
 
 std::string error_line(std::string_view error, std::string_view help) {
   Json json{{"version", kControlVersion}, {"ok", false}, {"error", error}};
@@ -384,6 +292,35 @@ std::string output_line(const std::string& process, OutputStream stream, std::st
 
 std::string dropped_line(std::size_t lines) {
   return dump({{"time", now()}, {"event", "dropped"}, {"lines", lines}});
+}
+
+std::string attached_line(const std::string& process, const std::string& terminal, std::size_t clients) {
+  return dump({{"version", kControlVersion},
+               {"ok", true},
+               {"process", process},
+               {"terminal", terminal},
+               {"clients", clients}});
+}
+
+std::string taken_line(std::size_t bytes) {
+  return dump({{"version", kControlVersion}, {"ok", true}, {"taken", bytes}});
+}
+
+std::string terminal_line(std::string_view bytes) {
+  return fmt::format("{{\"event\":\"terminal\",\"data\":\"{}\"}}", to_base64(bytes));
+}
+
+std::string terminal_dropped_line(std::size_t bytes) {
+  return dump({{"event", "terminal_dropped"}, {"bytes", bytes}});
+}
+
+std::string terminal_ended_line(const std::string& process, const ProcessExited* exited) {
+  Json json{{"time", now()}, {"event", "terminal_ended"}, {"process", process}};
+  if (exited != nullptr) {
+    put_end(json, exited->exit);
+    json["will_respawn"] = exited->will_respawn;
+  }
+  return dump(json);
 }
 
 }  // namespace launch

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/terminal/terminal.hpp"
 #include "launcher/process/output/output_router.hpp"
 #include "launcher/process/process_event.hpp"
 #include "launcher/run/user/steering.hpp"
@@ -31,7 +32,7 @@ struct LaunchFacts {
 };
 
 struct ControlRequest {
-  enum class Kind { kInfo, kPs, kStop, kStart, kRestart, kSignal, kShutdown, kEvents, kOutput, kReload, kScale };
+  enum class Kind { kInfo, kPs, kStop, kStart, kRestart, kSignal, kShutdown, kEvents, kOutput, kReload, kScale, kAttach, kInput, kResize };
 
   Kind kind = Kind::kInfo;
   Steering::Patterns processes;
@@ -40,6 +41,9 @@ struct ControlRequest {
   std::size_t count = 0;  // of kScale
   bool dry_run = false;   // of kReload
   bool restart = false;   // of kReload: not by setting parameters
+  TerminalSize size{};    // of kAttach and kResize: of the client's terminal; none if it has none
+  bool read_only = false; // of kAttach: the client types nothing
+  std::string text;       // of kInput: what is typed
 };
 
 // Throws std::runtime_error, with a sentence for the client, for any other text.
@@ -60,5 +64,14 @@ std::string ending_line(const std::string& reason);
 std::string output_line(const std::string& process, OutputStream stream, std::string_view text);
 // The client has read too slowly.
 std::string dropped_line(std::size_t lines);
+
+// For those who are attached to the terminal of a process, a path. `clients` are so already.
+std::string attached_line(const std::string& process, const std::string& terminal, std::size_t clients);
+// The terminal has taken what was typed.
+std::string taken_line(std::size_t bytes);
+std::string terminal_line(std::string_view bytes);
+std::string terminal_dropped_line(std::size_t bytes);
+// Null: it is not known how the process has ended.
+std::string terminal_ended_line(const std::string& process, const ProcessExited* exited);
 
 }  // namespace launch

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/control/control_server.hpp"
 
+#include <poll.h>
 #include <sys/epoll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -15,6 +16,8 @@ namespace launch {
 namespace {
 
 constexpr std::uint64_t kListener = 0;  // no client has this number
+constexpr int kFinishPatience = 200;    // milliseconds, with a client that reads nothing
+constexpr Duration kLongestFinish = std::chrono::seconds(2);
 
 bool is_own_user(int socket) {
   ucred peer{};
@@ -31,6 +34,7 @@ struct ControlServer::Client {
   std::string out;
   std::size_t written = 0;  // of `out`
   std::uint32_t watched = 0;
+  bool may_pause = false;       // it is not dropped when it reads nothing for a while
   bool waits_for_room = false;  // offer() has refused something
   bool finished = false;        // sends nothing more: it is dropped when it has got everything
   bool dead = false;
@@ -51,7 +55,25 @@ ControlServer::ControlServer(EventLoop& loop, int listener, Callbacks callbacks)
   source_ = loop_.on_readable(epoll_.get(), [this] { on_ready(); });
 }
 
-ControlServer::~ControlServer() = default;
+ControlServer::~ControlServer() {
+  for (const auto& [id, client] : clients_) {
+    finish(*client);
+  }
+}
+
+// The end of a launch is told last, so a client that reads gets what its queue holds.
+void ControlServer::finish(Client& client) {
+  const Duration latest = loop_.now() + kLongestFinish;
+  pollfd writable{client.fd.get(), POLLOUT, 0};
+  while (client.queued() > 0 && loop_.now() < latest && ::poll(&writable, 1, kFinishPatience) > 0) {
+    const ssize_t count =
+        ::send(client.fd.get(), client.out.data() + client.written, client.queued(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (count <= 0) {
+      return;
+    }
+    client.written += static_cast<std::size_t>(count);
+  }
+}
 
 void ControlServer::on_ready() {
   std::array<epoll_event, 16> events{};
@@ -156,6 +178,13 @@ bool ControlServer::offer(ClientId id, std::string_view line) {
   return true;
 }
 
+void ControlServer::allow_pauses(ClientId id) {
+  if (const auto found = clients_.find(id); found != clients_.end()) {
+    found->second->may_pause = true;
+    found->second->patience.reset();
+  }
+}
+
 void ControlServer::write(Client& client) {
   while (client.queued() > 0) {
     const ssize_t count =
@@ -175,7 +204,7 @@ void ControlServer::write(Client& client) {
     client.out.erase(0, client.written);
     client.written = 0;
   }
-  if (client.queued() > 0 && !client.patience) {
+  if (client.queued() > 0 && !client.patience && !client.may_pause) {
     client.patience = loop_.after(kPatience, [this, id = client.id] {
       if (const auto found = clients_.find(id); found != clients_.end()) {
         drop(*found->second);

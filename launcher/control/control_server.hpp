@@ -3,7 +3,7 @@
 //
 // A client can't make the launcher wait, nor fill its memory. What a client does not read stays in a bounded queue, and
 // none of its requests is read meanwhile. A client is dropped when its line is too long, when it belongs to another
-// user, or when it has read nothing for a while although there is something to read.
+// user, or when it has read nothing for a while although there is something to read and it has not announced pauses.
 #pragma once
 
 #include <chrono>
@@ -41,6 +41,7 @@ class ControlServer {
 
   // `listener` is a socket that listens. It and the loop must outlive the server. Throws std::system_error.
   ControlServer(EventLoop& loop, int listener, Callbacks callbacks);
+  // Waits for clients that read what is queued for them, but not long.
   ~ControlServer();
   ControlServer(const ControlServer&) = delete;
   ControlServer& operator=(const ControlServer&) = delete;
@@ -49,6 +50,8 @@ class ControlServer {
   void send(ClientId client, std::string_view line);
   // Queues a line unless the queue is full. Returns whether it did.
   bool offer(ClientId client, std::string_view line);
+  // The client may read nothing for as long as it likes: it only loses what offer() refuses.
+  void allow_pauses(ClientId client);
 
  private:
   struct Client;
@@ -60,6 +63,7 @@ class ControlServer {
   void take_lines(Client& client);
   void write(Client& client);
   void watch(Client& client);
+  void finish(Client& client);
   void refuse(Client& client, std::string_view why);
   void drop(Client& client);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/control/launch_control.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <stdexcept>
@@ -22,10 +24,14 @@ LaunchControl::LaunchControl(EventLoop& loop, int listener, ProcessSupervisor& s
       steering_(steering),
       facts_(std::move(facts)),
       server_(loop, listener,
-              {[this](ClientId client, std::string_view line) { server_.send(client, answer(client, line)); },
+              {[this](ClientId client, std::string_view line) { take(client, line); },
                [this](ClientId client) { tell_dropped(client); }, [this](ClientId client) { forget(client); },
-               [](std::string_view why) { return error_line(why); }}) {
-  supervisor_.observe([this](const ProcessEvent& event) { on_event(event); });
+               [](std::string_view why) { return error_line(why); }}),
+      attachments_(supervisor, server_) {
+  supervisor_.observe([this](const ProcessEvent& event) {
+    on_event(event);
+    attachments_.on_event(event);
+  });
   steering_.observe_end([this](const std::string& reason) { tell_followers(ending_line(reason)); });
 }
 
@@ -40,13 +46,44 @@ LaunchControl::~LaunchControl() {
   steering_.observe_end(nullptr);
 }
 
-std::string LaunchControl::answer(ClientId client, std::string_view line) {
+void LaunchControl::take(ClientId client, std::string_view line) {
   ControlRequest request;
   try {
     request = parse_control_request(line);
   } catch (const std::runtime_error& error) {
-    return error_line(error.what());
+    server_.send(client, error_line(error.what()));
+    return;
   }
+  if (request.kind == Kind::kAttach) {
+    attach(client, request);
+  } else if (request.kind == Kind::kInput) {
+    attachments_.type(client, std::move(request.text));
+  } else if (request.kind == Kind::kResize) {
+    attachments_.resize(client, request.size);
+  } else {
+    server_.send(client, answer(client, std::move(request)));
+  }
+}
+
+void LaunchControl::attach(ClientId client, const ControlRequest& request) {
+  SteeringOutcome outcome;
+  const std::vector<SteeredProcess> found = steering_.find({.patterns = request.processes}, outcome);
+  if (found.size() > 1) {
+    std::string names;
+    for (const SteeredProcess& process : found) {
+      names += (names.empty() ? "" : ", ") + process.name;
+    }
+    outcome.error = fmt::format("several processes are named '{}': {}", request.processes.front(), names);
+    outcome.help = "name one of them";
+  }
+  if (outcome.error.empty()) {
+    attachments_.attach(client, found.front(), request);
+  } else {
+    server_.send(client, outcome_line(outcome));
+  }
+}
+
+std::string LaunchControl::answer(ClientId client, ControlRequest request) {
   switch (request.kind) {
     case Kind::kInfo:
       return info_line(facts_, steering_.is_ending());
@@ -76,6 +113,10 @@ std::string LaunchControl::answer(ClientId client, std::string_view line) {
     case Kind::kEvents:
     case Kind::kOutput:
       return follow(client, std::move(request));
+    case Kind::kAttach:
+    case Kind::kInput:
+    case Kind::kResize:
+      break;
   }
   return done_line();
 }
@@ -109,10 +150,12 @@ std::string LaunchControl::follow(ClientId client, ControlRequest request) {
 
 void LaunchControl::forget(ClientId client) {
   followers_.erase(client);
+  attachments_.forget(client);
   watch_output();
 }
 
 void LaunchControl::tell_dropped(ClientId client) {
+  attachments_.on_room(client);
   if (const auto found = followers_.find(client); found != followers_.end() && found->second.dropped > 0) {
     server_.send(client, dropped_line(std::exchange(found->second.dropped, 0)));
   }

@@ -4,10 +4,12 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "launcher/control/attachments.hpp"
 #include "launcher/control/control_protocol.hpp"
 #include "launcher/control/control_server.hpp"
 #include "launcher/run/reload/reloads.hpp"
@@ -37,7 +39,9 @@ class LaunchControl {
     std::size_t dropped = 0;       // lines since its queue became full
   };
 
-  std::string answer(ClientId client, std::string_view line);
+  void take(ClientId client, std::string_view line);
+  std::string answer(ClientId client, ControlRequest request);
+  void attach(ClientId client, const ControlRequest& request);
   std::string scale(const ControlRequest& request);
   std::string follow(ClientId client, ControlRequest request);
   void forget(ClientId client);
@@ -58,6 +62,7 @@ class LaunchControl {
   std::map<ClientId, Follower> followers_;
   bool watches_output_ = false;
   ControlServer server_;
+  Attachments attachments_;
 };
 
 }  // namespace launch

@@ -29,12 +29,21 @@ void Supervision::terminate(Supervised& process) {
   process.state = ProcessState::kTerminating;
   start_timer(process, process.spec.sigkill_timeout);
   send(process, SIGTERM, SIGINT, process.spec.sigterm_timeout);
+  hang_up(process);
+}
+
+// A shell on a terminal takes neither SIGINT nor SIGTERM for a reason to end, but the end of its terminal.
+void Supervision::hang_up(Supervised& process) {
+  if (process.spec.tty && process.unreaped) {
+    runner.signal_group(process.process, SIGHUP);
+  }
 }
 
 void Supervision::terminate_now(Supervised& process) {
   process.state = ProcessState::kTerminating;
   start_timer(process, process.spec.sigkill_timeout);
   send(process, SIGTERM, 0, Duration{0});
+  hang_up(process);
 }
 
 void Supervision::kill_at_last(Supervised& process) {
@@ -58,6 +67,7 @@ void Supervision::kill(Supervised& process, int escalated_from, Duration waited)
 }
 
 void Supervision::give_up(Supervised& process) {
+  end_tty(process);
   process.exit_source.reset();
   process.output.close();
   process.unreaped = false;
@@ -189,7 +199,14 @@ void Supervision::kill_remains(Supervised& process) {
   }
 }
 
+void Supervision::end_tty(Supervised& process) {
+  if (process.tty) {
+    process.tty->end();
+  }
+}
+
 void Supervision::report_exit(Supervised& process, ProcessExit exit, bool will_respawn) {
+  end_tty(process);
   exit.ran_for = process.ran_for = loop.now() - process.started;
   // Where the process has no cgroup that counts it. Nobody else of the launch has sent the signal.
   if (exit.code == -SIGKILL && !process.signalled && process.process.control_group.empty()) {

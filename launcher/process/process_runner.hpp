@@ -26,7 +26,7 @@ class ProcessRunner {
   virtual ~ProcessRunner() = default;
 
   // Starts a process in a process group of its own, with default signal dispositions and nothing blocked. A process
-  // that gets the terminal stays in the group of the launcher.
+  // that gets the terminal stays in the group of the launcher. One with a tty leads a session on it.
   // Throws std::system_error when it can't be started (no such program, no permission, no such directory).
   virtual Process spawn(const ProcessSpec& spec) = 0;
 

@@ -92,6 +92,7 @@ struct ProcessSpec {
   bool shell = false;             // run argv joined with spaces through /bin/sh -c
   bool emulate_tty = false;       // stdout and stderr are pseudo-terminals
   bool terminal_input = false;    // stdin is that of the launcher, if that is a terminal
+  bool tty = false;               // stdin, stdout and stderr are a pseudo-terminal of its own; all output is stdout
   OutputRouting output;
   ResourceLimits limits;
   ControlGroupLimits control_limits;                                // for observers: of limits.control_group
@@ -123,9 +124,9 @@ struct Process {
   bool has_terminal = false;
   std::string mark{};  // of a process that has the terminal: its descendants in the launcher's group have it, too
   UniqueFd pidfd;
-  UniqueFd out;  // read end of standard output
+  UniqueFd out;  // read end of standard output; of a process with a tty, of its terminal, and then there is no `err`
   UniqueFd err;
-  UniqueFd in;                            // write end of standard input, kept open, never written
+  UniqueFd in;                            // write end of standard input, kept open
   std::string control_group{};            // of its own; empty: none
   std::uint64_t out_of_memory_before{0};  // how many processes the kernel had ended there, when it started
 };

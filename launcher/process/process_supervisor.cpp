@@ -107,7 +107,16 @@ void Supervision::spawn(Supervised& process) {
   process.health = process.spec.watches.empty() ? Health::kUnwatched : Health::kStarting;
   process.health_reason.clear();
   process.status.clear();
-  process.output.follow(process.process, [this, &process] { handle(process, Event::kOutputClosed); });
+  ChildOutput::Observer on_bytes;
+  if (process.spec.tty) {
+    if (!process.tty) {
+      process.tty = std::make_unique<ProcessTty>(loop);
+    }
+    process.tty->begin(process.process.in.get());
+    on_bytes = [tty = process.tty.get()](std::string_view bytes) { tty->add_output(bytes); };
+  }
+  process.output.follow(
+      process.process, [this, &process] { handle(process, Event::kOutputClosed); }, std::move(on_bytes));
   process.exit_source = loop.on_exit(process.process.pidfd.get(), [this, &process] { handle(process, Event::kExit); });
   notify(process, ProcessStarted{process.process.pid, process.spec.terminal_input && !process.process.has_terminal});
 }
@@ -305,6 +314,11 @@ bool ProcessSupervisor::write(ProcessId id, std::string_view text) {
   const int pipe = process.unreaped && !process.exited ? process.process.in.get() : -1;
   return pipe >= 0 && ::fcntl(pipe, F_SETFL, O_NONBLOCK) == 0 &&
          ::write(pipe, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+}
+
+ProcessTty* ProcessSupervisor::tty(ProcessId id) const {
+  const Supervised& process = *impl_->processes.at(id - 1);
+  return process.spec.tty ? process.tty.get() : nullptr;
 }
 
 void ProcessSupervisor::stop(ProcessId id) {

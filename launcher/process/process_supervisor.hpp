@@ -31,6 +31,7 @@
 namespace launch {
 
 class Guardian;
+class ProcessTty;
 struct Supervision;
 
 // What is known of a process now. The references stay valid as long as the supervisor.
@@ -112,6 +113,9 @@ class ProcessSupervisor {
 
   // Writes to the standard input of a running process. False if it does not run, or does not read.
   bool write(ProcessId id, std::string_view text);
+
+  // The terminal of a process with a tty; null for another one, and before its first start.
+  ProcessTty* tty(ProcessId id) const;
 
   // Ends one process as shutdown() ends all of them: it does not respawn, whatever its policy says.
   void stop(ProcessId id);

@@ -17,6 +17,7 @@
 #include "launcher/process/process_event.hpp"
 #include "launcher/process/process_spec.hpp"
 #include "launcher/process/spawn/generated_files.hpp"
+#include "launcher/process/tty/process_tty.hpp"
 
 namespace launch {
 
@@ -96,6 +97,7 @@ struct Supervised {
   Health health = Health::kUnwatched;
   std::string health_reason;  // of kUnhealthy
   std::string status;
+  std::unique_ptr<ProcessTty> tty;  // of a spec with a tty; stays over all runs
   ChildOutput output;
   EventLoop::SourcePtr exit_source;
   EventLoop::SourcePtr timer;
@@ -159,6 +161,7 @@ struct Supervision {
   void interrupt(Supervised& process);
   void terminate(Supervised& process);
   void terminate_now(Supervised& process);
+  void hang_up(Supervised& process);
   void kill_at_last(Supervised& process);
   void kill_now(Supervised& process);
   void give_up(Supervised& process);
@@ -182,6 +185,7 @@ struct Supervision {
   void conclude(Supervised& process);
   void wait_for_respawn(Supervised& process, Duration delay);
   void start_timer(Supervised& process, Duration delay);
+  void end_tty(Supervised& process);
   void report_exit(Supervised& process, ProcessExit exit, bool will_respawn);
   void send(Supervised& process, int signal, int escalated_from, Duration waited);
   void kill(Supervised& process, int escalated_from, Duration waited);

@@ -112,7 +112,7 @@ std::uint64_t streams_of(const ProcessSpec& spec) {
   for (const OutputTargets& targets : {spec.output.out, spec.output.err}) {
     sum.add(targets.screen).add(targets.log).add(targets.own_log);
   }
-  return sum.add(spec.emulate_tty).add(spec.terminal_input).value();
+  return sum.add(spec.emulate_tty).add(spec.terminal_input).add(spec.tty).value();
 }
 
 std::uint64_t environment_of(const ProcessSpec& spec) {

@@ -21,6 +21,7 @@ int unit_command(const Words& words);
 int doctor_command(const Words& words);
 
 // These ask a running launch, and throw ControlError.
+int attach_command(const Words& words);
 int gdb_command(const Words& words);
 int stack_command(const Words& words);
 int events_command(const Words& words);
@@ -43,6 +44,7 @@ int launch_in_top(Words words, const Environment& environment);
 // The help of their option --launch.
 inline constexpr const char* kLaunchHelp = "number or file of the launch, if several run";
 
+Words attach_words(const Words& words);       // names of processes with a terminal
 Words finding_words(const Words& words);      // ids
 Words launch_file_words(const Words& words);  // launch files, packages, arguments and their values
 Words process_words(const Words& words);      // names of the processes of the launches that run

@@ -96,6 +96,9 @@ constexpr const char* kCheckStatus =
 constexpr const char* kRunStatus =
     "That of the program, or 128+N if signal N ended it; 1 if it could not be started, 2 after a wrong "
     "command line.";
+constexpr const char* kAttachStatus =
+    "That of the process, or 128+N if signal N ended it; 0 after the keys that detach, 1 after an error, 2 after a "
+    "wrong command line.";
 constexpr const char* kInHelpOfVerbs =
     "0 without errors, 1 after an error, 2 after a wrong command line. Of status: 0 if the launch is active, 3 if it "
     "is "
@@ -108,6 +111,14 @@ const std::vector<Command>& command_table() {
   static const std::vector<Command> commands = {
       {.name = "", .run = run_launch_files, .complete = launch_file_words, .exit_status = kLaunchStatus},
       ros_command("action", "VERB", "lists and describes actions, and sends goals"),
+      {.name = "attach",
+       .operand = "NAME",
+       .help = "connects this terminal with that of a process of a running launch",
+       .run = attach_command,
+       .asks_launch = true,
+       .other_terminal = OtherTerminal::kOfProcess,
+       .complete = attach_words,
+       .exit_status = kAttachStatus},
       {.name = "build", .operand = "PACKAGE", .help = "builds the packages of a workspace", .program = "launch-build"},
       {.name = "check",
        .operand = "FILE",
@@ -223,7 +234,7 @@ const std::vector<Command>& command_table() {
        .help = "shows the processes of a running launch on the whole screen",
        .run = top_command,
        .asks_launch = true,
-       .takes_terminal = true,
+       .other_terminal = OtherTerminal::kOfCommand,
        .complete = process_words},
       ros_command("topic", "VERB", "lists, prints, measures and publishes topics of ROS 2"),
       {.name = "trace",

@@ -127,7 +127,7 @@ int run_command_of(const Words& all_words) {
     words.resize(words_of_name(command).size());
     words.insert(words.end(), on.words.begin(), on.words.end());
     if (!on.connect.empty()) {
-      return run_on_other_side(name_with_launch(command), on.connect, words, command.takes_terminal);
+      return run_on_other_side(name_with_launch(command), on.connect, words, command.other_terminal);
     }
   }
   if (command.program != nullptr) {

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "programs/launch/remote/on_option.hpp"
+
 namespace launch {
 
 using Words = std::vector<std::string>;
@@ -25,7 +27,7 @@ struct Command {
   bool program_gets_name = false;  // it does several commands
 
   bool asks_launch = false;     // it asks a running launch, and takes --on (remote/on_option.hpp)
-  bool takes_terminal = false;  // it wants a terminal there, too
+  OtherTerminal other_terminal = OtherTerminal::kNone;  // what it wants there
 
   // Candidates for the last of the words after `launch`. They need not begin like this word. Null: only options.
   Words (*complete)(const Words& words) = nullptr;

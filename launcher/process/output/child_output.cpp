@@ -14,11 +14,15 @@ constexpr std::size_t kDrainLimit = 1024 * 1024;
 
 }  // namespace
 
-void ChildOutput::follow(Process& process, EventLoop::Callback on_end) {
+void ChildOutput::follow(Process& process, EventLoop::Callback on_end, Observer on_bytes) {
   on_end_ = std::move(on_end);
+  on_bytes_ = std::move(on_bytes);
   streams_[0].fd = std::move(process.out);
   streams_[1].fd = std::move(process.err);
   for (Stream& stream : streams_) {
+    if (!stream.fd) {
+      continue;
+    }
     stream.source = loop_.on_readable(stream.fd.get(), [this, &stream] {
       read(stream, kReadSize);
       if (!is_open()) {
@@ -51,6 +55,9 @@ void ChildOutput::read(Stream& stream, std::size_t limit) {
   for (std::size_t total = 0; total < limit;) {
     const ssize_t size = ::read(stream.fd.get(), buffer.data(), buffer.size());
     if (size > 0) {
+      if (on_bytes_) {
+        on_bytes_({buffer.data(), static_cast<std::size_t>(size)});
+      }
       router_.write(owner_.id, owner_.label, stream.which, targets(stream),
                     {buffer.data(), static_cast<std::size_t>(size)});
       total += static_cast<std::size_t>(size);

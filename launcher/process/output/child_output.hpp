@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <string_view>
 
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/output/output_router.hpp"
@@ -24,9 +25,12 @@ class ChildOutput {
 
   ChildOutput(EventLoop& loop, OutputRouter& router, Owner owner) : loop_(loop), router_(router), owner_(owner) {}
 
-  // Takes the read ends, which must not block, from a started process and follows them. `on_end` is called from the
-  // loop when both have ended, but not by drain() or close().
-  void follow(Process& process, EventLoop::Callback on_end);
+  using Observer = std::function<void(std::string_view bytes)>;
+
+  // Takes the read ends, which must not block, from a started process and follows them; there may be one only. `on_end`
+  // is called from the loop when both have ended, but not by drain() or close(). `on_bytes` gets what is read, as it
+  // comes; it may be null.
+  void follow(Process& process, EventLoop::Callback on_end, Observer on_bytes = nullptr);
   bool is_open() const { return streams_[0].fd || streams_[1].fd; }
 
   // Reads what is there, up to a bound, because descendants of an ended child may go on writing.
@@ -49,6 +53,7 @@ class ChildOutput {
   OutputRouter& router_;
   Owner owner_;
   EventLoop::Callback on_end_;
+  Observer on_bytes_;
   std::array<Stream, 2> streams_{{{OutputStream::kOut}, {OutputStream::kErr}}};
 };
 

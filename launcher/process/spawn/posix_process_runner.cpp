@@ -2,14 +2,10 @@
 // The ProcessRunner of real processes (base/processes/spawn.hpp).
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
 #include <signal.h>
-#include <stdlib.h>
-#include <sys/ioctl.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
-#include <termios.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -35,6 +31,7 @@
 #include "launcher/process/guardian/process_scan.hpp"
 #include "launcher/process/isolation/namespaces.hpp"
 #include "launcher/process/process_runner.hpp"
+#include "launcher/process/spawn/child_streams.hpp"
 #include "launcher/process/spawn/program_search.hpp"
 #include "launcher/process/spawn/stopped_threads.hpp"
 
@@ -53,54 +50,6 @@ UniqueFd out_of_the_way(UniqueFd fd) {
   constexpr int kHigh = 128;
   UniqueFd moved(fd && fd.get() < kHigh ? ::fcntl(fd.get(), F_DUPFD_CLOEXEC, kHigh) : -1);
   return moved ? std::move(moved) : std::move(fd);  // without room above, it may stay
-}
-
-// The channel for the output of a child: two ends of a pipe or of a pseudo-terminal, both close-on-exec.
-struct Channel {
-  UniqueFd parent;
-  UniqueFd child;
-};
-
-// Reads must not block, but the flag must not reach the child: the two ends of a pipe have flags of their own.
-void set_nonblocking(const UniqueFd& fd) {
-  if (::fcntl(fd.get(), F_SETFL, O_NONBLOCK) != 0) {
-    fail("cannot make a pipe non-blocking");
-  }
-}
-
-// The process can read its pipe itself. So the pipe has a reader as long as it has a writer, and when the launcher has
-// been killed, the process does not die of SIGPIPE before it has cleaned up: the guardian opens the pipe and reads on.
-Channel make_output_pipe() {
-  Pipe pipe = make_pipe();
-  set_nonblocking(pipe.read);
-  UniqueFd both(::open(fmt::format("/proc/self/fd/{}", pipe.write.get()).c_str(), O_RDWR | O_CLOEXEC));
-  return {std::move(pipe.read), both ? std::move(both) : std::move(pipe.write)};
-}
-
-// For a process whose descendants may go on after the launch: a full pipe without a reader would stop them.
-Channel make_plain_pipe() {
-  Pipe pipe = make_pipe();
-  set_nonblocking(pipe.read);
-  return {std::move(pipe.read), std::move(pipe.write)};
-}
-
-Channel make_pseudo_terminal() {
-  Channel channel;
-  channel.parent.reset(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK));
-  if (!channel.parent || ::grantpt(channel.parent.get()) != 0 || ::unlockpt(channel.parent.get()) != 0) {
-    fail("cannot create a pseudo-terminal");
-  }
-  channel.child.reset(::ioctl(channel.parent.get(), TIOCGPTPEER, O_RDWR | O_NOCTTY | O_CLOEXEC));
-  if (!channel.child) {
-    fail("cannot open a pseudo-terminal");
-  }
-  return channel;
-}
-
-Channel make_channel(const ProcessSpec& spec) {
-  return spec.emulate_tty                                   ? make_pseudo_terminal()
-         : spec.environment.contains(kLeaveRunningVariable) ? make_plain_pipe()
-                                                            : make_output_pipe();
 }
 
 std::vector<std::string> command_line(const ProcessSpec& spec) {
@@ -201,27 +150,23 @@ PosixProcessRunner::PosixProcessRunner(std::string exec_program, NamespaceChoice
 Process PosixProcessRunner::spawn(const ProcessSpec& spec) {
   const std::string program = spec.shell ? "/bin/sh" : find_program(spec);
 
-  const bool has_terminal = spec.terminal_input && ::isatty(STDIN_FILENO) == 1;
-  Pipe in;
-  if (!has_terminal) {
-    in = make_pipe();
-  } else if (!terminal_) {
+  const bool has_terminal = spec.terminal_input && !spec.tty && ::isatty(STDIN_FILENO) == 1;
+  if (has_terminal && !terminal_) {
     terminal_ = TerminalState::of(STDIN_FILENO);
   }
-  Channel out = make_channel(spec);
-  Channel err = make_channel(spec);
+  ChildStreams streams = make_child_streams(spec, has_terminal);
   ChildProgram child{
       .program = program,
       .argv = command_line(spec),
       .environment = &spec.environment.variables(),
       .mark = spec.mark,
       .directory = spec.working_directory,
-      .descriptors = {{STDIN_FILENO, has_terminal ? STDIN_FILENO : in.read.get()},
-                      {STDOUT_FILENO, out.child.get()},
-                      {STDERR_FILENO, err.child.get()}},
+      .descriptors = {{STDIN_FILENO, has_terminal ? STDIN_FILENO : streams.in.child.get()},
+                      {STDOUT_FILENO, streams.out.child.get()},
+                      {STDERR_FILENO, streams.err.child.get()}},
       .only_given_descriptors = true,
       .open_files = spec.limits.open_files ? std::nullopt : limit_of_children_,
-      .group = has_terminal ? ChildGroup::kOurs : ChildGroup::kOwn,
+      .group = has_terminal ? ChildGroup::kOurs : (spec.tty ? ChildGroup::kOwnTerminal : ChildGroup::kOwn),
       .signals = ChildSignals::kFresh,
   };
   const Namespaces* const namespaces = namespaces_of_(spec);
@@ -274,9 +219,9 @@ Process PosixProcessRunner::spawn(const ProcessSpec& spec) {
   process.has_terminal = has_terminal;
   process.mark = has_terminal ? spec.mark : std::string();
   process.pidfd = out_of_the_way(std::move(process.pidfd));
-  process.in = out_of_the_way(std::move(in.write));
-  process.out = out_of_the_way(std::move(out.parent));
-  process.err = out_of_the_way(std::move(err.parent));
+  process.in = out_of_the_way(std::move(streams.in.parent));
+  process.out = out_of_the_way(std::move(streams.out.parent));
+  process.err = out_of_the_way(std::move(streams.err.parent));
   return process;
 }
 

@@ -49,16 +49,20 @@ std::vector<SteeredProcess> Steering::processes() const {
     process.id = tracked.id;
     process.names = tracked.names;
     process.name = tracked.names.front();
+    const ProcessSpec* spec = waiting;
     if (tracked.id != 0) {
       const ProcessView view = supervisor_.view(tracked.id);
       process.name = view.label;
-      process.origin = view.spec.origin;
-      process.groups = view.spec.groups;
+      spec = &view.spec;
     } else {
       process.waits = waiting != nullptr;
       process.skipped = waiting == nullptr;
-      process.origin = waiting == nullptr ? SourceRange() : waiting->origin;
-      process.groups = waiting == nullptr ? std::vector<std::string>() : waiting->groups;
+    }
+    if (spec != nullptr) {
+      process.origin = spec->origin;
+      process.groups = spec->groups;
+      process.scalable = spec->scalable;
+      process.tty = spec->tty;
     }
   });
   return all;

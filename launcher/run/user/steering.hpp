@@ -24,6 +24,8 @@ struct SteeredProcess {
   bool waits = false;               // for what its `depends_on` names
   bool skipped = false;             // it will never start
   std::vector<std::string> groups;  // of the launch file around it, the outermost first
+  bool scalable = false;
+  bool tty = false;  // it has a terminal of its own
   SourceRange origin;
 };
 

@@ -25,11 +25,18 @@ struct OnOption {
 // Takes the option out of the words behind the name of a command. An empty value means here, whatever LAUNCH_ON says.
 OnOption take_on_option(const std::vector<std::string>& words, const Environment& environment);
 
+// What a command gets there that wants a terminal.
+enum class OtherTerminal {
+  kNone,
+  kOfCommand,  // a terminal, if there is one here
+  kOfProcess   // so it does, and all keys but those that detach are for a process behind it
+};
+
 // Runs `launch` with these words through the connecting command, and returns its exit code there, or kNoConnection.
-// `command` is "launch ps", for errors. With `on_terminal` the command gets a terminal there, if this one has one.
+// `command` is "launch ps", for errors.
 constexpr int kNoConnection = 255;  // as ssh(1)
 int run_on_other_side(const std::string& command, const std::string& connect, std::vector<std::string> words,
-                      bool on_terminal);
+                      OtherTerminal terminal);
 
 // `launch remote-side`: the other side, which the connecting command starts there.
 int remote_side_command(const std::vector<std::string>& words);

@@ -9,7 +9,6 @@
 #include <sys/signalfd.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
-#include <termios.h>
 #include <unistd.h>
 
 #include <array>
@@ -26,10 +25,12 @@
 #include "base/files/pipe.hpp"
 #include "base/processes/ending_signals.hpp"
 #include "base/processes/spawn.hpp"
+#include "base/terminal/raw_terminal.hpp"
 #include "base/terminal/terminal.hpp"
 #include "launcher/substitution/template_parser.hpp"
 #include "programs/launch/remote/on_option.hpp"
 #include "programs/launch/remote/remote_messages.hpp"
+#include "programs/launch/steer/detach_keys.hpp"
 
 namespace launch {
 namespace {
@@ -40,27 +41,14 @@ using namespace std::chrono_literals;
 constexpr std::array<const char*, 6> kTerminalVariables = {"TERM", "COLORTERM", "NO_COLOR",
                                                            "LANG", "LC_ALL",    "LC_CTYPE"};
 constexpr char kControlC = 3;
-
-// Passes each key on, until it is destroyed. The command of the other side has its own idea of what the screen shows.
-class RawTerminal {
- public:
-  RawTerminal() {
-    ::tcgetattr(STDIN_FILENO, &before_);
-    termios raw = before_;
-    ::cfmakeraw(&raw);
-    ::tcsetattr(STDIN_FILENO, TCSADRAIN, &raw);
-  }
-  ~RawTerminal() { ::tcsetattr(STDIN_FILENO, TCSADRAIN, &before_); }
-  RawTerminal(const RawTerminal&) = delete;
-  RawTerminal& operator=(const RawTerminal&) = delete;
-
- private:
-  termios before_{};
-};
+constexpr std::chrono::seconds kDetachPatience{3};
+constexpr int kOften = 100;  // milliseconds
 
 class ThisSide {
  public:
-  ThisSide(std::string command, std::string connect) : command_(std::move(command)), connect_(std::move(connect)) {}
+  // With `detach_keys`, all keys are for what runs on the other side: these alone may end this side.
+  ThisSide(std::string command, std::string connect, std::optional<DetachKeys> detach_keys)
+      : command_(std::move(command)), connect_(std::move(connect)), detach_keys_(std::move(detach_keys)) {}
 
   int run(const std::vector<std::string>& argv, RemoteRequest request);
 
@@ -90,6 +78,8 @@ class ThisSide {
   std::string other_version_;  // of a launch there that this one can't talk with
   std::optional<RawTerminal> raw_;
   bool interrupted_ = false;  // by a key
+  std::optional<DetachKeys> detach_keys_;
+  std::optional<std::chrono::steady_clock::time_point> leaves_at_;  // even if the other side does not answer
   RemoteMessages messages_;
   std::optional<int> exit_code_;
   int signal_ = 0;  // that has ended this side
@@ -145,7 +135,10 @@ void ThisSide::follow() {
                                  {signals_.get(), POLLIN, 0},
                                  {raw_ ? STDIN_FILENO : -1, POLLIN, 0},
                                  {ended_.get(), POLLIN, 0}}};
-    if (::poll(waits.data(), waits.size(), -1) < 0) {
+    if (leaves_at_ && std::chrono::steady_clock::now() >= *leaves_at_) {
+      break;
+    }
+    if (::poll(waits.data(), waits.size(), leaves_at_ ? kOften : -1) < 0) {
       continue;
     }
     if (waits[0].revents != 0) {
@@ -235,7 +228,7 @@ void ThisSide::obey(const RemoteMessage& message) {
 }
 
 // The first Ctrl-C is for the command there, which then sets its screen back. If there is no answer, the second one
-// ends the connection.
+// ends the connection. The keys that detach are for the command there, too, and end the connection if it hangs.
 void ThisSide::take_keys() {
   std::array<char, 4096> keys{};
   const ssize_t count = ::read(STDIN_FILENO, keys.data(), keys.size());
@@ -244,7 +237,11 @@ void ThisSide::take_keys() {
     return;
   }
   const std::string_view typed(keys.data(), static_cast<std::size_t>(count));
-  if (typed.find(kControlC) != std::string_view::npos && std::exchange(interrupted_, true)) {
+  if (detach_keys_) {
+    if (detach_keys_->add(typed).detached) {
+      leaves_at_ = std::chrono::steady_clock::now() + kDetachPatience;
+    }
+  } else if (typed.find(kControlC) != std::string_view::npos && std::exchange(interrupted_, true)) {
     signal_ = SIGINT;
     return;
   }
@@ -312,6 +309,9 @@ int ThisSide::report(int status) const {
     help = "install the same version on both sides";
   } else if (strange_) {
     what = fmt::format("launch on the other side of '{}' sends what is no message of launch", connect_);
+  } else if (leaves_at_) {
+    what = fmt::format("launch on the other side of '{}' does not answer", connect_);
+    help = "the process there goes on";
   } else if (greeted_) {
     what = fmt::format("the connection has ended: '{}' {}", connect_, how);
     help = "what was asked for may have happened";
@@ -330,7 +330,7 @@ int ThisSide::report(int status) const {
 }  // namespace
 
 int run_on_other_side(const std::string& command, const std::string& connect, std::vector<std::string> words,
-                      bool on_terminal) {
+                      OtherTerminal terminal) {
   std::vector<std::string> argv;
   try {
     argv = split_shell_words(connect, {});
@@ -343,6 +343,10 @@ int run_on_other_side(const std::string& command, const std::string& connect, st
     fmt::print(stderr, "{}", usage_error(command, "--on needs a command, such as 'ssh robot'"));
     return kWrongCommandLine;
   }
+  std::optional<DetachKeys> detach_keys;
+  if (terminal == OtherTerminal::kOfProcess) {
+    detach_keys = detach_keys_of(words);
+  }
   // Blanks and quotes of words would not survive: ssh(1) joins them, and a shell reads them there. These two do.
   argv.insert(argv.end(), {"launch", "remote-side"});
   RemoteRequest request{.words = std::move(words), .environment = {}, .terminal = std::nullopt};
@@ -352,11 +356,11 @@ int run_on_other_side(const std::string& command, const std::string& connect, st
       request.environment.emplace(name, found->second);
     }
   }
-  if (on_terminal && ::isatty(STDIN_FILENO) != 0 && ::isatty(STDOUT_FILENO) != 0) {
+  if (terminal != OtherTerminal::kNone && ::isatty(STDIN_FILENO) != 0 && ::isatty(STDOUT_FILENO) != 0) {
     request.terminal = terminal_size(STDOUT_FILENO);
   }
   try {
-    return ThisSide(command, connect).run(argv, std::move(request));
+    return ThisSide(command, connect, std::move(detach_keys)).run(argv, std::move(request));
   } catch (const SpawnError& error) {
     fmt::print(stderr, "{}", command_error(command, error.what(), "--on needs a command, such as 'ssh robot'"));
     return kNoConnection;
