@@ -193,7 +193,7 @@ const std::vector<Command>& command_table() {
        .help = "lets so many of a process run that is scalable",
        .run = scale_command,
        .asks_launch = true,
-       .complete = process_words},
+       .complete = scale_words},
       {.name = "schema",
        .help = "prints a schema for editors, or that of the output for programs",
        .run = schema_command,

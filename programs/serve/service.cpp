@@ -238,6 +238,9 @@ HttpAnswer Service::control(const HttpRequest& request, const std::string& numbe
     return error(400, fmt::format("'{}' has an address of its own", what),
                  fmt::format("GET {}/{}/events", kLaunches, printable(number)));
   }
+  if (what == "attach" || what == "input" || what == "resize") {
+    return error(400, fmt::format("'{}' is for a terminal", what), "use launch attach");
+  }
   const bool changes = what != "info" && what != "ps";
   if (changes && !access_.allows_control()) {
     return error(403, "this service only shows launches", "it steers them if it is started with --allow-control");

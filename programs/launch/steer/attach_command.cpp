@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdio>
-#include <set>
 
 #include "base/diagnostics/diagnostic.hpp"
 #include "base/environment/own_environment.hpp"
@@ -122,26 +121,6 @@ int attach_command(const Words& words) {
              is_known ? "has ended: " + end_text(*end.process) : std::string("does not end, it is left running"),
              end.process->value("will_respawn", false) ? "; it starts again" : "");
   return exit_code_of(*end.process);
-}
-
-Words attach_words(const Words& /*words*/) {
-  std::set<std::string> names;
-  for (FoundLaunch& found : find_launches(own_environment())) {
-    try {
-      const Json answer = ControlClient(std::move(found)).ask("ps");
-      for (const Json& process : answer["processes"]) {
-        if (process.value("tty", false)) {
-          names.insert(process["name"].get<std::string>());
-          for (const Json& other : process["names"]) {
-            names.insert(other.get<std::string>());
-          }
-        }
-      }
-    } catch (const ControlError&) {
-      // Its names are not to be had.
-    }
-  }
-  return {names.begin(), names.end()};
 }
 
 }  // namespace launch

@@ -219,26 +219,4 @@ int shutdown_command(const std::vector<std::string>& words) {
   return 0;
 }
 
-Words process_words(const Words& /*words*/) {
-  std::set<std::string> names;  // labels and others
-  for (FoundLaunch& found : find_launches(own_environment())) {
-    try {
-      const Json answer = ControlClient(std::move(found)).ask("ps");
-      for (const Json& process : answer["processes"]) {
-        names.insert(process["name"].get<std::string>());
-        for (const Json& name : process["names"]) {
-          names.insert(name.get<std::string>());
-        }
-      }
-    } catch (const ControlError&) {
-      // Its names are not to be had.
-    }
-  }
-  return {names.begin(), names.end()};
-}
-
-Words signal_words(const Words& words) {
-  return words.size() > 2 ? signal_names() : process_words(words);
-}
-
 }  // namespace launch

@@ -66,6 +66,41 @@ TEST(Executable, EveryAttributeIsTaken) {
   EXPECT_EQ(spec.environment.at("HOME"), "/home/user");
 }
 
+TEST(Executable, ATerminalOfItsOwnIsAllThatItHas) {
+  const ProcessSpec spec = only_process(R"xml(<executable cmd="prog" tty="true" stdout="log"/>)xml");
+  EXPECT_TRUE(spec.tty);
+  EXPECT_EQ(spec.environment.at("TERM"), "xterm") << "there was none";
+  EXPECT_EQ(only_process(R"xml(<executable cmd="p" tty="true"><env name="TERM" value="dumb"/></executable>)xml")
+                .environment.at("TERM"),
+            "dumb");
+  EXPECT_FALSE(only_process(R"xml(<executable cmd="p" tty="false" stdin="terminal" stderr="log"/>)xml").tty);
+  EXPECT_EQ(plan_actions(R"xml(<executable cmd="prog" stdin="terminal" tty="true"/>)xml").error,
+            "/test/system.launch.xml:2:31: error: a process with tty=\"true\" reads a terminal of its own, not that of "
+            "the launch\n"
+            "    2 | <executable cmd=\"prog\" stdin=\"terminal\" tty=\"true\"/>\n"
+            "      |                               ^~~~~~~~\n"
+            "      = help: leave out stdin or tty");
+  EXPECT_EQ(plan_actions(R"xml(<executable cmd="prog" stderr="log" tty="true"/>)xml").error,
+            "/test/system.launch.xml:2:32: error: stderr has no effect with tty=\"true\": what is printed on a terminal "
+            "is one stream\n"
+            "    2 | <executable cmd=\"prog\" stderr=\"log\" tty=\"true\"/>\n"
+            "      |                                ^~~\n"
+            "      = help: stdout says where it goes");
+  EXPECT_EQ(plan_actions(R"xml(<executable cmd="prog" leave-running="true" tty="true"/>)xml").error,
+            "/test/system.launch.xml:2:39: error: a process with tty=\"true\" can't be left running: its terminal ends "
+            "with the launch\n"
+            "    2 | <executable cmd=\"prog\" leave-running=\"true\" tty=\"true\"/>\n"
+            "      |                                       ^~~~\n"
+            "      = help: leave out leave-running or tty");
+  EXPECT_EQ(plan_actions(R"xml(<node_container exec="c" name="c" namespace="">
+  <composable_node pkg="p" plugin="q" name="n" tty="true"/></node_container>)xml")
+                .error,
+            "/test/system.launch.xml:3:48: error: unexpected attribute 'tty' in 'composable_node'\n"
+            "    3 |   <composable_node pkg=\"p\" plugin=\"q\" name=\"n\" tty=\"true\"/></node_container>\n"
+            "      |                                                ^~~\n"
+            "      = help: 'composable_node' has pkg, plugin, name, namespace, if, unless");
+}
+
 TEST(Executable, ConfigurationsGiveDefaults) {
   const std::string xml = R"xml(<executable cmd="prog"/>)xml";
   EXPECT_THAT(only_process(xml, {.arguments = {{"launch-prefix", "gdb -ex run"}}}).argv,

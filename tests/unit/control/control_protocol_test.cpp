@@ -43,6 +43,13 @@ TEST(ControlProtocol, ReadsRequests) {
   EXPECT_TRUE(reload.dry_run);
   EXPECT_FALSE(reload.restart);
   EXPECT_EQ(parse_control_request(R"({"version": 1, "do": "scale", "processes": ["a"], "count": 3})").count, 3U);
+  const ControlRequest attach = parse_control_request(
+      R"({"version": 1, "do": "attach", "processes": ["a"], "columns": 80, "lines": 24, "read_only": true})");
+  EXPECT_EQ(attach.size.columns, 80U);
+  EXPECT_EQ(attach.size.lines, 24U);
+  EXPECT_TRUE(attach.read_only);
+  EXPECT_EQ(parse_control_request(R"({"version": 1, "do": "attach", "processes": ["a"]})").size.lines, 0U);
+  EXPECT_EQ(parse_control_request(R"({"version": 1, "do": "input", "data": "bHMN"})").text, "ls\r");
 }
 
 TEST(ControlProtocol, SaysWhatIsWrongWithARequest) {
@@ -56,10 +63,17 @@ TEST(ControlProtocol, SaysWhatIsWrongWithARequest) {
   EXPECT_EQ(refusal(R"({"version": 1})"), "\"do\" is missing, it names what to do");
   EXPECT_EQ(refusal(R"({"version": 1, "do": "fly"})"),
             "\"do\": \"fly\" is unknown; there are info, ps, stop, start, restart, signal, shutdown, events, output, "
-            "reload, scale");
+            "reload, scale, attach, input, resize");
   EXPECT_EQ(refusal(R"({"version": 1, "do": "reload", "dry_run": 1})"), "\"dry_run\" must be true or false");
   EXPECT_EQ(refusal(R"({"version": 1, "do": "scale", "processes": ["a"], "count": 0})"),
             "\"processes\" must hold one name, and \"count\" be a number from 1 to 1000");
+  EXPECT_EQ(refusal(R"({"version": 1, "do": "attach", "processes": ["a", "b"]})"),
+            "\"processes\" must hold one name");
+  EXPECT_EQ(refusal(R"({"version": 1, "do": "attach", "processes": ["a"], "read_only": "yes"})"),
+            "\"read_only\" must be true or false");
+  EXPECT_EQ(refusal(R"({"version": 1, "do": "resize", "lines": -1})"), "\"lines\" must be a number up to 10000");
+  EXPECT_EQ(refusal(R"({"version": 1, "do": "input"})"), "\"data\" must be Base64");
+  EXPECT_EQ(refusal(R"({"version": 1, "do": "input", "data": "ls"})"), "\"data\" must be Base64");
   EXPECT_EQ(refusal(R"({"version": 1, "do": "stop", "groups": "a"})"), "\"groups\" must be a list of names");
   EXPECT_EQ(refusal(R"({"version": 1, "do": "stop"})"), "\"processes\" is missing, it names the processes");
   EXPECT_EQ(refusal(R"({"version": 1, "do": "ps", "processes": "a"})"), "\"processes\" must be a list of names");

@@ -203,6 +203,22 @@ TEST_F(Runner, GivesAPseudoTerminalForEachStream) {
   EXPECT_EQ(errno, EIO);
 }
 
+TEST_F(Runner, GivesATerminalOfItsOwnForAllStreams) {
+  ProcessSpec spec = script(
+      "test -t 0 && test -t 1 && test -t 2 && stty size && echo error >&2 && read word </dev/tty && echo got $word;"
+      "read -r pid name state parent group session rest </proc/$$/stat; test $$ = $session && exec sleep 1000");
+  spec.tty = true;
+  const Process process = runner->spawn(spec);
+  EXPECT_FALSE(process.err);
+  EXPECT_EQ(read_line(process.out.get()), "24 80\r");
+  EXPECT_EQ(read_line(process.out.get()), "error\r");
+  ASSERT_EQ(::write(process.in.get(), "key\r", 4), 4);
+  EXPECT_EQ(read_line(process.out.get()), "key\r") << "the echo";
+  EXPECT_EQ(read_line(process.out.get()), "got key\r");
+  ASSERT_EQ(::write(process.in.get(), "\003", 1), 1);
+  EXPECT_EQ(wait(process).code, -SIGINT) << "Ctrl-C is a signal for it";
+}
+
 TEST_F(Runner, WithoutEmulatedTerminalNothingIsATerminal) {
   EXPECT_EQ(output_of(script("test -t 0 || test -t 1 || test -t 2 || echo none")), "none\n");
 }

@@ -106,6 +106,16 @@ TEST_F(RealSupervisor, HandlesAPseudoTerminal) {
   EXPECT_EQ(codes, (std::vector<int>{0}));
 }
 
+TEST_F(RealSupervisor, AShellOnATerminalOfItsOwnEndsByTheEndOfTheTerminal) {
+  ProcessSpec shell = script("trap '' INT TERM; " + signal_ready() + "; while :; do sleep 1000; done");
+  shell.tty = true;
+  shell.sigterm_timeout = 10ms;
+  supervisor->start(shell);
+  when_ready([this] { supervisor->shutdown(); });
+  run();
+  EXPECT_EQ(codes, (std::vector<int>{-SIGHUP}));
+}
+
 TEST_F(RealSupervisor, EndsDescendantsThatOutliveAnInterruptedProcess) {
   // A background job of a shell ignores SIGINT.
   ProcessSpec spec = script("sleep 1000 & trap 'exit 5' INT; " + signal_ready() + "; wait");
