@@ -24,6 +24,22 @@ const std::string kArm = R"xml(<executable name="base" cmd="sleep 1000"/>
   <group name="gripper"><executable name="finger" cmd="sleep 1000"/></group>
   <timer period="0.0"><executable name="late" cmd="sleep 1000"/></timer></group>)xml";
 
+TEST_F(Groups, AreCompletedAndSoIsWhatIsScalable) {
+  RunningCommand run(launch({write(kArm + R"xml(<executable name="worker" cmd="sleep 1000" scalable="true"/>)xml")}));
+  ASSERT_TRUE(run.wait_for_output("[late-5]: process started", kPatience)) << run.err();
+  for (const char* const command : {"stop", "start", "restart", "ps"}) {
+    EXPECT_EQ(ask({"complete", command, "--group", ""}).out, "arm\ngripper\n") << command;
+  }
+  EXPECT_EQ(ask({"complete", "stop", "--group", "g"}).out, "gripper\n");
+  EXPECT_EQ(ask({"complete", "stop", "--group", "arm", "ba"}).out, "base\nbase-1\n");
+  EXPECT_EQ(ask({"complete", "scale", ""}).out, "worker\nworker-4\n");
+  EXPECT_EQ(ask({"complete", "scale", "worker", ""}).out, "");
+  EXPECT_EQ(ps()["launches"][0]["processes"][3]["scalable"], true);
+  EXPECT_FALSE(ps()["launches"][0]["processes"][0].contains("scalable"));
+  run.send_signal(SIGINT);
+  run.wait(kPatience);
+}
+
 TEST_F(Groups, AreStoppedAndStartedWithTheGroupsWithin) {
   RunningCommand run(launch({write(kArm)}));
   ASSERT_TRUE(run.wait_for_output("[late-4]: process started", kPatience)) << run.err();

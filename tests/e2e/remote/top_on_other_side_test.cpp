@@ -3,57 +3,22 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
-#include <chrono>
-#include <filesystem>
-
-#include "tests/support/command.hpp"
-#include "tests/support/plain_terminal.hpp"
-#include "tests/support/sandbox.hpp"
-#include "tests/support/terminal.hpp"
+#include "tests/e2e/remote/other_side.hpp"
 
 namespace {
 
 using namespace test_support;
-namespace fs = std::filesystem;
 
-constexpr std::chrono::seconds kPatience{60};
-
-class TopOnOtherSideTest : public testing::Test {
+class TopOnOtherSideTest : public OtherSide {
  protected:
   TopOnOtherSideTest() {
-    fs::create_directory(sandbox_.directory() / "run");
-    environment_ = plain_terminal(sandbox_);
-    environment_["XDG_RUNTIME_DIR"] = sandbox_.directory() / "run";
-    // As ssh: words are joined, a shell reads them, and little of the environment arrives.
-    write_script("connect", "exec env -i TERMINFO=\"$TERMINFO\" XDG_RUNTIME_DIR=\"$XDG_RUNTIME_DIR\" PATH=" +
-                                fs::path(LAUNCH_PROGRAM).parent_path().string() + ":/usr/bin:/bin sh -c \"$*\"");
-    write_file(
-        sandbox_.directory() / "system.launch.xml",
-        "<launch>\n<executable name=\"sleeper\" cmd=\"sleep 1000\"/>\n<executable name=\"talker\" shell=\"true\" "
-        "output=\"both\" cmd=\"echo ready; while :; do read x; done\"/>\n</launch>\n");
+    write_launch_file("<executable name=\"sleeper\" cmd=\"sleep 1000\"/>\n<executable name=\"talker\" shell=\"true\" "
+                      "output=\"both\" cmd=\"echo ready; while :; do read x; done\"/>");
   }
 
-  void write_script(const std::string& name, const std::string& text) const {
-    write_file(sandbox_.directory() / name, "#!/bin/sh\n" + text + "\n");
-    fs::permissions(sandbox_.directory() / name, fs::perms::owner_all);
-  }
-  Command launch() const {
-    return {.argv = {LAUNCH_PROGRAM, (sandbox_.directory() / "system.launch.xml").string()},
-            .environment = environment_,
-            .directory = sandbox_.directory()};
-  }
-  // The other side's command ends by itself, which may take longer than the end of the connection.
-  void end(RunningCommand& run) {
-    run.send_signal(SIGINT);
-    EXPECT_EQ(run.wait().exit_code, 0);
-    sandbox_.wait_until_daemons_are_left();
-  }
   std::vector<std::string> top_of(const RunningCommand& run, const std::string& connect = "connect") const {
-    return {LAUNCH_PROGRAM, "top", "--launch", std::to_string(run.pid()), "--on", sandbox_.directory() / connect};
+    return ask_of("top", run, connect);
   }
-
-  Sandbox sandbox_;
-  std::map<std::string, std::string> environment_;
 };
 
 TEST_F(TopOnOtherSideTest, KeysAndSizesArriveAndTheScreenComesBack) {
