@@ -25,6 +25,9 @@ std::string to_text(const RemoteRequest& request) {
   if (request.terminal) {
     json["terminal"] = to_text(*request.terminal);
   }
+  if (request.input) {
+    json["input"] = true;
+  }
   // Words of a command line may be any bytes.
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
@@ -38,6 +41,7 @@ RemoteRequest parse_remote_request(std::string_view text) {
     if (json.contains("terminal")) {
       request.terminal = parse_size(json["terminal"].get<std::string>());
     }
+    request.input = json.value("input", false);
     return request;
   } catch (const RemoteJson::exception&) {
     throw std::runtime_error("what the other side asks for can't be read");

@@ -23,7 +23,7 @@ inline constexpr int kRemoteVersion = 1;
 
 enum class RemoteKind : char {
   kRequest = 'R',  // to the other side, first and once: a RemoteRequest
-  kInput = 'I',    // to the other side: keys for the terminal of the command
+  kInput = 'I',    // to the other side: keys for the terminal of the command, or its standard input; empty: the end
   kSize = 'S',     // to the other side: "LINES COLUMNS", the terminal has another size
   kSignal = 'K',   // to the other side: the number of a signal for the command
   kOutput = 'O',   // from the other side: bytes of its standard output, or of its terminal
@@ -41,6 +41,7 @@ struct RemoteRequest {
   std::vector<std::string> words;                  // those after `launch`
   std::map<std::string, std::string> environment;  // variables that say what this terminal can show
   std::optional<TerminalSize> terminal;            // the command gets a terminal of this size
+  bool input = false;                              // without a terminal: it gets what is read here
 };
 
 std::string to_text(const RemoteRequest& request);

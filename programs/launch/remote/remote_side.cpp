@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The other side of `--on`: runs a command for the side that has connected, and ends it when the connection ends.
 #include <errno.h>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <pty.h>
@@ -31,6 +32,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr int kRemoteExitOfSignal = 128;  // plus its number, as shells count
+constexpr std::size_t kMostTyped = std::size_t{64} * 1024;
 
 // The end of the connection is the end of standard input, and the command must be ended then. A connecting command such
 // as sudo(8) leaves this process in the foreground of the terminal on the other side, where Ctrl-C would end it before.
@@ -63,6 +65,7 @@ class OtherSide {
   void begin(const RemoteRequest& request);
   void begin_on_terminal(const TerminalSize& size, std::vector<std::string> argv);
   bool pass_on(UniqueFd& from, RemoteKind kind);
+  void write_typed();
   void finish();
   void end_command() const;
 
@@ -71,16 +74,27 @@ class OtherSide {
   UniqueFd ended_;  // of the command
   UniqueFd output_;
   UniqueFd errors_;
+  UniqueFd input_;      // of a command without a terminal, if it gets one
+  std::string typed_;   // that it has not taken
+  bool input_ends_ = false;
   bool has_terminal_ = false;
   bool connected_ = true;
 };
 
 void OtherSide::run() {
   while (connected_) {
-    std::array<pollfd, 4> waits{
-        {{STDIN_FILENO, POLLIN, 0}, {output_.get(), POLLIN, 0}, {errors_.get(), POLLIN, 0}, {ended_.get(), POLLIN, 0}}};
+    // Of the connection, the end is told in any case.
+    const bool may_receive = typed_.size() < kMostTyped;
+    std::array<pollfd, 5> waits{{{STDIN_FILENO, static_cast<short>(may_receive ? POLLIN : 0), 0},
+                                 {output_.get(), POLLIN, 0},
+                                 {errors_.get(), POLLIN, 0},
+                                 {ended_.get(), POLLIN, 0},
+                                 {typed_.empty() ? -1 : input_.get(), POLLOUT, 0}}};
     if (::poll(waits.data(), waits.size(), -1) < 0) {
       continue;  // a signal
+    }
+    if (waits[4].revents != 0) {
+      write_typed();
     }
     connected_ = (waits[0].revents == 0 || receive()) &&
                  (waits[1].revents == 0 || pass_on(output_, RemoteKind::kOutput)) &&
@@ -116,6 +130,10 @@ void OtherSide::obey(const RemoteMessage& message) {
     case RemoteKind::kInput:
       if (has_terminal_) {
         write_all(output_.get(), message.content);
+      } else {
+        typed_ += message.content;
+        input_ends_ = input_ends_ || message.content.empty();
+        write_typed();
       }
       break;
     case RemoteKind::kSize:
@@ -143,16 +161,20 @@ void OtherSide::begin(const RemoteRequest& request) {
   if (request.terminal) {
     begin_on_terminal(*request.terminal, std::move(argv));
   } else {
+    Pipe input = make_pipe();
     Pipe output = make_pipe();
     Pipe errors = make_pipe();
     command_ = spawn({.program = own_prefix() + "/bin/launch",
                       .argv = std::move(argv),
-                      .descriptors = {{STDIN_FILENO, kDevNull},
+                      .descriptors = {{STDIN_FILENO, request.input ? input.read.get() : kDevNull},
                                       {STDOUT_FILENO, output.write.get()},
                                       {STDERR_FILENO, errors.write.get()}},
                       .only_given_descriptors = true,
                       .group = ChildGroup::kOwn,
                       .signals = ChildSignals::kFresh});
+    if (request.input && ::fcntl(input.write.get(), F_SETFL, O_NONBLOCK) == 0) {
+      input_ = std::move(input.write);
+    }
     output_ = std::move(output.read);
     errors_ = std::move(errors.read);
   }
@@ -196,6 +218,23 @@ bool OtherSide::pass_on(UniqueFd& from, RemoteKind kind) {
     from.reset();
   }
   return true;
+}
+
+void OtherSide::write_typed() {
+  while (input_ && !typed_.empty()) {
+    const ssize_t count = ::write(input_.get(), typed_.data(), typed_.size());
+    if (count < 0 && errno == EAGAIN) {
+      return;
+    }
+    if (count < 0 && errno != EINTR) {
+      input_.reset();  // nobody reads it
+    }
+    typed_.erase(0, static_cast<std::size_t>(count < 0 ? 0 : count));
+  }
+  if (!input_ || input_ends_) {
+    input_.reset();
+    typed_.clear();
+  }
 }
 
 // What the command has left in its pipes, then its exit code. A process that it has left may hold the pipes open.

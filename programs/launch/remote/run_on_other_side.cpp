@@ -11,6 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdlib>
@@ -59,6 +60,7 @@ class ThisSide {
   void take_greeting();
   void obey(const RemoteMessage& message);
   void take_keys();
+  void send_input();
   void take_signal();
   void send(RemoteKind kind, std::string_view content);
   int end_of_connection();
@@ -78,6 +80,8 @@ class ThisSide {
   std::string other_version_;  // of a launch there that this one can't talk with
   std::optional<RawTerminal> raw_;
   bool interrupted_ = false;  // by a key
+  bool sends_input_ = false;  // what is read here, without a terminal
+  bool can_send_ = false;     // a piece of it, without waiting
   std::optional<DetachKeys> detach_keys_;
   std::optional<std::chrono::steady_clock::time_point> leaves_at_;  // even if the other side does not answer
   RemoteMessages messages_;
@@ -131,10 +135,11 @@ void ThisSide::connect(const std::vector<std::string>& argv) {
 
 void ThisSide::follow() {
   while (from_ && !exit_code_ && signal_ == 0) {
-    std::array<pollfd, 4> waits{{{from_.get(), POLLIN, 0},
+    std::array<pollfd, 5> waits{{{from_.get(), POLLIN, 0},
                                  {signals_.get(), POLLIN, 0},
-                                 {raw_ ? STDIN_FILENO : -1, POLLIN, 0},
-                                 {ended_.get(), POLLIN, 0}}};
+                                 {raw_ || can_send_ ? STDIN_FILENO : -1, POLLIN, 0},
+                                 {ended_.get(), POLLIN, 0},
+                                 {sends_input_ && !can_send_ ? to_.get() : -1, POLLOUT, 0}}};
     if (leaves_at_ && std::chrono::steady_clock::now() >= *leaves_at_) {
       break;
     }
@@ -149,8 +154,13 @@ void ThisSide::follow() {
     if (waits[1].revents != 0) {
       take_signal();
     }
+    can_send_ = can_send_ || waits[4].revents != 0;
     if (waits[2].revents != 0) {
-      take_keys();
+      if (raw_) {
+        take_keys();
+      } else {
+        send_input();
+      }
     }
   }
 }
@@ -201,6 +211,7 @@ void ThisSide::take_greeting() {
     if (request_.terminal) {
       raw_.emplace();
     }
+    sends_input_ = request_.input;
     send(RemoteKind::kRequest, to_text(request_));
     return;
   }
@@ -246,6 +257,18 @@ void ThisSide::take_keys() {
     return;
   }
   send(RemoteKind::kInput, typed);
+}
+
+// The other side may not take it now, and signals must be seen meanwhile. So a piece follows when the pipe has room.
+void ThisSide::send_input() {
+  std::array<char, 4000> bytes{};  // with what is in front, less than PIPE_BUF
+  const ssize_t count = ::read(STDIN_FILENO, bytes.data(), bytes.size());
+  if (count < 0 && (errno == EINTR || errno == EAGAIN)) {
+    return;
+  }
+  sends_input_ = count > 0;
+  can_send_ = false;
+  send(RemoteKind::kInput, std::string_view(bytes.data(), static_cast<std::size_t>(count > 0 ? count : 0)));
 }
 
 void ThisSide::take_signal() {
@@ -343,6 +366,7 @@ int run_on_other_side(const std::string& command, const std::string& connect, st
     fmt::print(stderr, "{}", usage_error(command, "--on needs a command, such as 'ssh robot'"));
     return kWrongCommandLine;
   }
+  const bool only_shows = std::find(words.begin(), words.end(), "--no-stdin") != words.end();
   std::optional<DetachKeys> detach_keys;
   if (terminal == OtherTerminal::kOfProcess) {
     detach_keys = detach_keys_of(words);
@@ -359,6 +383,7 @@ int run_on_other_side(const std::string& command, const std::string& connect, st
   if (terminal != OtherTerminal::kNone && ::isatty(STDIN_FILENO) != 0 && ::isatty(STDOUT_FILENO) != 0) {
     request.terminal = terminal_size(STDOUT_FILENO);
   }
+  request.input = terminal == OtherTerminal::kOfProcess && !request.terminal && !only_shows;
   try {
     return ThisSide(command, connect, std::move(detach_keys)).run(argv, std::move(request));
   } catch (const SpawnError& error) {

@@ -63,6 +63,20 @@ TEST_F(AttachOnOtherSideTest, EachKeyIsForTheProcess) {
   sandbox_.wait_until_daemons_are_left();
 }
 
+TEST_F(AttachOnOtherSideTest, WhatIsPipedInArrives) {
+  write_launch_file("<executable name=\"shell\" tty=\"true\" output=\"both\" shell=\"true\"\n"
+                    "cmd=\"stty raw -echo; echo ready; head -c 1000000 | wc -c; exit 5\"/>");
+  RunningCommand run(launch());
+  ASSERT_TRUE(run.wait_for_output("[shell-1] ready", kPatience)) << run.out() << run.err();
+  const Command attach{.argv = attach_to(run), .environment = environment_, .directory = sandbox_.directory()};
+  const CommandResult result = run_command(attach, kPatience, std::string(1'000'000, 'x'));
+  EXPECT_EQ(result.exit_code, 5);
+  EXPECT_EQ(result.out, "ready\n1000000\n");
+  EXPECT_EQ(result.err, "launch attach: shell-1 has ended: exit code 5\n");
+  EXPECT_EQ(run.wait().exit_code, 3) << "a process has failed";
+  sandbox_.wait_until_daemons_are_left();
+}
+
 TEST_F(AttachOnOtherSideTest, TheKeysThatDetachEndAConnectionThatHangs) {
   RunningCommand run(launch());
   ASSERT_TRUE(run.wait_for_output("[shell-1] ready", kPatience)) << run.out() << run.err();
