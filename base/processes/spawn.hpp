@@ -40,7 +40,7 @@ struct ChildDescriptor {
 
 enum class ChildGroup {
   kOurs,
-  kOwn,        // the child leads a new process group, so a Ctrl-C on the terminal does not reach it
+  kOwn,         // the child leads a new process group, so a Ctrl-C on the terminal does not reach it
   kOwnSession,  // it also has no terminal, so a hang-up of the terminal does not reach it
   kOwnTerminal  // it leads a session on the terminal that is its standard input
 };

@@ -40,8 +40,8 @@ Attachments::~Attachments() {
 }
 
 void Attachments::attach(ClientId client, const SteeredProcess& process, const ControlRequest& request) {
-  std::string refusal = attached_.contains(client) ? error_line("this client is attached already")
-                                                   : why_not(process, supervisor_);
+  std::string refusal =
+      attached_.contains(client) ? error_line("this client is attached already") : why_not(process, supervisor_);
   if (!refusal.empty()) {
     server_.send(client, refusal);
     return;
@@ -200,9 +200,8 @@ void Attachments::watch(ProcessId process) {
 }
 
 std::size_t Attachments::clients_of(ProcessId process) const {
-  return static_cast<std::size_t>(std::count_if(attached_.begin(), attached_.end(), [&](const auto& entry) {
-    return entry.second.process == process;
-  }));
+  return static_cast<std::size_t>(std::count_if(attached_.begin(), attached_.end(),
+                                                [&](const auto& entry) { return entry.second.process == process; }));
 }
 
 }  // namespace launch

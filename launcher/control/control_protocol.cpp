@@ -295,11 +295,8 @@ std::string dropped_line(std::size_t lines) {
 }
 
 std::string attached_line(const std::string& process, const std::string& terminal, std::size_t clients) {
-  return dump({{"version", kControlVersion},
-               {"ok", true},
-               {"process", process},
-               {"terminal", terminal},
-               {"clients", clients}});
+  return dump(
+      {{"version", kControlVersion}, {"ok", true}, {"process", process}, {"terminal", terminal}, {"clients", clients}});
 }
 
 std::string taken_line(std::size_t bytes) {

@@ -32,18 +32,33 @@ struct LaunchFacts {
 };
 
 struct ControlRequest {
-  enum class Kind { kInfo, kPs, kStop, kStart, kRestart, kSignal, kShutdown, kEvents, kOutput, kReload, kScale, kAttach, kInput, kResize };
+  enum class Kind {
+    kInfo,
+    kPs,
+    kStop,
+    kStart,
+    kRestart,
+    kSignal,
+    kShutdown,
+    kEvents,
+    kOutput,
+    kReload,
+    kScale,
+    kAttach,
+    kInput,
+    kResize
+  };
 
   Kind kind = Kind::kInfo;
   Steering::Patterns processes;
   std::vector<std::string> groups;  // of kPs, kStop, kStart, kRestart and kSignal
   int signal = 0;
-  std::size_t count = 0;  // of kScale
-  bool dry_run = false;   // of kReload
-  bool restart = false;   // of kReload: not by setting parameters
-  TerminalSize size{};    // of kAttach and kResize: of the client's terminal; none if it has none
-  bool read_only = false; // of kAttach: the client types nothing
-  std::string text;       // of kInput: what is typed
+  std::size_t count = 0;   // of kScale
+  bool dry_run = false;    // of kReload
+  bool restart = false;    // of kReload: not by setting parameters
+  TerminalSize size{};     // of kAttach and kResize: of the client's terminal; none if it has none
+  bool read_only = false;  // of kAttach: the client types nothing
+  std::string text;        // of kInput: what is typed
 };
 
 // Throws std::runtime_error, with a sentence for the client, for any other text.

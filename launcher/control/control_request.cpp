@@ -119,9 +119,8 @@ ControlRequest parse_control_request(std::string_view line) {
   if (names_processes && request.processes.empty() && request.groups.empty()) {
     refuse("\"processes\" is missing, it names the processes");
   }
-  for (const auto& [key, flag] : {std::pair{"dry_run", &request.dry_run},
-                                 {"restart", &request.restart},
-                                 {"read_only", &request.read_only}}) {
+  for (const auto& [key, flag] :
+       {std::pair{"dry_run", &request.dry_run}, {"restart", &request.restart}, {"read_only", &request.read_only}}) {
     const Json value = json.value(key, Json(false));
     if (!value.is_boolean()) {
       refuse(fmt::format("\"{}\" must be true or false", key));

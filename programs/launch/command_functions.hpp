@@ -47,7 +47,7 @@ inline constexpr const char* kLaunchHelp = "number or file of the launch, if sev
 Words attach_words(const Words& words);       // names of processes with a terminal
 Words finding_words(const Words& words);      // ids
 Words launch_file_words(const Words& words);  // launch files, packages, arguments and their values
-Words process_words(const Words& words);      // names of the processes of the launches that run, behind --group of groups
+Words process_words(const Words& words);  // names of the processes of the launches that run, behind --group of groups
 Words run_program_words(const Words& words);  // packages, programs, and options
 Words scale_words(const Words& words);        // names of processes that are scalable
 Words schema_words(const Words& words);       // formats

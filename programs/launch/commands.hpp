@@ -26,7 +26,7 @@ struct Command {
   const char* program = nullptr;
   bool program_gets_name = false;  // it does several commands
 
-  bool asks_launch = false;     // it asks a running launch, and takes --on (remote/on_option.hpp)
+  bool asks_launch = false;  // it asks a running launch, and takes --on (remote/on_option.hpp)
   OtherTerminal other_terminal = OtherTerminal::kNone;  // what it wants there
 
   // Candidates for the last of the words after `launch`. They need not begin like this word. Null: only options.

@@ -74,8 +74,8 @@ class OtherSide {
   UniqueFd ended_;  // of the command
   UniqueFd output_;
   UniqueFd errors_;
-  UniqueFd input_;      // of a command without a terminal, if it gets one
-  std::string typed_;   // that it has not taken
+  UniqueFd input_;     // of a command without a terminal, if it gets one
+  std::string typed_;  // that it has not taken
   bool input_ends_ = false;
   bool has_terminal_ = false;
   bool connected_ = true;

@@ -23,7 +23,7 @@ namespace {
 
 using Json = ControlClient::Json;
 
-constexpr std::size_t kMostTyped = std::size_t{64} * 1024;    // until the launch takes it
+constexpr std::size_t kMostTyped = std::size_t{64} * 1024;  // until the launch takes it
 constexpr std::size_t kInputOfRequest = std::size_t{16} * 1024;
 
 // A terminal that stops, by Ctrl-S or because it is far away, must not stop this program: signals and keys are taken
@@ -124,8 +124,8 @@ void AttachedTerminal::obey(const Json& event) {
     modes_.add(bytes);
     shown_ += bytes;
   } else if (what == "terminal_dropped") {
-    const std::string text = fmt::format("[launch attach: {} bytes came too fast and are left out]",
-                                         event.value("bytes", std::size_t{0}));
+    const std::string text =
+        fmt::format("[launch attach: {} bytes came too fast and are left out]", event.value("bytes", std::size_t{0}));
     if (shows_screen_) {
       shown_ += "\r\n" + text + "\r\n";
     } else {

@@ -215,8 +215,8 @@ TEST_F(AttachTest, AProgramOnTheWholeScreenDrawsAgainAndTheScreenIsSetBack) {
 }
 
 TEST_F(AttachTest, TheEndOfARunEndsItAlsoIfTheProcessStartsAgain) {
-  RunningCommand run(launch(
-      {write(R"xml(<executable name="shell" cmd="cat" tty="true" respawn="true" respawn_delay="1000"/>)xml")}));
+  RunningCommand run(
+      launch({write(R"xml(<executable name="shell" cmd="cat" tty="true" respawn="true" respawn_delay="1000"/>)xml")}));
   ASSERT_TRUE(run.wait_for_output("[shell-1]: process started", kPatience)) << run.out() << run.err();
   {
     Terminal terminal(attach(run), environment_);
@@ -248,8 +248,7 @@ TEST_F(AttachTest, ATerminalIsNotAttachedToItself) {
 }
 
 TEST_F(AttachTest, WhatCannotBeAttachedIsTold) {
-  EXPECT_EQ(ask({"attach"}).err,
-            "launch attach: error: NAME is required\n      = help: see 'launch attach --help'\n");
+  EXPECT_EQ(ask({"attach"}).err, "launch attach: error: NAME is required\n      = help: see 'launch attach --help'\n");
   EXPECT_EQ(ask({"attach", "shell", "--detach-keys", "ctrl-p,space"}).err,
             "launch attach: error: --detach-keys: 'ctrl-p,space' names no keys\n"
             "      = help: write keys with commas between, such as ctrl-a,d\n"

@@ -64,8 +64,9 @@ TEST_F(AttachOnOtherSideTest, EachKeyIsForTheProcess) {
 }
 
 TEST_F(AttachOnOtherSideTest, WhatIsPipedInArrives) {
-  write_launch_file("<executable name=\"shell\" tty=\"true\" output=\"both\" shell=\"true\"\n"
-                    "cmd=\"stty raw -echo; echo ready; head -c 1000000 | wc -c; exit 5\"/>");
+  write_launch_file(
+      "<executable name=\"shell\" tty=\"true\" output=\"both\" shell=\"true\"\n"
+      "cmd=\"stty raw -echo; echo ready; head -c 1000000 | wc -c; exit 5\"/>");
   RunningCommand run(launch());
   ASSERT_TRUE(run.wait_for_output("[shell-1] ready", kPatience)) << run.out() << run.err();
   const Command attach{.argv = attach_to(run), .environment = environment_, .directory = sandbox_.directory()};

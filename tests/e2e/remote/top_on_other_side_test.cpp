@@ -12,8 +12,9 @@ using namespace test_support;
 class TopOnOtherSideTest : public OtherSide {
  protected:
   TopOnOtherSideTest() {
-    write_launch_file("<executable name=\"sleeper\" cmd=\"sleep 1000\"/>\n<executable name=\"talker\" shell=\"true\" "
-                      "output=\"both\" cmd=\"echo ready; while :; do read x; done\"/>");
+    write_launch_file(
+        "<executable name=\"sleeper\" cmd=\"sleep 1000\"/>\n<executable name=\"talker\" shell=\"true\" "
+        "output=\"both\" cmd=\"echo ready; while :; do read x; done\"/>");
   }
 
   std::vector<std::string> top_of(const RunningCommand& run, const std::string& connect = "connect") const {

@@ -80,12 +80,13 @@ TEST(Executable, ATerminalOfItsOwnIsAllThatItHas) {
             "    2 | <executable cmd=\"prog\" stdin=\"terminal\" tty=\"true\"/>\n"
             "      |                               ^~~~~~~~\n"
             "      = help: leave out stdin or tty");
-  EXPECT_EQ(plan_actions(R"xml(<executable cmd="prog" stderr="log" tty="true"/>)xml").error,
-            "/test/system.launch.xml:2:32: error: stderr has no effect with tty=\"true\": what is printed on a terminal "
-            "is one stream\n"
-            "    2 | <executable cmd=\"prog\" stderr=\"log\" tty=\"true\"/>\n"
-            "      |                                ^~~\n"
-            "      = help: stdout says where it goes");
+  EXPECT_EQ(
+      plan_actions(R"xml(<executable cmd="prog" stderr="log" tty="true"/>)xml").error,
+      "/test/system.launch.xml:2:32: error: stderr has no effect with tty=\"true\": what is printed on a terminal "
+      "is one stream\n"
+      "    2 | <executable cmd=\"prog\" stderr=\"log\" tty=\"true\"/>\n"
+      "      |                                ^~~\n"
+      "      = help: stdout says where it goes");
   EXPECT_EQ(plan_actions(R"xml(<executable cmd="prog" leave-running="true" tty="true"/>)xml").error,
             "/test/system.launch.xml:2:39: error: a process with tty=\"true\" can't be left running: its terminal ends "
             "with the launch\n"

@@ -67,8 +67,7 @@ TEST(ControlProtocol, SaysWhatIsWrongWithARequest) {
   EXPECT_EQ(refusal(R"({"version": 1, "do": "reload", "dry_run": 1})"), "\"dry_run\" must be true or false");
   EXPECT_EQ(refusal(R"({"version": 1, "do": "scale", "processes": ["a"], "count": 0})"),
             "\"processes\" must hold one name, and \"count\" be a number from 1 to 1000");
-  EXPECT_EQ(refusal(R"({"version": 1, "do": "attach", "processes": ["a", "b"]})"),
-            "\"processes\" must hold one name");
+  EXPECT_EQ(refusal(R"({"version": 1, "do": "attach", "processes": ["a", "b"]})"), "\"processes\" must hold one name");
   EXPECT_EQ(refusal(R"({"version": 1, "do": "attach", "processes": ["a"], "read_only": "yes"})"),
             "\"read_only\" must be true or false");
   EXPECT_EQ(refusal(R"({"version": 1, "do": "resize", "lines": -1})"), "\"lines\" must be a number up to 10000");
