@@ -15,7 +15,7 @@ def generate_launch_description():
             output='screen'),
         ExecuteProcess(cmd=['echo', '$HOME', '|', 'cat'], shell=True, respawn=True, respawn_delay=2.5,
                        respawn_max_retries=3),
-        ExecuteProcess(cmd=['true'], on_exit=Shutdown(), emulate_tty=True, sigterm_timeout='1', sigkill_timeout=2,
+        ExecuteProcess(cmd=['true'], on_exit=Shutdown(), emulate_tty=True, tty=True, sigterm_timeout='1', sigkill_timeout=2,
                        condition=IfCondition('1')),
         ExecuteProcess(cmd=['false'], condition=UnlessCondition('true')),
     ])
