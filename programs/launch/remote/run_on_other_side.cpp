@@ -26,12 +26,12 @@
 #include "base/files/pipe.hpp"
 #include "base/processes/ending_signals.hpp"
 #include "base/processes/spawn.hpp"
+#include "base/terminal/detach_keys.hpp"
 #include "base/terminal/raw_terminal.hpp"
 #include "base/terminal/terminal.hpp"
 #include "launcher/substitution/template_parser.hpp"
 #include "programs/launch/remote/on_option.hpp"
 #include "programs/launch/remote/remote_messages.hpp"
-#include "programs/launch/steer/detach_keys.hpp"
 
 namespace launch {
 namespace {

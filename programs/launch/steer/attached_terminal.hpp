@@ -8,10 +8,10 @@
 #include <string_view>
 
 #include "base/files/unique_fd.hpp"
+#include "base/terminal/detach_keys.hpp"
 #include "base/terminal/raw_terminal.hpp"
 #include "base/terminal/terminal_modes.hpp"
 #include "launcher/control/control_client.hpp"
-#include "programs/launch/steer/detach_keys.hpp"
 
 namespace launch {
 

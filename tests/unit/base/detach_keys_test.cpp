@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "programs/launch/steer/detach_keys.hpp"
+#include "base/terminal/detach_keys.hpp"
 
 #include <gtest/gtest.h>
 
