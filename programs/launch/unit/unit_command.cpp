@@ -2,8 +2,6 @@
 // `launch unit install`, `remove` and `status`: a launch that systemd starts with the machine.
 #include <fmt/format.h>
 #include <pwd.h>
-#include <stdlib.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,24 +12,21 @@
 #include <functional>
 #include <map>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 #include <variant>
 
 #include "actions/builtin_actions.hpp"
 #include "base/diagnostics/command_error.hpp"
-#include "base/environment/home_directory.hpp"
 #include "base/environment/own_environment.hpp"
 #include "base/environment/own_prefix.hpp"
-#include "base/files/pipe.hpp"
-#include "base/processes/spawn.hpp"
 #include "launcher/invocation/find_launch_file.hpp"
 #include "launcher/visit/launch_plan.hpp"
 #include "programs/command_line/result_output.hpp"
 #include "programs/command_line/subcommand.hpp"
 #include "programs/launch/command_functions.hpp"
 #include "programs/launch/run/command_line.hpp"
+#include "programs/launch/unit/service_manager.hpp"
 #include "programs/launch/unit/unit_file.hpp"
 
 namespace launch {
@@ -43,91 +38,6 @@ namespace fs = std::filesystem;
 constexpr std::chrono::seconds kForTraces{30};
 constexpr int kNotActive = 3;  // as systemctl(1)
 constexpr int kNoSuchUnit = 4;
-
-// Where units are, and how systemctl(1) is told whose they are.
-struct Manager {
-  explicit Manager(bool user) : of_user(user || ::geteuid() != 0) {
-    // Sessions of sudo(8) and cron(8) lack the variable, without which systemctl(1) finds no service manager.
-    const std::string usual = fmt::format("/run/user/{}", ::geteuid());
-    if (of_user && ::getenv("XDG_RUNTIME_DIR") == nullptr && fs::exists(usual)) {
-      ::setenv("XDG_RUNTIME_DIR", usual.c_str(), 0);
-    }
-  }
-
-  fs::path directory() const {
-    if (!of_user) {
-      return "/etc/systemd/system";
-    }
-    const char* const config = ::getenv("XDG_CONFIG_HOME");
-    return (config != nullptr && *config == '/' ? fs::path(config) : fs::path(home_directory()) / ".config") /
-           "systemd/user";
-  }
-  fs::path path_of(const std::string& unit) const { return directory() / (unit + ".service"); }
-  fs::path link_of(const std::string& unit) const {
-    return directory() / (of_user ? "default.target.wants" : "multi-user.target.wants") / (unit + ".service");
-  }
-  bool runs() const {
-    const char* const runtime = ::getenv("XDG_RUNTIME_DIR");
-    std::error_code unreadable;
-    return of_user ? runtime != nullptr && fs::exists(fs::path(runtime) / "systemd/private", unreadable)
-                   : fs::exists("/run/systemd/system");
-  }
-  // Only then does the service manager of a user start with the machine, and not with the first login.
-  bool lingers() const {
-    const passwd* const user = ::getpwuid(::geteuid());
-    std::error_code unreadable;
-    return user != nullptr && fs::exists(fs::path("/var/lib/systemd/linger") / user->pw_name, unreadable);
-  }
-
-  std::vector<std::string> words(std::vector<std::string> more) const {
-    if (of_user) {
-      more.insert(more.begin(), "--user");
-    }
-    more.insert(more.begin(), "systemctl");
-    return more;
-  }
-
-  bool of_user;
-};
-
-// Throws std::runtime_error when systemctl(1) fails, which has said why.
-void tell_systemd(const Manager& manager, const std::vector<std::string>& words) {
-  const int status = wait_for(spawn({.program = "systemctl", .argv = manager.words(words), .search_path = true}));
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-    throw std::runtime_error(fmt::format("'systemctl {}' has failed", words.front()));
-  }
-}
-
-// What `systemctl enable` does, which for a user wants a service manager that runs.
-void enable_later(const Manager& manager, const std::string& unit) {
-  const fs::path link = manager.link_of(unit);
-  fs::create_directories(link.parent_path());
-  fs::remove(link);
-  fs::create_symlink(manager.path_of(unit), link);
-}
-
-// The properties of a unit, by name.
-std::map<std::string, std::string> properties_of(const Manager& manager, const std::string& unit) {
-  Pipe pipe = make_pipe();
-  const pid_t pid = spawn({.program = "systemctl",
-                           .argv = manager.words({"show",
-                                                  "--property=LoadState,ActiveState,SubState,StatusText,MainPID,"
-                                                  "NRestarts,Result,ExecMainStatus",
-                                                  unit + ".service"}),
-                           .search_path = true,
-                           .descriptors = {{STDOUT_FILENO, pipe.write.get()}}});
-  pipe.write.reset();
-  std::istringstream lines(read_to_end(pipe.read));
-  wait_for(pid);
-  std::map<std::string, std::string> found;
-  for (std::string line; std::getline(lines, line);) {
-    const std::size_t sign = line.find('=');
-    if (sign != std::string::npos) {
-      found[line.substr(0, sign)] = line.substr(sign + 1);
-    }
-  }
-  return found;
-}
 
 // Loads the file as a launch does, and looks how long its processes may take to end. Throws LaunchError.
 std::chrono::seconds stop_timeout_of(const LaunchTarget& target, std::vector<std::string>& files) {
@@ -227,14 +137,14 @@ int install(const Words& words) {
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;
   }
-  const Manager manager(user);
+  const ServiceManager manager(user);
   std::vector<std::string> files;
   unit.stop_timeout = stop_timeout_of(target, files);
   if (files.empty() || files.front() == "-") {
     throw std::runtime_error(
         "a unit needs a launch file that is still there when the machine starts, not standard input");
   }
-  unit.of_user = manager.of_user;
+  unit.of_user = manager.is_of_user();
   unit.description = fmt::format("launch {}", fs::path(files.front()).filename().string());
   Words launch_words = options;
   for (const std::string& file : files) {
@@ -275,22 +185,22 @@ int install(const Words& words) {
   }
   fmt::print("{} is written\n", path.string());
   std::fflush(stdout);
-  if (manager.of_user && !manager.lingers()) {
+  if (manager.is_of_user() && !manager.lingers()) {
     fmt::print("it starts when this user logs in; 'loginctl enable-linger' makes it start with the machine\n");
     std::fflush(stdout);
   }
   if (!manager.runs()) {
-    enable_later(manager, name);
-    fmt::print("{}\n", manager.of_user ? "the service manager of this user does not run, so nothing starts now"
-                                       : "systemd does not run here; it starts the launch with the machine");
+    manager.enable_later(name);
+    fmt::print("{}\n", manager.is_of_user() ? "the service manager of this user does not run, so nothing starts now"
+                                            : "systemd does not run here; it starts the launch with the machine");
     return 0;
   }
-  tell_systemd(manager, {"daemon-reload"});
-  tell_systemd(manager, {"enable", name + ".service"});
+  manager.tell({"daemon-reload"});
+  manager.tell({"enable", name + ".service"});
   if (!no_start) {
-    tell_systemd(manager, {"restart", "--no-block", name + ".service"});
+    manager.tell({"restart", "--no-block", name + ".service"});
     fmt::print("{} starts; see 'launch unit status {}' and 'journalctl {}-u {}'\n", name, name,
-               manager.of_user ? "--user " : "", name);
+               manager.is_of_user() ? "--user " : "", name);
   }
   return 0;
 }
@@ -301,7 +211,7 @@ int remove(const Words& words) {
           unit.parse("launch unit remove", "Ends a launch that systemd runs, and takes its unit away.", words)) {
     return *exit_code;
   }
-  const Manager manager(unit.user);
+  const ServiceManager manager(unit.user);
   const std::string service = unit.name + ".service";
   const fs::path path = manager.path_of(unit.name);
   if (!fs::exists(path)) {
@@ -311,12 +221,12 @@ int remove(const Words& words) {
     throw std::runtime_error(fmt::format("'{}' was not made by launch", path.string()));
   }
   if (manager.runs()) {
-    tell_systemd(manager, {"disable", "--now", service});
+    manager.tell({"disable", "--now", service});
   }
   fs::remove(manager.link_of(unit.name));
   fs::remove(path);
   if (manager.runs()) {
-    tell_systemd(manager, {"daemon-reload"});
+    manager.tell({"daemon-reload"});
   }
   fmt::print("{} is removed\n", path.string());
   return 0;
@@ -328,7 +238,7 @@ int status(const Words& words) {
     return *exit_code;
   }
   const std::string& name = unit.name;
-  std::map<std::string, std::string> properties = properties_of(Manager(unit.user), name);
+  std::map<std::string, std::string> properties = ServiceManager(unit.user).properties_of(name);
   if (properties["LoadState"] != "loaded") {
     fmt::print(stderr, "{}", command_error("launch unit status", fmt::format("there is no unit '{}'", name)));
     return kNoSuchUnit;
@@ -365,7 +275,7 @@ Words unit_words(const Words& words) {
   Words names;
   for (const bool user : {false, true}) {
     std::error_code unreadable;
-    for (const fs::directory_entry& entry : fs::directory_iterator(Manager(user).directory(), unreadable)) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(ServiceManager(user).directory(), unreadable)) {
       if (entry.path().extension() == ".service" && is_ours(entry.path())) {
         names.push_back(entry.path().stem().string());
       }
