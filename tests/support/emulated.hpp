@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What QEMU lacks when it runs programs for another processor: a child that shares the memory and the descriptors of
 // its parent. Its vfork() copies the memory, so a child can't tell its parent why it did not start a program. And what
-// it makes up: /proc/self/stat, without use of memory or processors.
+// it makes up: /proc/self/stat, without use of memory or processors. It shows no network devices.
 #pragma once
 
 #include <sys/wait.h>
@@ -22,14 +22,12 @@ inline bool vfork_shares_memory() {
 
 }  // namespace test_support
 
-#define NEEDS_VFORK()                                                                 \
-  if (!test_support::vfork_shares_memory()) {                                         \
-    GTEST_SKIP() << "skipped, because vfork() copies the memory here, as under QEMU"; \
-  }                                                                                   \
+#define NEEDS_WHAT_QEMU_LACKS(why)            \
+  if (!test_support::vfork_shares_memory()) { \
+    GTEST_SKIP() << "skipped, because " why;  \
+  }                                           \
   static_assert(true)
 
-#define NEEDS_PROC_SELF()                                                           \
-  if (!test_support::vfork_shares_memory()) {                                       \
-    GTEST_SKIP() << "skipped, because /proc/self/stat is made up here, as by QEMU"; \
-  }                                                                                 \
-  static_assert(true)
+#define NEEDS_VFORK() NEEDS_WHAT_QEMU_LACKS("vfork() copies the memory here, as under QEMU")
+#define NEEDS_PROC_SELF() NEEDS_WHAT_QEMU_LACKS("/proc/self/stat is made up here, as by QEMU")
+#define NEEDS_NETWORK_DEVICES() NEEDS_WHAT_QEMU_LACKS("no network devices can be seen here, as under QEMU")

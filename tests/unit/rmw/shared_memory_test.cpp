@@ -18,6 +18,7 @@
 
 #include "fastdds_versions/transport.hpp"
 #include "participant/default_transports.hpp"
+#include "tests/support/emulated.hpp"
 
 namespace {
 
@@ -170,6 +171,7 @@ std::string announcement_of_a_participant() {
 
 // Processes that open a port at once may remove each other's file of it. Then nobody writes where the reader reads.
 TEST(SharedMemory, APortThatIsTakenAwayIsOpenedAgain) {
+  NEEDS_NETWORK_DEVICES();
   fdds::DomainParticipantQos qos;
   const auto traffic = std::make_shared<DiscoveryTraffic>();
   traffic->introduce({});
