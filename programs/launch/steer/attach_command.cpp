@@ -33,7 +33,7 @@ bool is_this_terminal(const std::string& terminal) {
          ::ttyname_r(STDOUT_FILENO, name.data(), name.size()) == 0 && terminal == name.data();
 }
 
-void tell_of_keys(const Json& answer, const DetachKeys& keys, bool read_only) {
+std::string text_of_keys(const Json& answer, const DetachKeys& keys, bool read_only) {
   std::string text = fmt::format("launch attach: {}", answer.value("process", ""));
   if (const std::size_t others = answer.value("clients", std::size_t{0}); others > 0) {
     text += fmt::format(", {} attached as well", others == 1 ? "one other is" : fmt::format("{} others are", others));
@@ -41,7 +41,7 @@ void tell_of_keys(const Json& answer, const DetachKeys& keys, bool read_only) {
   const std::string leave = read_only ? "ctrl-c" : "";
   const std::string detach = keys.text();
   const std::string both = leave + (leave.empty() || detach.empty() ? "" : " or ") + detach;
-  fmt::print(stderr, "{}\n", both.empty() ? text : fmt::format("{}; {} detaches", text, both));
+  return both.empty() ? text : fmt::format("{}; {} detaches", text, both);
 }
 
 [[noreturn]] void end_by(int signal) {
@@ -99,10 +99,9 @@ int attach_command(const Words& words) {
   if (is_this_terminal(answer.value("terminal", ""))) {
     throw ControlError(fmt::format("this terminal is that of '{}'", process), "attach from another one");
   }
-  if (::isatty(STDIN_FILENO) != 0 && ::isatty(STDOUT_FILENO) != 0) {
-    tell_of_keys(answer, *keys, read_only);
-  }
-  const AttachedTerminal::End end = AttachedTerminal(launch, {read_only, *keys}).run();
+  const bool has_terminal = ::isatty(STDIN_FILENO) != 0 && ::isatty(STDOUT_FILENO) != 0;
+  const std::string greeting = has_terminal ? text_of_keys(answer, *keys, read_only) : "";
+  const AttachedTerminal::End end = AttachedTerminal(launch, {read_only, *keys, greeting}).run();
   if (end.cut_line && ::isatty(STDOUT_FILENO) != 0) {
     fmt::print(stderr, "\n");
   }

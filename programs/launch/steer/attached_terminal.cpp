@@ -66,6 +66,9 @@ AttachedTerminal::End AttachedTerminal::run() {
   if (keys_are_typed_) {
     raw_.emplace(options_.read_only);
   }
+  if (!options_.greeting.empty()) {
+    fmt::print(stderr, "{}\r\n", options_.greeting);
+  }
   try {
     receive();  // what has come with the answer
     while (!over_ && !(launch_.ended() && shown_.empty())) {

@@ -20,6 +20,7 @@ class AttachedTerminal {
   struct Options {
     bool read_only = false;
     DetachKeys detach_keys;
+    std::string greeting{};  // a line that is shown when keys go to the process
   };
 
   // The launch has answered "attach" already. It must outlive this object.
