@@ -120,7 +120,7 @@ def two_traces_at_once(place):
 def messages_of_the_beginning(place):
     """a topic with messages at the start of a run alone has no rate"""
     # So long that the start of all processes is short beside it.
-    place.launch(place.prefix / 'share/launch_examples/01_ping_pong.launch.xml', 'count:=20')
+    place.launch(place.prefix / 'share/launch_examples/01_ping_pong.launch.xml', 'count:=60')
     row = re.search(r'^  /parameter_events +(\S+)', place.launch('report', next((place.own / 'traces').iterdir())), re.MULTILINE)
     expect(row is not None and row[1] == '-', f'the rate of a burst is {row and row[0]}')
 
