@@ -2,6 +2,7 @@
 #include "tracing/model/compare/disturbance.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -21,6 +22,17 @@ std::vector<double> of_others(const Disturbances& run, const Measurement& self) 
     }
   }
   return others;
+}
+
+std::array<double, 2> longest_two_of_others(const Disturbances& run, const Measurement& self) {
+  std::vector<double> durations = {0, 0};
+  for (const auto& [subject, times] : run) {
+    if (self.kind != Kind::kCallback || subject != self.subject) {
+      durations.push_back(times.median_ns);
+    }
+  }
+  std::partial_sort(durations.begin(), durations.begin() + 2, durations.end(), std::greater<>());
+  return {durations[0], durations[1]};
 }
 
 double exceeded_by_a_fifth(std::vector<double>& ratios) {
@@ -53,15 +65,11 @@ Disturbance disturbance_between(const Disturbances& before, const Disturbances& 
       earlier.push_back(times.spread);
     }
   }
-  std::vector<double> durations = {0, 0};
-  for (const auto& [subject, times] : before) {
-    if (self.kind != Kind::kCallback || subject != self.subject) {
-      durations.push_back(times.median_ns);
-    }
-  }
-  std::partial_sort(durations.begin(), durations.begin() + 2, durations.end(), std::greater<>());
-  return {std::max(exceeded_by_a_fifth(earlier), exceeded_by_a_fifth(later)), by_few, durations[0],
-          durations[0] + durations[1]};
+  const std::array<double, 2> then = longest_two_of_others(before, self);
+  const std::array<double, 2> now = longest_two_of_others(after, self);
+  const double longest = std::min(then[0], now[0]);
+  return {std::max(exceeded_by_a_fifth(earlier), exceeded_by_a_fifth(later)), by_few, longest,
+          std::min(then[0] + then[1], now[0] + now[1])};
 }
 
 }  // namespace tracing::compare

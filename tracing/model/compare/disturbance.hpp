@@ -28,7 +28,8 @@ Disturbances disturbances_of(const RunSummary& run);
 struct Disturbance {
   double ratio = 0;     // its logarithm
   bool by_few = false;  // a run has fewer than kLeastPeers others, so the run before counts with all its callbacks
-  // Of the other callbacks' median durations in the run before: the longest one, and the sum of the longest two.
+  // Of the other callbacks' median durations: the longest one, and the sum of the longest two; in the run where they
+  // are less, so that a change makes them no longer.
   double longest_ns = 0;
   double longest_two_ns = 0;
 };
