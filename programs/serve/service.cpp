@@ -255,7 +255,7 @@ HttpAnswer Service::control(const HttpRequest& request, const std::string& numbe
   }
   // What the protocol knows, and nothing that is new since.
   Json sent{{"version", kControlVersion}, {"do", what}};
-  for (const char* const key : {"version", "processes", "signal"}) {
+  for (const char* const key : {"version", "processes", "groups", "signal", "dry_run", "restart", "count"}) {
     if (wanted.contains(key)) {
       sent[key] = wanted[key];
     }

@@ -86,6 +86,26 @@ class Serve(Served):
         launch.wait(PATIENCE)
         service.lines.wait_for(f'restart ["sleeper"] of launch {launch.pid}, for 127.0.0.1')
 
+    def test_every_part_of_a_request_arrives(self):
+        actions = (TALKER + '<group name="arm"><executable name="grip" cmd="sleep 1000"/></group>'
+                   '<executable name="worker" cmd="sleep 1000" scalable="true"/>')
+        launch = self.start_launch(actions)
+        self.serve('--allow-control')
+        address = f'/api/launches/{launch.pid}'
+        stream = self.events(f'{address}/events')
+        next(stream)
+        grip = next(name for name in self.processes(launch) if name.startswith('grip'))
+        self.assertEqual(self.ask(address, {'do': 'stop', 'groups': ['arm']})['done'], [grip])
+        next(data for name, data in stream if name == 'event' and data['event'] == 'done')
+        self.ask(address, {'do': 'scale', 'processes': ['worker'], 'count': 2})
+        next(data for name, data in stream if name == 'event' and data['event'] == 'started')
+        (self.folder / 'system.launch.xml').write_text('<launch></launch>')
+        before = self.processes(launch)
+        asked = self.ask(address, {'do': 'reload', 'dry_run': True})
+        told = next(data for name, data in stream if name == 'event' and data['event'] == 'reload')
+        self.assertEqual((told['reload'], told['dry_run']), (asked['reload'], True))
+        self.assertEqual(self.processes(launch).keys(), before.keys())
+
     def test_a_stream_begins_with_what_was_printed_before(self):
         (self.folder / 'shouting.sh').write_text("for i in 1 2 3; do echo line $i; done; echo '<script>'; sleep 1000\n")
         launch = self.start_launch(TALKER + '<executable name="shouting" cmd="sh shouting.sh" output="both"/>')
