@@ -83,7 +83,7 @@ int serve(const ServeOptions& options) {
   const UniqueFd signals = ending_signals();
   const UniqueFd stop(::eventfd(0, EFD_CLOEXEC));
   Access access(std::move(rules));
-  Service service(access, own_environment(), stop.get(), log_line);
+  Service service(access, own_environment(), stop.get(), log_line, options.nodes);
   HttpServer server(std::move(listener), tls ? &certificate : nullptr,
                     [&service](const HttpRequest& request) { return service.answer(request); });
   log_line(fmt::format("{} launches at {}, until Ctrl-C", options.allow_control ? "shows and steers" : "shows", url));

@@ -60,6 +60,7 @@ std::optional<int> parse_serve_options(const std::vector<std::string>& words, Se
   command.take_text("--tls-key", options.tls_key, "the key of the certificate, PEM");
   command.take_texts("--host", options.hosts, "another name by which browsers ask for this machine");
   command.take_flag("--allow-control", options.allow_control, "not only show: start, stop, signal, shut down");
+  command.take_flag("--nodes", options.nodes, "show what nodes do: record them while a page shows it");
   command.take_flag("--insecure", options.insecure, "listen on other addresses without TLS");
   if (const auto exit_code = command.parse(words)) {
     return exit_code;

@@ -30,6 +30,7 @@ struct ServeOptions {
   std::string tls_key;
   std::vector<std::string> hosts;
   bool allow_control = false;
+  bool nodes = false;
   bool insecure = false;
 };
 

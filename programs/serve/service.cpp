@@ -22,6 +22,7 @@ namespace {
 using Json = ControlClient::Json;
 
 constexpr std::string_view kLaunches = "/api/launches";
+constexpr std::string_view kNodes = "/api/nodes";
 
 std::string text_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -65,6 +66,10 @@ pid_t number_of(const std::string& text) {
   pid_t number = 0;
   const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), number);
   return failed == std::errc() && end == text.data() + text.size() && number > 0 ? number : 0;
+}
+
+HttpAnswer too_many_feeds() {
+  return error(503, fmt::format("{} pages follow launches already", Service::kMostFeeds));
 }
 
 HttpAnswer not_running(const std::string& number) {
@@ -123,8 +128,13 @@ std::string form_field(std::string_view form, std::string_view name) {
   return "";
 }
 
-Service::Service(Access& access, Environment environment, int stop, std::function<void(const std::string&)> log)
-    : access_(access), environment_(std::move(environment)), stop_(stop), log_(std::move(log)) {}
+Service::Service(Access& access, Environment environment, int stop, std::function<void(const std::string&)> log,
+                 bool shows_nodes)
+    : access_(access),
+      environment_(std::move(environment)),
+      stop_(stop),
+      log_(std::move(log)),
+      shows_nodes_(shows_nodes) {}
 
 HttpAnswer Service::answer(const HttpRequest& request) {
   const bool is_login = request.path == "/login" && request.method == "POST";
@@ -164,6 +174,9 @@ HttpAnswer Service::answer(const HttpRequest& request) {
   if (request.path == kLaunches) {
     return request.method == "GET" ? launches() : wrong_method("GET");
   }
+  if (request.path == kNodes) {
+    return request.method == "GET" ? nodes(request) : wrong_method("GET");
+  }
   if (request.path.starts_with(kLaunches) && request.path[kLaunches.size()] == '/') {
     return of_launch(request, request.path.substr(kLaunches.size() + 1));
   }
@@ -200,6 +213,7 @@ HttpAnswer Service::launches() {
                          {"ok", true},
                          {"launch_version", LAUNCH_VERSION},
                          {"control", access_.allows_control()},
+                         {"nodes", shows_nodes_},
                          {"launches", launch_list(environment_)}}) +
                 "\n";
   return answer;
@@ -274,16 +288,39 @@ HttpAnswer Service::control(const HttpRequest& request, const std::string& numbe
   return answer;
 }
 
+std::shared_ptr<void> Service::count_feed() {
+  if (feeds_->fetch_add(1) >= kMostFeeds) {
+    feeds_->fetch_sub(1);
+    return nullptr;
+  }
+  return {feeds_.get(), [feeds = feeds_](void*) { feeds->fetch_sub(1); }};
+}
+
+HttpAnswer Service::nodes(const HttpRequest& request) {
+  if (!shows_nodes_) {
+    return error(403, "this service does not record nodes", "it shows what they do if it is started with --nodes");
+  }
+  const std::shared_ptr<void> counted = count_feed();
+  if (!counted) {
+    return too_many_feeds();
+  }
+  const auto feed = std::make_shared<NodeFeed>(recordings_.join(), stop_);
+  HttpAnswer answer{.type = "text/event-stream"};
+  answer.parts = [feed, counted, request, this]() -> std::optional<std::string> {
+    return access_.is_known(request) ? feed->next() : std::nullopt;
+  };
+  return answer;
+}
+
 HttpAnswer Service::feed(const HttpRequest& request, const std::string& number) {
   std::optional<ControlClient> launch = find_launch(environment_, number_of(number));
   if (!launch) {
     return not_running(number);
   }
-  if (feeds_->fetch_add(1) >= kMostFeeds) {
-    feeds_->fetch_sub(1);
-    return error(503, fmt::format("{} pages follow launches already", kMostFeeds));
+  const std::shared_ptr<void> counted = count_feed();
+  if (!counted) {
+    return too_many_feeds();
   }
-  const std::shared_ptr<void> counted(nullptr, [feeds = feeds_](void*) { feeds->fetch_sub(1); });
   const auto process = request.query.find("output");
   const auto feed =
       std::make_shared<LaunchFeed>(*std::move(launch), process == request.query.end() ? "" : process->second, stop_);

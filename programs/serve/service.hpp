@@ -10,6 +10,7 @@
 #include "base/environment/environment.hpp"
 #include "programs/serve/access.hpp"
 #include "programs/serve/http_message.hpp"
+#include "programs/serve/node_feed.hpp"
 
 namespace launch::serve {
 
@@ -18,8 +19,10 @@ class Service {
   static constexpr int kMostFeeds = 16;
 
   // `log` is told of each request that changes something, and of each wrong token. `stop` becomes readable when answers
-  // that do not end by themselves are to end. `access` must outlive the service and its answers.
-  Service(Access& access, Environment environment, int stop, std::function<void(const std::string&)> log);
+  // that do not end by themselves are to end. `access` must outlive the service and its answers. `shows_nodes`: a page
+  // may ask what nodes do, which records them.
+  Service(Access& access, Environment environment, int stop, std::function<void(const std::string&)> log,
+          bool shows_nodes = false);
 
   HttpAnswer answer(const HttpRequest& request);
 
@@ -31,11 +34,16 @@ class Service {
   HttpAnswer of_launch(const HttpRequest& request, const std::string& rest);
   HttpAnswer control(const HttpRequest& request, const std::string& number);
   HttpAnswer feed(const HttpRequest& request, const std::string& number);
+  HttpAnswer nodes(const HttpRequest& request);
+  // Counts a feed until the last copy is gone; null if there are too many.
+  std::shared_ptr<void> count_feed();
 
   Access& access_;
   Environment environment_;
   int stop_;
   std::function<void(const std::string&)> log_;
+  bool shows_nodes_;
+  NodeRecordings recordings_;
   std::shared_ptr<std::atomic<int>> feeds_ = std::make_shared<std::atomic<int>>(0);
 };
 

@@ -19,9 +19,9 @@
 #include "programs/launch/command_functions.hpp"
 #include "programs/launch/remote/on_option.hpp"
 #include "programs/launch/steer/process_text.hpp"
-#include "programs/launch/top/node_watch.hpp"
 #include "programs/launch/top/top_rows.hpp"
 #include "programs/launch/top/top_screen.hpp"
+#include "programs/watch/node_watch.hpp"
 
 namespace launch {
 namespace {

@@ -105,6 +105,20 @@ class Page(Served):
         launch.wait(PATIENCE)
         self.wait_for_text('#notice', 'The launch of system.launch.xml has ended.')
 
+    def test_nodes_are_shown_on_demand(self):
+        launch = self.start_launch()
+        self.serve('--nodes')
+        self.show(launch)
+        self.browser.wait_for('!document.getElementById("nodes-panel").hidden')
+        self.assertTrue(self.browser.evaluate('document.getElementById("nodes").hidden'))
+        self.assertFalse(self.browser.evaluate('document.getElementById("nodes-shown").checked'))
+
+    def test_nodes_are_not_shown_unless_that_is_allowed(self):
+        launch = self.start_launch()
+        self.serve()
+        self.show(launch)
+        self.assertTrue(self.browser.evaluate('document.getElementById("nodes-panel").hidden'))
+
     def test_the_page_goes_on_when_the_launch_is_started_again(self):
         launch = self.start_launch()
         self.serve('--allow-control')

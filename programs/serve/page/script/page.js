@@ -15,6 +15,7 @@ const page = {
 
 const table = new ProcessTable(byId('processes'), chooseProcess, steer);
 const log = new LineLog(byId('log'), byId('follow'));
+const nodes = new NodeTables(byId('nodes-panel'), byId('nodes-shown'), byId('nodes'));
 const events = new EventList(byId('events'), byId('events-empty'));
 
 function setLink(text, kind) {
@@ -168,6 +169,7 @@ async function lookForLaunches() {
     const answer = await ask('/api/launches');
     page.launches = answer.launches;
     page.steers = answer.control;
+    nodes.allow(answer.nodes);
     byId('rights').hidden = page.steers;
   } catch (error) {
     setLink('no connection', 'bad');

@@ -23,6 +23,18 @@ async function ask(address, request) {
   return answer;
 }
 
+// Follows what nodes do. Calls `told` with the lines of its tables, and `lost` when the connection ends. Returns a function
+// that stops it.
+function followNodes(told, lost) {
+  const source = new EventSource('/api/nodes');
+  source.addEventListener('nodes', message => told(JSON.parse(message.data).lines));
+  source.addEventListener('error', () => {
+    source.close();
+    lost();
+  });
+  return () => source.close();
+}
+
 // Follows a launch, with the lines of one process or none. Calls a function of `told` with the name of each event: `ps`,
 // `event`, `output`, `end`, and `lost` when the connection ends. Returns a function that stops it.
 function follow(pid, process, told) {

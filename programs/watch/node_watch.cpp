@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "programs/launch/top/node_watch.hpp"
+#include "programs/watch/node_watch.hpp"
 
 #include <fmt/format.h>
 #include <poll.h>

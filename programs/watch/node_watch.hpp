@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the nodes do while `launch top` shows it: runs launch-watch, which records them.
+// What the nodes do while `launch top` or a page of `launch serve` shows it: runs launch-watch, which records them.
 #pragma once
 
 #include <sys/types.h>
