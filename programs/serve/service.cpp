@@ -267,13 +267,8 @@ HttpAnswer Service::control(const HttpRequest& request, const std::string& numbe
     const std::string names = wanted.contains("processes") ? " " + text_of(wanted["processes"]) : "";
     log_(printable(fmt::format("{}{} of launch {}, for {}", what, names, number, request.client)));
   }
-  // What the protocol knows, and nothing that is new since.
-  Json sent{{"version", kControlVersion}, {"do", what}};
-  for (const char* const key : {"version", "processes", "groups", "signal", "dry_run", "restart", "count"}) {
-    if (wanted.contains(key)) {
-      sent[key] = wanted[key];
-    }
-  }
+  Json sent = wanted;
+  sent.emplace("version", kControlVersion);
   HttpAnswer answer;
   const std::string line = launch->ask_for_line(sent);
   Json told = Json::parse(line, nullptr, false);

@@ -77,7 +77,7 @@ class Unit : public testing::Test {
   // Why there can be no systemd here, or "".
   std::string boot() {
     if (::geteuid() != 0 || !fs::exists(kSystemd)) {
-      return "this needs root and an installed systemd";
+      return "skipped, because this needs root and an installed systemd";
     }
     boot_ = std::make_unique<RunningCommand>(Command{.argv = {"sh", "-c", kBoot, "sh", sandbox_.directory().string()}});
     const auto end = std::chrono::steady_clock::now() + kPatience;
@@ -95,7 +95,7 @@ class Unit : public testing::Test {
         break;
       }
     }
-    return "no systemd boots in namespaces here: " + boot_->err();
+    return "skipped, because no systemd boots in namespaces here: " + boot_->err();
   }
 
   // A program beside the services.

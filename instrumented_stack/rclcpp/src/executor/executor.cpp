@@ -4,9 +4,7 @@
 #include <tracetools/tracetools.h>
 
 #include <algorithm>
-#include <atomic>
 #include <iterator>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -14,6 +12,7 @@
 
 #include "base/progress.hpp"
 #include "executor/executor_entities.hpp"
+#include "executor/passed_over.hpp"
 #include "rclcpp/node.hpp"
 
 namespace rclcpp {
@@ -67,23 +66,6 @@ bool choose(const Waitable::SharedPtr& waitable, AnyExecutable& any_executable) 
 // After a wait beside which a group was given back. A thread that gives one back may be kept from ending it for long.
 constexpr int kMostLooks = 3;
 
-bool is_waitable(const detail::ReadyEntity& ready) {
-  return std::holds_alternative<Waitable::WeakPtr>(ready.entity);
-}
-
-// The numbers that executors give to what they pass over: an executor's own number, and a count in the lower bits. An
-// entity that comes from another executor may still have one of its numbers.
-constexpr unsigned kBitsOfCount = 40;
-
-std::uint64_t first_number_of_new_executor() {
-  static std::atomic<std::uint64_t> executors{0};
-  return ++executors << kBitsOfCount;
-}
-
-bool are_of_same_executor(std::uint64_t number, std::uint64_t other) {
-  return number >> kBitsOfCount == other >> kBitsOfCount;
-}
-
 bool are_same_waitable(const detail::ReadyEntity& a, const detail::ReadyEntity& b) {
   const auto* waitable_a = std::get_if<Waitable::WeakPtr>(&a.entity);
   const auto* waitable_b = std::get_if<Waitable::WeakPtr>(&b.entity);
@@ -116,7 +98,7 @@ Executor::SpinningScope::SpinningScope(Executor& executor, const char* function)
 
 Executor::Executor(const ExecutorOptions& options)
     : context_(options.context), entities_(std::make_shared<ExecutorEntities>(options.context)) {
-  last_passed_over_ = first_number_of_new_executor();
+  last_passed_over_ = detail::first_number_of_new_executor();
   progress::join();
   shutdown_callback_ = context_->add_on_shutdown_callback([weak = std::weak_ptr(entities_)] {
     if (const auto entities = weak.lock()) {
@@ -304,37 +286,11 @@ bool Executor::choose_living(const std::shared_ptr<EntityT>& entity, AnyExecutab
   if (!entity) {
     return false;
   }
-  if (are_of_same_executor(std::exchange(passed_over(*entity), 0), last_passed_over_) && count_passed_over_ > 0) {
+  if (detail::are_of_same_executor(std::exchange(passed_over(*entity), 0), last_passed_over_) &&
+      count_passed_over_ > 0) {
     --count_passed_over_;
   }
   return choose(entity, any_executable);
-}
-
-void Executor::pass_over(detail::ReadyEntity ready) {
-  std::visit(
-      [this](const auto& weak) {
-        if (const auto entity = weak.lock(); entity && !are_of_same_executor(passed_over(*entity), last_passed_over_)) {
-          passed_over(*entity) = ++last_passed_over_;
-          ++count_passed_over_;
-        }
-      },
-      ready.entity);
-  if (is_waitable(ready)) {
-    postponed_.push_back(std::move(ready));
-  }
-}
-
-void Executor::put_in_order() {
-  for (detail::ReadyEntity& ready : ready_) {
-    const std::uint64_t turn = std::visit(
-        [](const auto& weak) {
-          const auto entity = weak.lock();
-          return entity ? passed_over(*entity) : 0;
-        },
-        ready.entity);
-    ready.turn = are_of_same_executor(turn, last_passed_over_) ? turn : std::numeric_limits<std::uint64_t>::max();
-  }
-  std::stable_sort(ready_.begin(), ready_.end(), [](const auto& a, const auto& b) { return a.turn < b.turn; });
 }
 
 void Executor::erase_unserved() {
@@ -354,7 +310,7 @@ void Executor::erase_unserved() {
   size_t given_back = entities_->count_given_back();
   entities_->wait(timeout, ready_, postponed_);
   for (int again = 0; again < kMostLooks && !ready_.empty() && entities_->is_given_back_since(given_back); ++again) {
-    std::copy_if(ready_.begin(), ready_.end(), std::back_inserter(postponed_), is_waitable);
+    std::copy_if(ready_.begin(), ready_.end(), std::back_inserter(postponed_), detail::is_waitable);
     ready_.clear();
     given_back = entities_->count_given_back();
     entities_->wait(nanoseconds::zero(), ready_, postponed_);
