@@ -57,6 +57,7 @@ TEST_F(AttachTest, KeysAndSizesArriveAndTheProcessGoesOn) {
     ASSERT_TRUE(terminal.shows("<4>")) << terminal.screen();
     terminal.type("echo inter\"\"rupted\r");
     ASSERT_TRUE(terminal.shows_line("interrupted")) << terminal.screen();
+    ASSERT_TRUE(terminal.shows("<5>")) << terminal.screen();
     terminal.type("\020\021");  // Ctrl-P Ctrl-Q
     EXPECT_EQ(terminal.wait(), 0) << terminal.everything();
     EXPECT_THAT(terminal.everything(), HasSubstr("\r\nlaunch attach: detached, shell-1 goes on\r\n"));
