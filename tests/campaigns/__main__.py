@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs campaigns: ./dev campaign [NAME [RUNS]] [--busy] [--seed SEED] [--keep]"""
+"""Runs campaigns: ./dev campaign [NAME [RUNS]] [--busy [LOOPS]] [--seed SEED] [--keep]"""
 
 import argparse
 import importlib
@@ -19,7 +19,7 @@ def main():
     parser = argparse.ArgumentParser(prog='./dev campaign', description='Many runs of what is hard to record.')
     parser.add_argument('name', nargs='?', choices=NAMES, help='the campaign (default: all of them)')
     parser.add_argument('runs', nargs='?', type=int, help='number of runs (default: that of the campaign)')
-    parser.add_argument('--busy', action='store_true', help='beside four busy loops')
+    parser.add_argument('--busy', nargs='?', type=int, const=4, default=0, metavar='LOOPS', help='beside busy loops (four)')
     parser.add_argument('--seed', type=int, default=1, help='of the first run (default: 1)')
     parser.add_argument('--keep', metavar='DIR', help='keep the directories of wrong runs there')
     parser.add_argument('--build', default='build/dev', help=argparse.SUPPRESS)
@@ -29,10 +29,10 @@ def main():
     failed, tables = [], []
     try:
         if arguments.busy:
-            place.make_busy()
+            place.make_busy(arguments.busy)
         for name in [arguments.name] if arguments.name else NAMES:
             outcomes = run(place, importlib.import_module(f'.{name}', __package__), name, arguments)
-            tables.append(table(name + (', busy' if arguments.busy else ''), outcomes))
+            tables.append(table(name + (f', {arguments.busy} busy loops' if arguments.busy else ''), outcomes))
             print('\n'.join(tables[-1]) + '\n', flush=True)
             if any(outcome.wrong for outcome in outcomes):
                 failed.append(name)

@@ -131,7 +131,7 @@ class Place:
         self._children.append(child)
         return child
 
-    def make_busy(self, loops=4):
+    def make_busy(self, loops):
         for _ in range(loops):
             self.start(sys.executable, '-c', 'while True: pass')
 
