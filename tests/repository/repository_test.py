@@ -30,6 +30,7 @@ VERSIONS_OF_ROS_2 = {
     'rcl': '9.2.0',
     'rcl_action': '9.2.0',
     'rcl_lifecycle': '9.2.0',
+    'rcl_logging_interface': '3.1.0',
     'rcl_yaml_param_parser': '9.2.0',
     'rclcpp': '28.1.0',
     'rclcpp_action': '28.1.0',

@@ -84,7 +84,8 @@ std::vector<std::string> ClassLoader::classes_of(const std::type_info& base) con
   return last_library_.expired() ? std::vector<std::string>() : detail::classes_in(name_, base);
 }
 
-void* ClassLoader::create(const std::type_info& base, const std::string& class_name, std::shared_ptr<void>& library) {
+detail::Registration::Create ClassLoader::find(const std::type_info& base, const std::string& class_name,
+                                               std::shared_ptr<void>& library) {
   const std::lock_guard lock(mutex_);
   library = last_library_.lock();
   if (library == nullptr && on_demand_) {
@@ -101,7 +102,7 @@ void* ClassLoader::create(const std::type_info& base, const std::string& class_n
     throw CreateClassException("cannot create an object of class '" + class_name + "': the library '" + library_path_ +
                                "' has no such class with that base class");
   }
-  return create_object();
+  return create_object;
 }
 
 void ClassLoader::keep_for_ever(const std::shared_ptr<void>& library) {

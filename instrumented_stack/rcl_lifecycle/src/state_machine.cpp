@@ -119,6 +119,11 @@ const rcl_lifecycle_transition_t* rcl_lifecycle_get_transition_by_label(const rc
   return find_transition(state, [&](const auto& transition) { return std::strcmp(transition.label, label) == 0; });
 }
 
+const char* rcl_lifecycle_get_transition_label_by_id(const rcl_lifecycle_state_t* state, uint8_t id) {
+  const rcl_lifecycle_transition_t* const transition = rcl_lifecycle_get_transition_by_id(state, id);
+  return transition == nullptr ? nullptr : transition->label;
+}
+
 rcl_ret_t rcl_lifecycle_trigger_transition_by_id(rcl_lifecycle_state_machine_t* state_machine, unsigned int id,
                                                  bool publish_notification) {
   const rcl_ret_t ret = rcl_lifecycle_state_machine_is_initialized(state_machine);

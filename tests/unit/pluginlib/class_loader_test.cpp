@@ -39,6 +39,21 @@ TEST(ClassLoader, CreatesObjectsOfTheClassesOfABase) {
   EXPECT_EQ(owned->name(), "square");
 }
 
+TEST(ClassLoader, ConstructorsGetTheArgumentsThatTheirBaseTells) {
+  using shapes::Drawing;
+  ClassLoader loader(SHAPES_LIBRARY);
+  const auto size = [](int value) { return std::make_unique<int>(value); };
+  EXPECT_EQ(loader.createUniqueInstance<Drawing>("shapes::Sketch", "a", size(1))->text(), "a 1");
+  EXPECT_EQ(loader.createInstance<Drawing>("shapes::Sketch", std::string("b"), size(2))->text(), "b 2");
+  const std::unique_ptr<Drawing> owned(loader.createUnmanagedInstance<Drawing>("shapes::Sketch", "c", size(3)));
+  EXPECT_EQ(owned->text(), "c 3");
+
+  MultiLibraryClassLoader several(false);
+  several.loadLibrary(SHAPES_LIBRARY);
+  EXPECT_EQ(several.createInstance<Drawing>("shapes::Sketch", "d", size(4))->text(), "d 4");
+  EXPECT_EQ(several.createUniqueInstance<Drawing>("shapes::Sketch", SHAPES_LIBRARY, "e", size(5))->text(), "e 5");
+}
+
 TEST(ClassLoader, ObjectsKeepTheirLibrary) {
   std::shared_ptr<Shape> square;
   {

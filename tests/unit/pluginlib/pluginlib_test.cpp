@@ -27,6 +27,7 @@ constexpr const char* kDescription = R"xml(
     <class type="shapes::Triangle" base_class_type="shapes::Shape"/>
     <class type="shapes::Missing" base_class_type="shapes::Shape"/>
     <class type="shapes::Red" base_class_type="shapes::Colour"/>
+    <class name="sketch" type="shapes::Sketch" base_class_type="shapes::Drawing"/>
   </library>
   <library path="lost_plugins">
     <class name="lost" type="shapes::Lost" base_class_type="shapes::Shape"/>
@@ -94,6 +95,12 @@ TEST_F(Plugins, AreCreatedByTheirName) {
   EXPECT_EQ(thrown_by<pluginlib::LibraryUnloadException>([&] { loader.unloadLibraryForClass("square"); }),
             "the library of plugin 'square' is not loaded");
   EXPECT_EQ(triangle->name(), "triangle");
+}
+
+TEST_F(Plugins, AreCreatedWithArguments) {
+  pluginlib::ClassLoader<shapes::Drawing> loader("shapes", "shapes::Drawing");
+  EXPECT_EQ(loader.createSharedInstance("sketch", "a", std::make_unique<int>(1))->text(), "a 1");
+  EXPECT_EQ(loader.createUniqueInstance("sketch", "b", std::make_unique<int>(2))->text(), "b 2");
 }
 
 TEST_F(Plugins, OutliveTheirLoader) {

@@ -2,6 +2,8 @@
 // The base class of the plugins in these tests.
 #pragma once
 
+#include <class_loader/interface_traits.hpp>
+#include <memory>
 #include <string>
 
 namespace shapes {
@@ -19,4 +21,16 @@ class Colour {
   virtual int hue() const = 0;
 };
 
+// A base class whose plugins are created with arguments.
+class Drawing {
+ public:
+  virtual ~Drawing() = default;
+  virtual std::string text() const = 0;
+};
+
 }  // namespace shapes
+
+template <>
+struct class_loader::InterfaceTraits<shapes::Drawing> {
+  using constructor_parameters = class_loader::ConstructorParameters<std::string, std::unique_ptr<int>>;
+};

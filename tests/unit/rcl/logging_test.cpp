@@ -33,8 +33,9 @@ class Logging : public testing::Test {
   }
 
   static void clear() {
-    for (const char* variable : {"RCUTILS_CONSOLE_OUTPUT_FORMAT", "RCUTILS_COLORIZED_OUTPUT",
-                                 "RCUTILS_LOGGING_USE_STDOUT", "RCUTILS_LOGGING_BUFFERED_STREAM"}) {
+    for (const char* variable :
+         {"RCUTILS_CONSOLE_OUTPUT_FORMAT", "RCUTILS_COLORIZED_OUTPUT", "RCUTILS_LOGGING_USE_STDOUT",
+          "RCUTILS_LOGGING_BUFFERED_STREAM", "RCL_LOGGING_IMPLEMENTATION", "TEST_LOG_BACKEND"}) {
       unsetenv(variable);
     }
     EXPECT_EQ(rcutils_logging_shutdown(), RCUTILS_RET_OK);
@@ -175,6 +176,49 @@ TEST_F(Logging, FileIsWrittenWhenTheConsoleIsSilent) {
 TEST_F(Logging, HasNoFileWhenTold) {
   log_with({"--disable-external-lib-logs"});
   EXPECT_EQ(files_of(directory_), std::vector<std::string>{});
+}
+
+TEST_F(Logging, HasNoFileWithTheBackendThatDoesNothing) {
+  setenv("RCL_LOGGING_IMPLEMENTATION", "rcl_logging_noop", 1);
+  EXPECT_NE(log_with({}), "");
+  EXPECT_EQ(files_of(directory_), std::vector<std::string>());
+}
+
+TEST_F(Logging, HasAFileWithTheBackendOfRos) {
+  setenv("RCL_LOGGING_IMPLEMENTATION", "rcl_logging_spdlog", 1);
+  log_with({"--log-file-name", "mine"});
+  EXPECT_EQ(files_of(directory_), std::vector<std::string>({"mine_PID_TIME.log"}));
+}
+
+TEST_F(Logging, GoesToABackendOfOnesOwn) {
+  std::filesystem::create_directories(directory_);
+  setenv("RCL_LOGGING_IMPLEMENTATION", "test_log_backend", 1);
+  setenv("TEST_LOG_BACKEND", (directory_ / "calls").c_str(), 1);
+  setenv("RCUTILS_CONSOLE_OUTPUT_FORMAT", "{severity} {message}", 1);
+  log_with({"--log-file-name", "mine", "--log-level", "warn"});
+  EXPECT_EQ(content_of_only_file_in(directory_),
+            "initialize mine\nlevel null 30\nlog 30 a 'WARN line 1'\nlog 30 a 'WARN line 2'\nshutdown\n");
+}
+
+TEST_F(Logging, IsRefusedWithABackendThatIsMissingOrRefuses) {
+  const auto error_with = [](const std::vector<std::string>& flags) {
+    const rcl_test::Arguments arguments(flags);
+    const rcl_allocator_t allocator = rcl_get_default_allocator();
+    EXPECT_EQ(rcl_logging_configure(&arguments.handle, &allocator), RCL_RET_ERROR);
+    EXPECT_EQ(rcl_logging_fini(), RCL_RET_OK);
+    return rcl_test::take_error();
+  };
+  setenv("RCL_LOGGING_IMPLEMENTATION", "no_such_backend", 1);
+  EXPECT_EQ(
+      error_with({"program"}),
+      "no library for RCL_LOGGING_IMPLEMENTATION=no_such_backend: libno_such_backend.so: cannot open shared object "
+      "file: No such file or directory");
+  setenv("RCL_LOGGING_IMPLEMENTATION", "rcutils", 1);
+  EXPECT_EQ(error_with({"program"}),
+            "librcutils.so is no logging backend: it has no function rcl_logging_external_initialize()");
+  setenv("RCL_LOGGING_IMPLEMENTATION", "test_log_backend", 1);
+  EXPECT_EQ(error_with({"program", "--ros-args", "--log-config-file", "wrong"}),
+            "the logging backend libtest_log_backend.so could not begin: 'wrong' is no file");
 }
 
 TEST_F(Logging, FileIsBelowTheHomeOfRosWithoutADirectoryOfItsOwn) {

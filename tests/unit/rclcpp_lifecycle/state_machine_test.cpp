@@ -61,6 +61,10 @@ TEST(LifecycleTransitionMap, StatesKnowTheTransitionsThatBeginInThem) {
   EXPECT_EQ(rcl_lifecycle_get_transition_by_label(inactive, "shutdown")->id,
             Transition::TRANSITION_INACTIVE_SHUTDOWN + 0u);
   EXPECT_EQ(rcl_lifecycle_get_transition_by_label(inactive, "configure"), nullptr);
+  EXPECT_STREQ(rcl_lifecycle_get_transition_label_by_id(
+                   inactive, rcl_lifecycle_get_transition_by_label(inactive, "shutdown")->id),
+               "shutdown");
+  EXPECT_EQ(rcl_lifecycle_get_transition_label_by_id(inactive, 255), nullptr);
   EXPECT_EQ(rcl_lifecycle_get_transition_by_id(inactive, Transition::TRANSITION_ACTIVATE)->goal,
             rcl_lifecycle_get_state(&map, 13));
   EXPECT_EQ(rcl_lifecycle_get_state(&map, 4)->valid_transition_size, 0u);

@@ -118,4 +118,13 @@ TEST(Environment, IsSetAndRead) {
   EXPECT_EQ(rcutils_get_pid(), getpid());
 }
 
+TEST(Time, RawSteadyTimeNeverGoesBack) {
+  rcutils_time_point_value_t before = 0;
+  rcutils_time_point_value_t after = 0;
+  ASSERT_EQ(rcutils_raw_steady_time_now(&before), RCUTILS_RET_OK);
+  ASSERT_EQ(rcutils_raw_steady_time_now(&after), RCUTILS_RET_OK);
+  EXPECT_GT(before, 0);
+  EXPECT_GE(after, before);
+}
+
 }  // namespace

@@ -7,10 +7,12 @@
 #include <mutex>
 #include <string>
 #include <typeinfo>
+#include <utility>
 #include <vector>
 
 #include "class_loader/detail/class_registry.hpp"
 #include "class_loader/exceptions.hpp"
+#include "class_loader/interface_traits.hpp"
 #include "class_loader/register_macro.hpp"
 
 namespace class_loader {
@@ -51,26 +53,27 @@ class ClassLoader {
     return false;
   }
 
+  // `arguments` go to the constructor; their types are told by InterfaceTraits<Base>, and without it there are none.
   // Throw CreateClassException if the class does not exist or its library is not loaded.
-  template <typename Base>
-  std::shared_ptr<Base> createSharedInstance(const std::string& derived_class_name) {
-    return createUniqueInstance<Base>(derived_class_name);
+  template <typename Base, typename... Arguments>
+  std::shared_ptr<Base> createSharedInstance(const std::string& derived_class_name, Arguments&&... arguments) {
+    return createUniqueInstance<Base>(derived_class_name, std::forward<Arguments>(arguments)...);
   }
-  template <typename Base>
-  std::shared_ptr<Base> createInstance(const std::string& derived_class_name) {
-    return createSharedInstance<Base>(derived_class_name);
+  template <typename Base, typename... Arguments>
+  std::shared_ptr<Base> createInstance(const std::string& derived_class_name, Arguments&&... arguments) {
+    return createSharedInstance<Base>(derived_class_name, std::forward<Arguments>(arguments)...);
   }
-  template <typename Base>
-  UniquePtr<Base> createUniqueInstance(const std::string& derived_class_name) {
+  template <typename Base, typename... Arguments>
+  UniquePtr<Base> createUniqueInstance(const std::string& derived_class_name, Arguments&&... arguments) {
     std::shared_ptr<void> library;
-    auto* const object = static_cast<Base*>(create(typeid(Base), derived_class_name, library));
+    Base* const object = create<Base>(derived_class_name, library, std::forward<Arguments>(arguments)...);
     return UniquePtr<Base>(object, [library](Base* created) { delete created; });
   }
   // The caller deletes the object. The library then stays loaded until the process ends.
-  template <typename Base>
-  Base* createUnmanagedInstance(const std::string& derived_class_name) {
+  template <typename Base, typename... Arguments>
+  Base* createUnmanagedInstance(const std::string& derived_class_name, Arguments&&... arguments) {
     std::shared_ptr<void> library;
-    auto* const object = static_cast<Base*>(create(typeid(Base), derived_class_name, library));
+    Base* const object = create<Base>(derived_class_name, library, std::forward<Arguments>(arguments)...);
     keep_for_ever(library);
     return object;
   }
@@ -87,7 +90,16 @@ class ClassLoader {
 
  private:
   std::vector<std::string> classes_of(const std::type_info& base) const;
-  void* create(const std::type_info& base, const std::string& class_name, std::shared_ptr<void>& library);
+  template <typename Base, typename... Arguments>
+  Base* create(const std::string& class_name, std::shared_ptr<void>& library, Arguments&&... arguments) {
+    static_assert(detail::Factory<Base>::template takes<Arguments...>,
+                  "The constructor of the class takes other arguments: see class_loader::InterfaceTraits<Base>.");
+    const auto factory = find(typeid(Base), class_name, library);
+    return detail::Factory<Base>::create(factory, std::forward<Arguments>(arguments)...);
+  }
+  // Loads the library if it is loaded on demand.
+  detail::Registration::Create find(const std::type_info& base, const std::string& class_name,
+                                    std::shared_ptr<void>& library);
   static void keep_for_ever(const std::shared_ptr<void>& library);
 
   const std::string library_path_;

@@ -5,11 +5,22 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "class_loader/class_loader.hpp"
 
 namespace class_loader {
+
+namespace detail {
+
+// After the name of a class come the arguments of its constructor, or the path of its library and then the arguments.
+// So an overload exists only if the constructor takes them.
+template <typename Base, typename... Arguments>
+using IfTaken = std::enable_if_t<Factory<Base>::template takes<Arguments...>, bool>;
+
+}  // namespace detail
 
 // Not thread safe, unlike its loaders.
 class MultiLibraryClassLoader {
@@ -46,31 +57,37 @@ class MultiLibraryClassLoader {
     return false;
   }
 
-  // Without a path, the first library (sorted by path) that has the class is used. Throw CreateClassException, and
-  // NoClassLoaderExistsException if the library is not loaded.
-  template <typename Base>
-  std::shared_ptr<Base> createInstance(const std::string& class_name) {
-    return loader_of<Base>(class_name).template createInstance<Base>(class_name);
+  // The first library (sorted by path) that has the class is used. `arguments` go to the constructor, see
+  // interface_traits.hpp. Throw CreateClassException, and NoClassLoaderExistsException if the library is not loaded.
+  template <typename Base, typename... Arguments, detail::IfTaken<Base, Arguments...> = true>
+  std::shared_ptr<Base> createInstance(const std::string& class_name, Arguments&&... arguments) {
+    return loader_of<Base>(class_name).template createInstance<Base>(class_name, std::forward<Arguments>(arguments)...);
   }
-  template <typename Base>
-  std::shared_ptr<Base> createInstance(const std::string& class_name, const std::string& library_path) {
-    return loader_for(library_path).createInstance<Base>(class_name);
+  template <typename Base, typename... Arguments, detail::IfTaken<Base, Arguments...> = true>
+  ClassLoader::UniquePtr<Base> createUniqueInstance(const std::string& class_name, Arguments&&... arguments) {
+    return loader_of<Base>(class_name)
+        .template createUniqueInstance<Base>(class_name, std::forward<Arguments>(arguments)...);
   }
-  template <typename Base>
-  ClassLoader::UniquePtr<Base> createUniqueInstance(const std::string& class_name) {
-    return loader_of<Base>(class_name).template createUniqueInstance<Base>(class_name);
+  template <typename Base, typename... Arguments, detail::IfTaken<Base, Arguments...> = true>
+  Base* createUnmanagedInstance(const std::string& class_name, Arguments&&... arguments) {
+    return loader_of<Base>(class_name)
+        .template createUnmanagedInstance<Base>(class_name, std::forward<Arguments>(arguments)...);
   }
-  template <typename Base>
-  ClassLoader::UniquePtr<Base> createUniqueInstance(const std::string& class_name, const std::string& library_path) {
-    return loader_for(library_path).createUniqueInstance<Base>(class_name);
+  // The class of one library.
+  template <typename Base, typename... Arguments, detail::IfTaken<Base, Arguments...> = true>
+  std::shared_ptr<Base> createInstance(const std::string& class_name, const std::string& library_path,
+                                       Arguments&&... arguments) {
+    return loader_for(library_path).createInstance<Base>(class_name, std::forward<Arguments>(arguments)...);
   }
-  template <typename Base>
-  Base* createUnmanagedInstance(const std::string& class_name) {
-    return loader_of<Base>(class_name).template createUnmanagedInstance<Base>(class_name);
+  template <typename Base, typename... Arguments, detail::IfTaken<Base, Arguments...> = true>
+  ClassLoader::UniquePtr<Base> createUniqueInstance(const std::string& class_name, const std::string& library_path,
+                                                    Arguments&&... arguments) {
+    return loader_for(library_path).createUniqueInstance<Base>(class_name, std::forward<Arguments>(arguments)...);
   }
-  template <typename Base>
-  Base* createUnmanagedInstance(const std::string& class_name, const std::string& library_path) {
-    return loader_for(library_path).createUnmanagedInstance<Base>(class_name);
+  template <typename Base, typename... Arguments, detail::IfTaken<Base, Arguments...> = true>
+  Base* createUnmanagedInstance(const std::string& class_name, const std::string& library_path,
+                                Arguments&&... arguments) {
+    return loader_for(library_path).createUnmanagedInstance<Base>(class_name, std::forward<Arguments>(arguments)...);
   }
 
  private:

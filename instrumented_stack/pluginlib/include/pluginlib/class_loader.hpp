@@ -62,18 +62,24 @@ class ClassLoader : public ClassLoaderBase {
     plugins_ = detail::read_plugins(files_, base_class_);
   }
 
-  // Load the library if needed. Objects keep it loaded; it is unloaded with the loader and the last object. Throw
-  // CreateClassException if the library has no such class.
-  std::shared_ptr<T> createSharedInstance(const std::string& lookup_name) { return createUniqueInstance(lookup_name); }
-  UniquePtr createUniqueInstance(const std::string& lookup_name) {
-    return create(lookup_name, [this](const std::string& class_name, const std::string& library) {
-      return loader_.createUniqueInstance<T>(class_name, library);
+  // Load the library if needed. Objects keep it loaded; it is unloaded with the loader and the last object. `arguments`
+  // go to the constructor: see class_loader/interface_traits.hpp. Throw CreateClassException if the library has no such
+  // class.
+  template <typename... Arguments>
+  std::shared_ptr<T> createSharedInstance(const std::string& lookup_name, Arguments&&... arguments) {
+    return createUniqueInstance(lookup_name, std::forward<Arguments>(arguments)...);
+  }
+  template <typename... Arguments>
+  UniquePtr createUniqueInstance(const std::string& lookup_name, Arguments&&... arguments) {
+    return create(lookup_name, [&](const std::string& class_name, const std::string& library) {
+      return loader_.createUniqueInstance<T>(class_name, library, std::forward<Arguments>(arguments)...);
     });
   }
   // The caller deletes the object. The library then stays loaded until the process ends.
-  T* createUnmanagedInstance(const std::string& lookup_name) {
-    return create(lookup_name, [this](const std::string& class_name, const std::string& library) {
-      return loader_.createUnmanagedInstance<T>(class_name, library);
+  template <typename... Arguments>
+  T* createUnmanagedInstance(const std::string& lookup_name, Arguments&&... arguments) {
+    return create(lookup_name, [&](const std::string& class_name, const std::string& library) {
+      return loader_.createUnmanagedInstance<T>(class_name, library, std::forward<Arguments>(arguments)...);
     });
   }
 

@@ -7,6 +7,7 @@
 #include "rcl/types.h"
 #include "rcutils/types/string_array.h"
 #include "rmw/names_and_types.h"
+#include "rmw/service_endpoint_info_array.h"
 #include "rmw/topic_endpoint_info.h"
 
 #ifdef __cplusplus
@@ -16,10 +17,14 @@ extern "C" {
 typedef rmw_names_and_types_t rcl_names_and_types_t;
 typedef rmw_topic_endpoint_info_t rcl_topic_endpoint_info_t;
 typedef rmw_topic_endpoint_info_array_t rcl_topic_endpoint_info_array_t;
+typedef rmw_service_endpoint_info_t rcl_service_endpoint_info_t;
+typedef rmw_service_endpoint_info_array_t rcl_service_endpoint_info_array_t;
 
 #define rcl_get_zero_initialized_names_and_types rmw_get_zero_initialized_names_and_types
 #define rcl_get_zero_initialized_topic_endpoint_info_array rmw_get_zero_initialized_topic_endpoint_info_array
 #define rcl_topic_endpoint_info_array_fini rmw_topic_endpoint_info_array_fini
+#define rcl_get_zero_initialized_service_endpoint_info_array rmw_get_zero_initialized_service_endpoint_info_array
+#define rcl_service_endpoint_info_array_fini rmw_service_endpoint_info_array_fini
 
 rcl_ret_t rcl_names_and_types_fini(rcl_names_and_types_t* names_and_types);
 
@@ -60,6 +65,12 @@ rcl_ret_t rcl_get_publishers_info_by_topic(const rcl_node_t* node, rcl_allocator
 rcl_ret_t rcl_get_subscriptions_info_by_topic(const rcl_node_t* node, rcl_allocator_t* allocator,
                                               const char* topic_name, bool no_mangle,
                                               rcl_topic_endpoint_info_array_t* subscriptions_info);
+
+// Takes the full name of the service; with `no_mangle` types are those of DDS. The array must be zero initialized.
+rcl_ret_t rcl_get_clients_info_by_service(const rcl_node_t* node, rcl_allocator_t* allocator, const char* service_name,
+                                          bool no_mangle, rcl_service_endpoint_info_array_t* clients_info);
+rcl_ret_t rcl_get_servers_info_by_service(const rcl_node_t* node, rcl_allocator_t* allocator, const char* service_name,
+                                          bool no_mangle, rcl_service_endpoint_info_array_t* servers_info);
 
 // Whether a service would answer a request of the client. Changes trigger the graph guard condition.
 rcl_ret_t rcl_service_server_is_available(const rcl_node_t* node, const rcl_client_t* client, bool* is_available);

@@ -77,6 +77,8 @@ rmw_subscription_t* rcl_subscription_get_rmw_handle(const rcl_subscription_t* su
 const rmw_qos_profile_t* rcl_subscription_get_actual_qos(const rcl_subscription_t* subscription);
 rcl_ret_t rcl_subscription_get_publisher_count(const rcl_subscription_t* subscription, size_t* publisher_count);
 bool rcl_subscription_is_valid(const rcl_subscription_t* subscription);
+// Whether it may have a content filter: every one may.
+bool rcl_subscription_is_cft_supported(const rcl_subscription_t* subscription);
 // Whether there is a content filter; see rmw/subscription_content_filter_options.h.
 bool rcl_subscription_is_cft_enabled(const rcl_subscription_t* subscription);
 // Like rmw_subscription_set_content_filter() and rmw_subscription_get_content_filter().

@@ -6,32 +6,24 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <cstdlib>
+#include <new>
 #include <system_error>
 
 #include "rcl/logging_directory.hpp"
+#include "rcl_logging_interface/rcl_logging_interface.h"
 #include "rcutils/logging.h"
 
 namespace rcl {
-namespace {
-
-std::string variable(const char* name) {
-  const char* value = std::getenv(name);
-  return value == nullptr ? "" : value;
-}
-
-std::filesystem::path with_home(const std::string& path) {
-  return path.starts_with('~') ? variable("HOME") + path.substr(1) : path;
-}
-
-}  // namespace
 
 std::filesystem::path logging_directory() {
-  if (const std::string directory = variable("ROS_LOG_DIR"); !directory.empty()) {
-    return with_home(directory);
+  const rcutils_allocator_t allocator = rcutils_get_default_allocator();
+  char* directory = nullptr;
+  if (rcl_logging_get_logging_directory(allocator, &directory) != RCL_LOGGING_RET_OK) {
+    throw std::bad_alloc();
   }
-  const std::string home = variable("ROS_HOME");
-  return with_home(home.empty() ? "~/.ros" : home) / "log";
+  std::filesystem::path path(directory);
+  allocator.deallocate(directory, allocator.state);
+  return path;
 }
 
 LogFile::LogFile(std::string_view prefix) {
@@ -48,7 +40,7 @@ LogFile::~LogFile() {
   }
 }
 
-void LogFile::write(std::string_view line) {
+void LogFile::write(int, const char*, std::string line) {
   std::string problem;
   std::call_once(opened_, [&] { problem = open(); });
   if (!problem.empty()) {

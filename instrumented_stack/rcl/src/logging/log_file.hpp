@@ -7,19 +7,21 @@
 #include <string>
 #include <string_view>
 
+#include "logging/external_log.hpp"
+
 namespace rcl {
 
 // `<logging_directory()>/<prefix>_<pid>_<milliseconds since 1970>.log`; an empty prefix means the name of the program.
 // The first line creates the file and its directory. Each line is written at once, so a crash loses none. Thread safe.
-class LogFile {
+class LogFile final : public ExternalLog {
  public:
   explicit LogFile(std::string_view prefix);
-  ~LogFile();
+  ~LogFile() override;
   LogFile(const LogFile&) = delete;
   LogFile& operator=(const LogFile&) = delete;
 
   // Warns once if the file cannot be created. The process goes on without it.
-  void write(std::string_view line);
+  void write(int severity, const char* name, std::string line) override;
 
  private:
   // Returns the problem; empty if the file is open.

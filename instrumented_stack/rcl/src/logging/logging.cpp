@@ -6,7 +6,7 @@
 #include <mutex>
 
 #include "arguments/arguments_impl.hpp"
-#include "logging/log_file.hpp"
+#include "logging/log_backend.hpp"
 #include "rcl/error_handling.h"
 #include "rcl/logging_rosout.h"
 #include "rcutils/format_log_line.hpp"
@@ -17,26 +17,26 @@ namespace {
 std::atomic<bool> to_stdout{true};
 std::atomic<bool> to_rosout{false};
 
-// The file may be replaced while other threads write.
-class CurrentFile {
+// It may be replaced while other threads write.
+class CurrentExternalLog {
  public:
-  std::shared_ptr<rcl::LogFile> get() const {
+  std::shared_ptr<rcl::ExternalLog> get() const {
     const std::lock_guard lock(mutex_);
-    return file_;
+    return log_;
   }
-  void set(std::shared_ptr<rcl::LogFile> file) {
+  void set(std::shared_ptr<rcl::ExternalLog> log) {
     const std::lock_guard lock(mutex_);
-    file_.swap(file);
+    log_.swap(log);
   }
 
  private:
   mutable std::mutex mutex_;
-  std::shared_ptr<rcl::LogFile> file_;
+  std::shared_ptr<rcl::ExternalLog> log_;
 };
 
 // Never destroyed, because static objects of other libraries may log while the process ends.
-CurrentFile& current_file() {
-  static CurrentFile& instance = *new CurrentFile;
+CurrentExternalLog& external_log() {
+  static CurrentExternalLog& instance = *new CurrentExternalLog;
   return instance;
 }
 
@@ -65,7 +65,15 @@ rcl_ret_t rcl_logging_configure_with_output_handler(const rcl_arguments_t* globa
   }
   to_stdout = arguments.stdout_logs;
   to_rosout = arguments.rosout_logs;
-  current_file().set(arguments.external_logs ? std::make_shared<rcl::LogFile>(arguments.log_file_name) : nullptr);
+  external_log().set(nullptr);
+  if (arguments.external_logs) {
+    bool failed = false;
+    external_log().set(rcl::open_external_log(arguments.log_file_name, arguments.log_config_file,
+                                              rcutils_logging_get_default_logger_level(), failed));
+    if (failed) {
+      return RCL_RET_ERROR;
+    }
+  }
   rcutils_logging_set_output_handler(output_handler);
   return RCL_RET_OK;
 }
@@ -74,7 +82,7 @@ rcl_ret_t rcl_logging_fini(void) {
   rcutils_logging_set_output_handler(rcutils_logging_console_output_handler);
   to_stdout = true;
   to_rosout = false;
-  current_file().set(nullptr);
+  external_log().set(nullptr);
   return RCL_RET_OK;
 }
 
@@ -87,8 +95,8 @@ void rcl_logging_multiple_output_handler(const rcutils_log_location_t* location,
   if (to_stdout) {
     rcutils_logging_console_output_handler(location, severity, name, timestamp, format, args);
   }
-  if (const std::shared_ptr<rcl::LogFile> file = current_file().get()) {
-    file->write(rcutils::format_log_line(location, severity, name, timestamp, format, args));
+  if (const std::shared_ptr<rcl::ExternalLog> log = external_log().get()) {
+    log->write(severity, name, rcutils::format_log_line(location, severity, name, timestamp, format, args));
   }
   if (to_rosout) {
     rcl_logging_rosout_output_handler(location, severity, name, timestamp, format, args);

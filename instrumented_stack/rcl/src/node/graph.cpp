@@ -3,6 +3,7 @@
 
 #include "rcl/error_handling.h"
 #include "rmw/get_node_info_and_types.h"
+#include "rmw/get_service_endpoint_info.h"
 #include "rmw/get_topic_endpoint_info.h"
 #include "rmw/rmw.h"
 
@@ -91,6 +92,16 @@ rcl_ret_t rcl_get_subscriptions_info_by_topic(const rcl_node_t* node, rcl_alloca
                                               const char* topic_name, bool no_mangle,
                                               rcl_topic_endpoint_info_array_t* subscriptions_info) {
   return ask(rmw_get_subscriptions_info_by_topic, node, allocator, topic_name, no_mangle, subscriptions_info);
+}
+
+rcl_ret_t rcl_get_clients_info_by_service(const rcl_node_t* node, rcl_allocator_t* allocator, const char* service_name,
+                                          bool no_mangle, rcl_service_endpoint_info_array_t* clients_info) {
+  return ask(rmw_get_clients_info_by_service, node, allocator, service_name, no_mangle, clients_info);
+}
+
+rcl_ret_t rcl_get_servers_info_by_service(const rcl_node_t* node, rcl_allocator_t* allocator, const char* service_name,
+                                          bool no_mangle, rcl_service_endpoint_info_array_t* servers_info) {
+  return ask(rmw_get_servers_info_by_service, node, allocator, service_name, no_mangle, servers_info);
 }
 
 rcl_ret_t rcl_service_server_is_available(const rcl_node_t* node, const rcl_client_t* client, bool* is_available) {

@@ -70,6 +70,10 @@ rcl_ret_t rcl_subscription_content_filter_options_fini(const rcl_subscription_t*
                                                       &rcl_subscription_get_options(subscription)->allocator);
 }
 
+bool rcl_subscription_is_cft_supported(const rcl_subscription_t* subscription) {
+  return rcl_subscription_is_valid(subscription);
+}
+
 bool rcl_subscription_is_cft_enabled(const rcl_subscription_t* subscription) {
   return rcl_subscription_is_valid(subscription) && rcl_subscription_get_rmw_handle(subscription)->is_cft_enabled;
 }

@@ -28,6 +28,8 @@ const rcl_lifecycle_transition_t* rcl_lifecycle_get_transition_by_id(const rcl_l
                                                                      unsigned int id);
 const rcl_lifecycle_transition_t* rcl_lifecycle_get_transition_by_label(const rcl_lifecycle_state_t* state,
                                                                         const char* label);
+// The label of that transition; null if there is none.
+const char* rcl_lifecycle_get_transition_label_by_id(const rcl_lifecycle_state_t* state, uint8_t id);
 
 // Performs a transition of the current state, publishes it if enabled, and fires rcl_lifecycle_transition. Returns
 // RCL_RET_ERROR and keeps the state if the current state has no such transition. If only publishing failed, returns its

@@ -70,6 +70,11 @@ class ParameterEventHandler {
   // Throws std::runtime_error if the handle is not registered.
   void remove_parameter_callback(const ParameterCallbackHandle::SharedPtr& handle);
 
+  // Lets only events of these nodes come, so that those of others are not even sent. Names as in
+  // add_parameter_callback(), each once; an empty list lets all come. Callbacks of other nodes stay, and are not
+  // called. Returns whether it is so: false if the node uses intra-process communication.
+  bool configure_nodes_filter(const std::vector<std::string>& node_names);
+
   // Whether `event` has a new or changed value of that parameter and node. The node's name is fully qualified.
   static bool get_parameter_from_event(const rcl_interfaces::msg::ParameterEvent& event, Parameter& parameter,
                                        const std::string& parameter_name, const std::string& node_name = "");
@@ -80,6 +85,8 @@ class ParameterEventHandler {
   static std::vector<Parameter> get_parameters_from_event(const rcl_interfaces::msg::ParameterEvent& event);
 
  private:
+  std::string full_name(const std::string& node_name) const;
+
   struct Callbacks {
     // Callbacks may add and remove callbacks.
     std::recursive_mutex mutex;

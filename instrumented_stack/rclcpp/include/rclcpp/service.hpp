@@ -14,6 +14,7 @@ namespace rclcpp {
 template <typename ServiceT>
 class Service : public ServiceBase, public std::enable_shared_from_this<Service<ServiceT>> {
  public:
+  using ServiceType = ServiceT;
   using Request = typename ServiceT::Request;
   using Response = typename ServiceT::Response;
   RCLCPP_SMART_PTR_DEFINITIONS(Service<ServiceT>)

@@ -74,6 +74,7 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
   bool can_loan_messages() const { return can_loan_messages_; }
 
   // Whether there is a content filter.
+  bool is_cft_supported() const { return rcl_subscription_is_cft_supported(subscription_handle_.get()); }
   bool is_cft_enabled() const { return rcl_subscription_is_cft_enabled(subscription_handle_.get()); }
   // Selects the messages that are wanted from now on, see ContentFilterOptions; an empty expression ends the filter.
   // Messages not yet taken are lost when a filter is first set or is removed. Any thread. Throws exceptions::RCLError

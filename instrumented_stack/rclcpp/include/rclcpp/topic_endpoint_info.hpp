@@ -16,6 +16,8 @@ enum class EndpointType {
   Invalid = RMW_ENDPOINT_INVALID,
   Publisher = RMW_ENDPOINT_PUBLISHER,
   Subscription = RMW_ENDPOINT_SUBSCRIPTION,
+  Client = RMW_ENDPOINT_CLIENT,
+  Server = RMW_ENDPOINT_SERVER,
 };
 
 // For an endpoint of another process, history and depth are unknown: HistoryPolicy::Unknown and 0.

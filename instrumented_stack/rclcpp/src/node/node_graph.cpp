@@ -21,6 +21,21 @@ TopicEndpointInfo::TopicEndpointInfo(const rcl_topic_endpoint_info_t& info)
   std::copy(std::begin(info.endpoint_gid), std::end(info.endpoint_gid), endpoint_gid_.begin());
 }
 
+ServiceEndpointInfo::ServiceEndpointInfo(const rcl_service_endpoint_info_t& info)
+    : node_name_(info.node_name),
+      node_namespace_(info.node_namespace),
+      service_type_(info.service_type),
+      service_type_hash_(info.service_type_hash),
+      endpoint_type_(static_cast<rclcpp::EndpointType>(info.endpoint_type)),
+      endpoint_count_(info.endpoint_count) {
+  for (size_t i = 0; i < info.endpoint_count; ++i) {
+    std::copy(std::begin(info.endpoint_gids[i]), std::end(info.endpoint_gids[i]),
+              endpoint_gids_.emplace_back().begin());
+    const rmw_qos_profile_t& profile = info.qos_profiles[i];
+    qos_profiles_.emplace_back(QoSInitialization(profile.history, profile.depth), profile);
+  }
+}
+
 namespace node_interfaces {
 
 using detail::require_ok;
@@ -68,6 +83,21 @@ std::vector<TopicEndpointInfo> endpoints(const NodeBaseInterface& node_base, con
     result.emplace_back(infos.info_array[i]);
   }
   require_ok(rcl_topic_endpoint_info_array_fini(&infos, &allocator), "failed to free information about a topic");
+  return result;
+}
+
+using AskForEnds = rcl_ret_t (*)(const rcl_node_t*, rcl_allocator_t*, const char*, bool,
+                                 rcl_service_endpoint_info_array_t*);
+
+std::vector<ServiceEndpointInfo> service_ends(const NodeBaseInterface& node_base, const std::string& service_name,
+                                              bool no_mangle, AskForEnds ask) {
+  const std::string name = node_base.resolve_topic_or_service_name(service_name, true);
+  rcl_allocator_t allocator = rcl_get_default_allocator();
+  rcl_service_endpoint_info_array_t infos = rcl_get_zero_initialized_service_endpoint_info_array();
+  require_ok(ask(node_base.get_rcl_node_handle(), &allocator, name.c_str(), no_mangle, &infos),
+             "failed to get information about a service");
+  const std::vector<ServiceEndpointInfo> result(infos.info_array, infos.info_array + infos.size);
+  require_ok(rcl_service_endpoint_info_array_fini(&infos, &allocator), "failed to free information about a service");
   return result;
 }
 
@@ -160,6 +190,16 @@ std::vector<TopicEndpointInfo> NodeGraph::get_publishers_info_by_topic(const std
 std::vector<TopicEndpointInfo> NodeGraph::get_subscriptions_info_by_topic(const std::string& topic_name,
                                                                           bool no_mangle) const {
   return endpoints(*node_base_, topic_name, no_mangle, rcl_get_subscriptions_info_by_topic);
+}
+
+std::vector<ServiceEndpointInfo> NodeGraph::get_clients_info_by_service(const std::string& service_name,
+                                                                        bool no_mangle) const {
+  return service_ends(*node_base_, service_name, no_mangle, rcl_get_clients_info_by_service);
+}
+
+std::vector<ServiceEndpointInfo> NodeGraph::get_servers_info_by_service(const std::string& service_name,
+                                                                        bool no_mangle) const {
+  return service_ends(*node_base_, service_name, no_mangle, rcl_get_servers_info_by_service);
 }
 
 Event::SharedPtr NodeGraph::get_graph_event() {

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "rclcpp/exceptions.hpp"
+
 namespace rclcpp {
 
 namespace {
@@ -50,19 +52,41 @@ void ParameterEventHandler::remove_parameter_event_callback(const ParameterEvent
   remove(callbacks_->of_events, handle);
 }
 
+std::string ParameterEventHandler::full_name(const std::string& node_name) const {
+  if (node_name.empty()) {
+    return node_base_->get_fully_qualified_name();
+  }
+  if (node_name.front() == '/') {
+    return node_name;
+  }
+  const std::string node_namespace = node_base_->get_namespace();
+  return (node_namespace.back() == '/' ? node_namespace : node_namespace + "/") + node_name;
+}
+
+bool ParameterEventHandler::configure_nodes_filter(const std::vector<std::string>& node_names) {
+  if (node_names.empty() && !subscription_->is_cft_enabled()) {
+    return true;
+  }
+  std::string expression;
+  std::vector<std::string> parameters;
+  for (const std::string& node_name : node_names) {
+    expression += (expression.empty() ? "node = %" : " OR node = %") + std::to_string(parameters.size());
+    parameters.push_back("'" + full_name(node_name) + "'");
+  }
+  try {
+    subscription_->set_content_filter(expression, parameters);
+  } catch (const exceptions::RCLError&) {
+    return false;
+  }
+  return subscription_->is_cft_enabled() != node_names.empty();
+}
+
 ParameterCallbackHandle::SharedPtr ParameterEventHandler::add_parameter_callback(const std::string& parameter_name,
                                                                                  ParameterCallbackType callback,
                                                                                  const std::string& node_name) {
   auto handle = std::make_shared<ParameterCallbackHandle>();
   handle->parameter_name = parameter_name;
-  if (node_name.empty()) {
-    handle->node_name = node_base_->get_fully_qualified_name();
-  } else if (node_name.front() == '/') {
-    handle->node_name = node_name;
-  } else {
-    const std::string node_namespace = node_base_->get_namespace();
-    handle->node_name = (node_namespace.back() == '/' ? node_namespace : node_namespace + "/") + node_name;
-  }
+  handle->node_name = full_name(node_name);
   handle->callback = std::move(callback);
   const std::lock_guard lock(callbacks_->mutex);
   callbacks_->of_parameters.push_front(handle);

@@ -27,6 +27,8 @@ rcutils_ret_t rcutils_system_time_now(rcutils_time_point_value_t* now);
 
 // CLOCK_MONOTONIC.
 rcutils_ret_t rcutils_steady_time_now(rcutils_time_point_value_t* now);
+// Like the steady time, but its rate is never adjusted to that of other clocks.
+rcutils_ret_t rcutils_raw_steady_time_now(rcutils_time_point_value_t* now);
 
 // These write a time into `str`, cut to `str_size` bytes with the end. They return RCUTILS_RET_INVALID_ARGUMENT for
 // null pointers, and write nothing if `str_size` is 0.

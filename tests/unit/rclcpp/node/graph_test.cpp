@@ -88,6 +88,50 @@ TEST_F(GraphTest, TellsWhoPublishesAndSubscribesWithWhichQos) {
   EXPECT_EQ(dds[0].topic_type(), "std_msgs::msg::dds_::String_");
 }
 
+TEST_F(GraphTest, TellsWhoCallsAndOffersAService) {
+  const Elsewhere other("other");
+  const auto service = other.node->create_service<AddTwoInts>(
+      "/here/add", [](std::shared_ptr<AddTwoInts::Request>, std::shared_ptr<AddTwoInts::Response>) {},
+      rclcpp::QoS(3).best_effort());
+  const auto client = node_->create_client<AddTwoInts>("add");
+  const auto second_client = node_->create_client<AddTwoInts>("add", rclcpp::QoS(7));
+  const auto client_elsewhere = other.node->create_client<AddTwoInts>("/here/add");
+  ASSERT_TRUE(wait_for([&] {
+    return node_->get_servers_info_by_service("add").size() == 1 &&
+           node_->get_clients_info_by_service("add").size() == 3;
+  }));
+
+  const rclcpp::ServiceEndpointInfo server = node_->get_servers_info_by_service("add")[0];
+  EXPECT_EQ(server.node_name(), "other");
+  EXPECT_EQ(server.node_namespace(), "/there");
+  EXPECT_EQ(server.service_type(), "example_interfaces/srv/AddTwoInts");
+  EXPECT_EQ(server.service_type_hash().version, 0);
+  EXPECT_EQ(server.endpoint_type(), rclcpp::EndpointType::Server);
+  EXPECT_EQ(server.endpoint_count(), 2u);
+  ASSERT_EQ(server.endpoint_gids().size(), 2u);
+  const auto reader = node_->get_subscriptions_info_by_topic("rq/here/addRequest", true);
+  const auto writer = node_->get_publishers_info_by_topic("rr/here/addReply", true);
+  ASSERT_EQ(reader.size(), 1u);
+  ASSERT_EQ(writer.size(), 1u);
+  EXPECT_EQ(server.endpoint_gids()[0], reader[0].endpoint_gid());
+  EXPECT_EQ(server.endpoint_gids()[1], writer[0].endpoint_gid());
+  ASSERT_EQ(server.qos_profiles().size(), 2u);
+  EXPECT_EQ(server.qos_profiles()[0].reliability(), rclcpp::ReliabilityPolicy::BestEffort);
+
+  std::vector<std::size_t> depths;
+  for (const rclcpp::ServiceEndpointInfo& info : node_->get_clients_info_by_service("add")) {
+    EXPECT_EQ(info.endpoint_type(), rclcpp::EndpointType::Client);
+    // Both endpoints are of one client.
+    EXPECT_EQ(info.qos_profiles()[0].depth(), info.qos_profiles()[1].depth());
+    depths.push_back(info.qos_profiles()[0].depth());
+  }
+  EXPECT_THAT(depths, testing::UnorderedElementsAre(0u, 7u, 10u));  // unknown of the other context
+
+  EXPECT_THAT(node_->get_servers_info_by_service("subtract"), ElementsAre());
+  EXPECT_EQ(node_->get_servers_info_by_service("add", true)[0].service_type(),
+            "example_interfaces::srv::dds_::AddTwoInts_Request_");
+}
+
 TEST_F(GraphTest, TellsWhatANodeHas) {
   const Elsewhere other("other");
   const auto service = other.node->create_service<AddTwoInts>(

@@ -55,6 +55,33 @@ TEST_F(ParameterEvents, OfOneParameterOfANodeAndOfAll) {
   expect_heard({"speed=2.500000", "/ns/owner: speed"});
 }
 
+TEST_F(ParameterEvents, OfChosenNodesOnly) {
+  const auto other = std::make_shared<rclcpp::Node>("other", "ns");
+  const auto all = handler_.add_parameter_event_callback([this](const ParameterEvent& event) {
+    for (const rclcpp::Parameter& p : rclcpp::ParameterEventHandler::get_parameters_from_event(event)) {
+      if (p.get_name() == "speed") {
+        heard_.push_back(event.node + " " + p.value_to_string());
+      }
+    }
+  });
+  EXPECT_TRUE(handler_.configure_nodes_filter({}));
+  EXPECT_TRUE(handler_.configure_nodes_filter({"owner", "/ns/third"}));
+  other->declare_parameter("speed", 1);
+  owner_->declare_parameter("speed", 2);
+  expect_heard({"/ns/owner 2"});
+
+  heard_.clear();
+  EXPECT_TRUE(handler_.configure_nodes_filter({}));
+  other->set_parameter(rclcpp::Parameter("speed", 3));
+  expect_heard({"/ns/other 3"});
+}
+
+TEST_F(ParameterEvents, CannotBeChosenWithinAProcess) {
+  const auto node = std::make_shared<rclcpp::Node>("inner", rclcpp::NodeOptions().use_intra_process_comms(true));
+  rclcpp::ParameterEventHandler handler(node);
+  EXPECT_FALSE(handler.configure_nodes_filter({"/ns/owner"}));
+}
+
 TEST(ParameterEventHandler, FindsAParameterInAnEvent) {
   ParameterEvent event;
   event.node = "/owner";

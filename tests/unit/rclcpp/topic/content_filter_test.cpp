@@ -67,6 +67,7 @@ class ContentFilter : public RosTest {
 
 TEST_F(ContentFilter, LetsOnlyWantedMessagesThrough) {
   const auto subscription = subscribe(filtered_by("data = %0 OR data > %1", {"3", "7"}));
+  EXPECT_TRUE(subscription->is_cft_supported());
   EXPECT_TRUE(subscription->is_cft_enabled());
   EXPECT_TRUE(comes_to_receive({3, 8, 9})) << testing::PrintToString(received_);
   const rclcpp::ContentFilterOptions filter = subscription->get_content_filter();

@@ -11,8 +11,8 @@ namespace class_loader::detail {
 // CLASS_LOADER_REGISTER_CLASS creates it as a static object in the library of the class.
 class Registration {
  public:
-  // `create` returns a pointer to the base class.
-  using Create = void* (*)();
+  // A `Base* (*)(<constructor_parameters of Base>...)`: see interface_traits.hpp.
+  using Create = void (*)();
 
   Registration(const char* class_name, const std::type_info& base, Create create);
   ~Registration();

@@ -274,6 +274,14 @@ class AnyNode {
                                                                  bool no_mangle = false) const {
     return node_graph_->get_subscriptions_info_by_topic(topic_name, no_mangle);
   }
+  std::vector<ServiceEndpointInfo> get_clients_info_by_service(const std::string& service_name,
+                                                               bool no_mangle = false) const {
+    return node_graph_->get_clients_info_by_service(service_name, no_mangle);
+  }
+  std::vector<ServiceEndpointInfo> get_servers_info_by_service(const std::string& service_name,
+                                                               bool no_mangle = false) const {
+    return node_graph_->get_servers_info_by_service(service_name, no_mangle);
+  }
   size_t count_publishers(const std::string& topic_name) const { return node_graph_->count_publishers(topic_name); }
   size_t count_subscribers(const std::string& topic_name) const { return node_graph_->count_subscribers(topic_name); }
   std::map<std::string, std::vector<std::string>> get_service_names_and_types() const {

@@ -38,6 +38,10 @@ class NodeGraph : public NodeGraphInterface {
                                                               bool no_mangle = false) const override;
   std::vector<TopicEndpointInfo> get_subscriptions_info_by_topic(const std::string& topic_name,
                                                                  bool no_mangle = false) const override;
+  std::vector<ServiceEndpointInfo> get_clients_info_by_service(const std::string& service_name,
+                                                               bool no_mangle = false) const override;
+  std::vector<ServiceEndpointInfo> get_servers_info_by_service(const std::string& service_name,
+                                                               bool no_mangle = false) const override;
   NamesAndTypes get_service_names_and_types() const override;
   size_t count_services(const std::string& service_name) const override;
   size_t count_clients(const std::string& service_name) const override;

@@ -12,6 +12,7 @@
 
 #include "rclcpp/event.hpp"
 #include "rclcpp/macros.hpp"
+#include "rclcpp/service_endpoint_info.hpp"
 #include "rclcpp/topic_endpoint_info.hpp"
 
 namespace rclcpp::node_interfaces {
@@ -53,6 +54,12 @@ class NodeGraphInterface {
                                                                       bool no_mangle = false) const = 0;
   virtual std::vector<TopicEndpointInfo> get_subscriptions_info_by_topic(const std::string& topic_name,
                                                                          bool no_mangle = false) const = 0;
+
+  // The service name is expanded and remapped as for a client of this node. With `no_mangle` types are those of DDS.
+  virtual std::vector<ServiceEndpointInfo> get_clients_info_by_service(const std::string& service_name,
+                                                                       bool no_mangle = false) const = 0;
+  virtual std::vector<ServiceEndpointInfo> get_servers_info_by_service(const std::string& service_name,
+                                                                       bool no_mangle = false) const = 0;
 
   virtual NamesAndTypes get_service_names_and_types() const = 0;
   // The service name is expanded and remapped as for a client of this node.
