@@ -28,7 +28,7 @@ std::optional<char> key_of(std::string_view text) {
 }
 
 std::string text_of(char key) {
-  if (key < 0 || key > kLastControl - kFirstControl) {
+  if (static_cast<unsigned char>(key) > kLastControl - kFirstControl) {
     return {key};
   }
   const char upper = static_cast<char>(key + kFirstControl);
