@@ -11,9 +11,11 @@
 #include <array>
 #include <cerrno>
 #include <memory>
+#include <string>
 #include <system_error>
 #include <variant>
 
+#include "base/environment/own_prefix.hpp"
 #include "launcher/visit/process_table.hpp"
 #include "rmw_message_faults/fault_table.hpp"
 
@@ -69,6 +71,18 @@ void fill(table::Fault& fault, const MessageFault& request) {
   fault.count = request.count.value_or(0);
   fault.delay = request.by.count();
   fault.seed = request.seed;
+}
+
+// Nodes of another ROS 2 get a library that applies the faults between their rcl and rmw. Those of this stack apply
+// them by themselves, and the library leaves them alone. Messages on loan cannot be changed.
+void preload_layer(Environment& environment) {
+  const std::string layer = own_library_file("librmw_fault_layer.so");
+  if (::access(layer.c_str(), R_OK) != 0) {
+    return;
+  }
+  std::string& preloaded = environment["LD_PRELOAD"];
+  preloaded += (preloaded.empty() ? "" : ":") + layer;
+  environment["ROS_DISABLE_LOANED_MESSAGES"] = "1";
 }
 
 [[noreturn]] void fail(const std::string& what) {
@@ -142,6 +156,7 @@ void MessageFaults::prepare(ProcessSpec& spec, ProcessId id) const {
   }
   if (!numbers.empty()) {
     spec.environment[table::kVariable] = fmt::format("{}:{}", numbers, path_);
+    preload_layer(spec.environment);
   }
 }
 

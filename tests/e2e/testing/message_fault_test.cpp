@@ -52,6 +52,32 @@ TEST_F(MessageFaultTest, EachKindHitsItsMessages) {
   EXPECT_EQ(faults[3]["what"], "delay by 0.05 s of message 3 on '/pong'");
 }
 
+// A node of another ROS 2 does not know of faults. A library between its rcl and rmw applies them; here it stands
+// before the rmw of this stack, which sees no faults.
+TEST_F(MessageFaultTest, NodesOfAnotherRos2GetALibraryThatAppliesThem) {
+  const std::filesystem::path script = sandbox_.directory() / "their_node";
+  write_file(script,
+             "RMW_FAULT_LAYER=$RMW_MESSAGE_FAULTS\nexport RMW_FAULT_LAYER\nunset RMW_MESSAGE_FAULTS\nexec \"$@\"\n");
+  const std::string prefix = "launch-prefix=\"sh " + script.string() + "\"";
+  const std::string file = write(R"xml(
+  <node pkg="demo_nodes" exec="pong" name="pong" )xml" +
+                                 prefix + R"xml(/>
+  <node pkg="demo_nodes" exec="ping" name="ping" )xml" +
+                                 prefix +
+                                 R"xml(><param name="count" value="5"/><param name="period_ms" value="10"/></node>
+  <test name="t">
+    <fault topic="/ping" do="drop" occurrence="2" count="2"/>
+    <fault topic="/ping" do="duplicate" occurrence="5" process="ping"/>
+    <fault topic="/pong" do="corrupt" occurrence="2" process="pong"/>
+    <fault topic="/pong" do="delay" occurrence="3" by="0.05"/>
+    <exit process="ping"/>
+  </test>)xml");
+  const auto results = run_for_json(file);
+  EXPECT_EQ(result_.exit_code, 0) << result_.out << result_.err;
+  EXPECT_EQ(plain(result_.out), "PASS  a.launch.xml: t  T s  (4 of 4 faults)\n\n1 test: 1 passed, in T s\n");
+  EXPECT_EQ(results["tests"][0]["faults"][0]["messages"], 2);
+}
+
 // What the trace says: ping has published, and pong has not taken.
 TEST_F(MessageFaultTest, ADroppedMessageIsLostInTheTraceAndADelayedOneIsOld) {
   // The late message must come before ping ends. No other message may be as late, even on a busy machine.

@@ -26,6 +26,13 @@ using rmw_message_faults::Kind;
 using rmw_message_faults::Side;
 using rmw_message_faults::Table;
 
+// Whether the layer for other middlewares (fault_layer) applies the faults, instead of the rmw of this stack.
+#ifdef RMW_FAULT_LAYER_UNDER_TEST
+constexpr bool kIsLayer = true;
+#else
+constexpr bool kIsLayer = false;
+#endif
+
 struct Asked {
   const char* topic;
   Kind kind;
@@ -72,7 +79,7 @@ class FaultTable : public testing::Environment {
     }
     ASSERT_EQ(::mkfifo((path_ + ".wake").c_str(), 0600), 0);
     wake = ::open((path_ + ".wake").c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
-    ::setenv("RMW_MESSAGE_FAULTS", (numbers + ":" + path_).c_str(), 1);
+    ::setenv(kIsLayer ? "RMW_FAULT_LAYER" : "RMW_MESSAGE_FAULTS", (numbers + ":" + path_).c_str(), 1);
   }
   void TearDown() override {
     ::unlink((path_ + ".wake").c_str());

@@ -167,9 +167,11 @@ TEST_F(ServiceFaultsTest, SendsResponsesTwice) {
   EXPECT_THAT(sums_, ElementsAre(Pair(1, 11), Pair(2, 12), Pair(2, 12), Pair(3, 13)));
 }
 
+// In the layer the thread that has sent a late response waits with it.
 TEST_F(ServiceFaultsTest, SendsResponsesLate) {
   ask("/late_response", 2, 2, 2);
-  EXPECT_THAT(sums_, ElementsAre(Pair(2, 12), Pair(1, 11)));
+  const Sums expected = {{2, 12}, {1, 11}};
+  EXPECT_EQ(sums_, rmw_test::kIsLayer ? Sums(expected.rbegin(), expected.rend()) : expected);
 }
 
 TEST_F(ServiceFaultsTest, ChangesBytesOfResponses) {

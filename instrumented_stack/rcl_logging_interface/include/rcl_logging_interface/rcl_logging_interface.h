@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a logging backend implements: a library `lib<name>.so` with the functions rcl_logging_external_…, which rcl loads
-// for RCL_LOGGING_IMPLEMENTATION=<name>. rcl calls them only between initialize and shutdown; log from any thread.
+// What a logging backend implements: a library `lib<name>.so` with the functions rcl_logging_external_…, which rcl
+// loads for RCL_LOGGING_IMPLEMENTATION=<name>. rcl calls them only between initialize and shutdown; log from any
+// thread.
 #pragma once
 
 #include "rcutils/allocator.h"
@@ -26,8 +27,8 @@ void rcl_logging_external_log(int severity, const char* name, const char* msg);
 // Null is the root of all loggers.
 rcl_logging_ret_t rcl_logging_external_set_logger_level(const char* name, int level);
 
-// The folder for log files: ROS_LOG_DIR, else ROS_HOME/log, else ~/.ros/log. The caller frees `*directory`, which must be
-// null before.
+// The folder for log files: ROS_LOG_DIR, else ROS_HOME/log, else ~/.ros/log. The caller frees `*directory`, which must
+// be null before.
 rcl_logging_ret_t rcl_logging_get_logging_directory(rcutils_allocator_t allocator, char** directory);
 
 #ifdef __cplusplus

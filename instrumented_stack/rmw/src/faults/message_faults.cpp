@@ -21,7 +21,6 @@ namespace rmw_fastrtps {
 namespace {
 
 using rmw_message_faults::Fault;
-using rmw_message_faults::Kind;
 using rmw_message_faults::Side;
 using rmw_message_faults::Table;
 
@@ -53,15 +52,15 @@ Table* map_table(const std::string& path) {
   }
   if (memory == MAP_FAILED) {
     const bool is_short = file >= 0 && static_cast<std::size_t>(status.st_size) < sizeof(Table);
-    std::fprintf(stderr, "[rmw] the faults of $%s cannot be read: '%s': %s\n", rmw_message_faults::kVariable,
-                 path.c_str(), is_short ? "it is too short" : std::strerror(error));
+    std::fprintf(stderr, "[rmw] the faults of $%s cannot be read: '%s': %s\n", variable_of_faults(), path.c_str(),
+                 is_short ? "it is too short" : std::strerror(error));
     return nullptr;
   }
   auto* const table = static_cast<Table*>(memory);
   if (table->magic != Table::kMagic || table->size_of_fault != sizeof(Fault) ||
       Table::size_for(table->count) > static_cast<std::size_t>(status.st_size)) {
     std::fprintf(stderr, "[rmw] the faults of $%s cannot be read: '%s' was written by another version\n",
-                 rmw_message_faults::kVariable, path.c_str());
+                 variable_of_faults(), path.c_str());
     return nullptr;
   }
   return table;
@@ -69,7 +68,7 @@ Table* map_table(const std::string& path) {
 
 OwnFaults read_own_faults() {
   OwnFaults own;
-  const char* const value = std::getenv(rmw_message_faults::kVariable);
+  const char* const value = std::getenv(variable_of_faults());
   const std::string_view text = value == nullptr ? "" : value;
   const std::size_t colon = text.find(':');
   if (colon == std::string_view::npos) {
@@ -134,6 +133,7 @@ std::unique_ptr<MessageFaults> MessageFaults::of(Side side, const std::string& t
 }
 
 MessageFate MessageFaults::next() {
+  using rmw_message_faults::Kind;
   MessageFate fate;
   for (Fault* const fault : faults_) {
     if (fault->is_armed == 0) {

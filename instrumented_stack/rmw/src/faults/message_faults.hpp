@@ -16,6 +16,9 @@
 
 namespace rmw_fastrtps {
 
+// The name of the variable of the environment that names the table.
+const char* variable_of_faults();
+
 // What happens to one message.
 struct MessageFate {
   bool is_dropped = false;

@@ -92,8 +92,8 @@ rmw_ret_t infos(const rmw_node_t* node, rcutils_allocator_t* allocator, const ch
   const std::string requests = rmw_fastrtps::mangled_request_topic(service_name);
   const std::string responses = rmw_fastrtps::mangled_response_topic(service_name);
   const bool is_client = type == RMW_ENDPOINT_CLIENT;
-  const std::vector<End> found = ends(node->context->impl->graph, is_client ? responses : requests,
-                                      is_client ? requests : responses);
+  const std::vector<End> found =
+      ends(node->context->impl->graph, is_client ? responses : requests, is_client ? requests : responses);
   if (found.empty()) {
     return RMW_RET_OK;
   }
