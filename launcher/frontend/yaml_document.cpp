@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <map>
 #include <optional>
 #include <utility>
@@ -146,9 +147,27 @@ class TreeBuilder {
     }
   }
 
+  // The tag takes numbers that are no float without it: 10, and 1e3, which YAML 1.1 reads as a text.
+  static void make_float(Scalar& scalar) {
+    const std::string& text = scalar.text.text();
+    double number = 0;
+    if (scalar.type == Scalar::Type::kInt) {
+      number = static_cast<double>(scalar.int_value);
+    } else if (scalar.type != Scalar::Type::kString ||
+               std::from_chars(text.data(), text.data() + text.size(), number).ptr != text.data() + text.size() ||
+               text.empty()) {
+      return;
+    }
+    scalar.type = Scalar::Type::kFloat;
+    scalar.float_value = number;
+  }
+
   void apply_tag(std::string_view tag, Scalar& scalar) {
     if (tag != "!" && tag != fmt::format("{}str", kStandardTag)) {
       set_yaml11_type(scalar);
+      if (tag == fmt::format("{}{}", kStandardTag, type_name(Scalar::Type::kFloat))) {
+        make_float(scalar);
+      }
       if (tag == fmt::format("{}{}", kStandardTag, type_name(scalar.type))) {
         return;
       }

@@ -2,6 +2,9 @@
 // Which launch arguments the text of a file reads.
 #pragma once
 
+#include <functional>
+#include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,8 +13,21 @@
 
 namespace launch {
 
-// Whether the file may read the argument: it has $(var NAME), or reads a name that is computed, or it is a Python
-// launch file that has the name as a text.
+// The arguments that a file may read: it has $(var NAME), or reads a name that is computed, or it is a Python launch
+// file that has the name as a text. The text is searched once for all names, but for that of Python.
+class ArgumentUse {
+ public:
+  explicit ArgumentUse(std::shared_ptr<const SourceFile> file);
+
+  bool may_read(std::string_view name) const;
+
+ private:
+  std::shared_ptr<const SourceFile> python_;  // null for other files
+  std::set<std::string, std::less<>> names_;
+  bool computes_names_ = false;
+};
+
+// The same of one name.
 bool may_read(const SourceFile& file, std::string_view name);
 
 // Whether the launcher itself reads the configuration.

@@ -104,7 +104,7 @@ void run_launch(const TestRun& run, Guardian& guardian, TestResult& result) {
   const DomainLease domain;
   const Environment environment = own_surroundings(run, domain.id());
   ::setenv("ROS_DOMAIN_ID", std::to_string(domain.id()).c_str(), 1);
-  const LogDirectory log_directory = LogDirectory::create(environment);
+  const LogDirectory log_directory = LogDirectory::create(LogDirectory::choose(environment));
 
   // While there is one thread. A host has the disks, too.
   const std::unique_ptr<TestDisks> disks = make_disks(run, environment, log_directory.path, result);

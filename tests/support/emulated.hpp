@@ -30,4 +30,5 @@ inline bool vfork_shares_memory() {
 
 #define NEEDS_VFORK() NEEDS_WHAT_QEMU_LACKS("vfork() copies the memory here, as under QEMU")
 #define NEEDS_PROC_SELF() NEEDS_WHAT_QEMU_LACKS("/proc/self/stat is made up here, as by QEMU")
+#define NEEDS_ITS_OWN_TRACER() NEEDS_WHAT_QEMU_LACKS("a tracer that runs under QEMU ends sessions late or never")
 #define NEEDS_NETWORK_DEVICES() NEEDS_WHAT_QEMU_LACKS("no network devices can be seen here, as under QEMU")

@@ -58,15 +58,18 @@ std::string renew_latest(const fs::path& base, const std::string& name) {
 
 }  // namespace
 
-LogDirectory LogDirectory::create(const std::map<std::string, std::string>& environment) {
-  const fs::path base = fs::absolute(ros_log_directory(environment));
+std::string LogDirectory::choose(const std::map<std::string, std::string>& environment) {
+  return (fs::absolute(ros_log_directory(environment)) / run_name()).string();
+}
+
+LogDirectory LogDirectory::create(const std::string& chosen) {
+  const fs::path base = fs::path(chosen).parent_path();
   std::error_code error;
   fs::create_directories(base, error);
   if (error) {
     fail(base, error);
   }
-  while (true) {
-    const std::string name = run_name();
+  for (std::string name = fs::path(chosen).filename();; name = run_name()) {
     const fs::path directory = base / name;
     if (::mkdir(directory.c_str(), 0777) == 0) {
       UniqueFd running = mark_log_directory(directory.string());

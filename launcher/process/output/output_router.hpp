@@ -30,8 +30,11 @@ struct LogDirectory {
   std::string warning;  // why BASE/latest was not updated; empty when it was
   UniqueFd running;     // as long as it is open, no other launch removes the directory (old_logs.hpp)
 
-  // BASE by ROS_LOG_DIR, else ROS_HOME/log, else ~/.ros/log. Throws std::system_error.
-  static LogDirectory create(const std::map<std::string, std::string>& environment);
+  // A path that is not there yet: launch files may read it before the launch begins. BASE by ROS_LOG_DIR, else
+  // ROS_HOME/log, else ~/.ros/log.
+  static std::string choose(const std::map<std::string, std::string>& environment);
+  // Makes `chosen`, or another one if that is there by now. Throws std::system_error.
+  static LogDirectory create(const std::string& chosen);
 };
 
 // Single-threaded. Lines are handed to the kernel before a call returns, all lines of one write() with one system call

@@ -154,15 +154,20 @@ class Checker {
     if (!list.complete || !plan.python_includes.empty()) {
       return;  // it is not known which arguments are read
     }
-    const auto any_reads = [&](const std::function<bool(const LaunchDescription&)>& reads) {
-      return reads(description) ||
-             std::any_of(list.loaded.begin(), list.loaded.end(), [&](const auto& loaded) { return reads(*loaded); });
+    std::vector<ArgumentUse> uses;
+    const auto add = [&uses](const std::shared_ptr<const SourceFile>& file) {
+      if (file != nullptr) {
+        uses.emplace_back(file);
+      }
     };
+    add(description.file);
+    for (const auto& loaded : list.loaded) {
+      add(loaded->file);
+    }
+    std::for_each(performed_files_.begin(), performed_files_.end(), add);
     for (const ArgumentInfo& info : list.arguments) {
       const std::string& name = info.declaration->name;
-      if (!any_reads([&](const LaunchDescription& file) { return is_read_in(file, name); }) &&
-          std::none_of(performed_files_.begin(), performed_files_.end(),
-                       [&](const auto& file) { return may_read(*file, name); })) {
+      if (std::none_of(uses.begin(), uses.end(), [&](const ArgumentUse& use) { return use.may_read(name); })) {
         warn(Finding::kUnreadArgument, fmt::format("argument '{}' is never read", name), info.declaration->where);
       }
     }

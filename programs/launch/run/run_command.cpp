@@ -136,7 +136,7 @@ void tell_isolation(const Isolation& isolation, OutputRouter& output) {
 int run(const CommandLine& command, const Registry& registry, const Environment& environment,
         const std::shared_ptr<const LaunchDescription>& description, const std::vector<std::string>& files,
         Guardian& guardian, const Isolation& isolation, const std::optional<ServiceAddress>& service_manager,
-        TimedStep load_step, LaunchRecord load_record) {
+        const std::string& chosen_log_directory, TimedStep load_step, LaunchRecord load_record) {
   // A signal that was ignored when we started would never arrive. Shells ignore some for programs in the background.
   // nohup(1) ignores SIGHUP, which stays so.
   for (const int signal : {SIGINT, SIGQUIT, SIGTERM}) {
@@ -145,7 +145,7 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   ::signal(SIGPIPE, SIG_IGN);
 
   const LogLimits limits_of_logs = log_limits(command, environment);
-  const LogDirectory log_directory = LogDirectory::create(environment);
+  const LogDirectory log_directory = LogDirectory::create(chosen_log_directory);
   const std::unique_ptr<EventLoop> loop = make_sd_event_loop();
   const OutputRouter::Options options = output_options(command, environment, log_directory.path, *loop);
   const std::string log = log_directory.path + "/" + options.log_name;
@@ -347,6 +347,7 @@ int run_command(const CommandLine& command, Environment environment,
                           [](LogLevel, std::string_view logger, std::string_view text) {
                             fmt::print(stderr, "[{}]: {}\n", logger, text);
                           });
+    context.scope().log_directory = LogDirectory::choose(environment);
     set_arguments(command, context);
 
     const std::int64_t begin = monotonic_time();
@@ -376,7 +377,8 @@ int run_command(const CommandLine& command, Environment environment,
         result->print(dry_run(command, context, *description, environment));
         return result->finish() ? 0 : 1;
       case CommandMode::kRun:
-        return run(command, registry, environment, description, files, *guardian, isolation, service_manager, load,
+        return run(command, registry, environment, description, files, *guardian, isolation, service_manager,
+                   context.scope().log_directory, load,
                    {.kind = LaunchRecord::Kind::kLoad,
                     .name = description->file == nullptr ? "several files" : description->file->path(),
                     .where = {description->file, 0, 0},

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 TEST(LogDirectory, IsNamedAfterTimeHostAndProcess) {
   const TemporaryDirectory base;
-  const LogDirectory log = LogDirectory::create({{"ROS_LOG_DIR", base.path()}});
+  const LogDirectory log = LogDirectory::create(LogDirectory::choose({{"ROS_LOG_DIR", base.path()}}));
   const fs::path path = log.path;
   EXPECT_EQ(path.parent_path(), base.path());
   EXPECT_TRUE(fs::is_directory(path));
@@ -28,7 +28,7 @@ TEST(LogDirectory, IsNamedAfterTimeHostAndProcess) {
 TEST(LogDirectory, IsWhatLatestPointsTo) {
   const TemporaryDirectory base;
   for (int i = 0; i < 2; ++i) {
-    const LogDirectory log = LogDirectory::create({{"ROS_LOG_DIR", base.path()}});
+    const LogDirectory log = LogDirectory::create(LogDirectory::choose({{"ROS_LOG_DIR", base.path()}}));
     EXPECT_EQ(fs::canonical(base.path() + "/latest"), fs::canonical(log.path));
   }
   EXPECT_EQ(std::distance(fs::directory_iterator(base.path()), fs::directory_iterator()), 3);
@@ -37,7 +37,7 @@ TEST(LogDirectory, IsWhatLatestPointsTo) {
 TEST(LogDirectory, LeavesALatestThatIsNoLink) {
   const TemporaryDirectory base;
   fs::create_directory(base.path() + "/latest");
-  const LogDirectory log = LogDirectory::create({{"ROS_LOG_DIR", base.path()}});
+  const LogDirectory log = LogDirectory::create(LogDirectory::choose({{"ROS_LOG_DIR", base.path()}}));
   EXPECT_EQ(log.warning, "'" + base.path() + "/latest' is not a symbolic link: it is left as it is");
   EXPECT_TRUE(fs::is_directory(log.path));
 }
@@ -45,7 +45,7 @@ TEST(LogDirectory, LeavesALatestThatIsNoLink) {
 TEST(LogDirectory, FollowsRosHomeAndHome) {
   const TemporaryDirectory home;
   const auto parent = [](const std::map<std::string, std::string>& environment) {
-    return fs::path(LogDirectory::create(environment).path).parent_path();
+    return fs::path(LogDirectory::create(LogDirectory::choose(environment)).path).parent_path();
   };
   EXPECT_EQ(parent({{"HOME", home.path()}}), home.path() + "/.ros/log");
   EXPECT_EQ(parent({{"HOME", home.path()}, {"ROS_LOG_DIR", ""}, {"ROS_HOME", ""}}), home.path() + "/.ros/log");
@@ -58,7 +58,7 @@ TEST(LogDirectory, FailsClearlyWhenItCannotBeMade) {
   const TemporaryDirectory base;
   const std::string file = base.write("file", "");
   try {
-    LogDirectory::create({{"ROS_LOG_DIR", file + "/log"}});
+    LogDirectory::create(LogDirectory::choose({{"ROS_LOG_DIR", file + "/log"}}));
     FAIL() << "it was made";
   } catch (const std::system_error& error) {
     EXPECT_EQ(error.what(),

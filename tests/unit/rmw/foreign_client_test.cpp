@@ -20,6 +20,7 @@
 #include "fastdds_versions/writer.hpp"
 #include "rmw_test.hpp"
 #include "rosidl_typesupport_cpp/service_type_support.hpp"
+#include "tests/support/emulated.hpp"
 #include "tests/support/sandbox.hpp"
 
 namespace {
@@ -50,6 +51,8 @@ void wait_for(ConditionT condition) {
 
 class ForeignClient : public testing::Test {
  protected:
+  void SetUp() override { NEEDS_NETWORK_DEVICES(); }
+
   ForeignClient() {
     // Serialized bytes must work between the two sides as between processes.
     rmw_fastrtps::turn_off_delivery_within_the_process();

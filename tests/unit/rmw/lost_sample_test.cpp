@@ -21,6 +21,7 @@
 #include "fastdds_versions/writer.hpp"
 #include "rmw_test.hpp"
 #include "std_msgs/msg/string.hpp"
+#include "tests/support/emulated.hpp"
 #include "tests/support/sandbox.hpp"
 
 namespace {
@@ -94,6 +95,8 @@ class Matches final : public fdds::DataWriterListener {
 
 class LostSample : public testing::Test {
  protected:
+  void SetUp() override { NEEDS_NETWORK_DEVICES(); }
+
   LostSample() {
     rmw_fastrtps::turn_off_delivery_within_the_process();
     auto transport = std::make_shared<rtps::test_UDPv4TransportDescriptor>();

@@ -25,6 +25,7 @@
 #include "rmw_dds_common/msg/participant_entities_info.hpp"
 #include "rmw_test.hpp"
 #include "std_msgs/msg/string.hpp"
+#include "tests/support/emulated.hpp"
 #include "tests/support/sandbox.hpp"
 
 namespace {
@@ -78,6 +79,8 @@ constexpr uint32_t kDomain = 42;
 
 class Wire : public testing::Test {
  protected:
+  void SetUp() override { NEEDS_NETWORK_DEVICES(); }
+
   Wire() {
     // Serialized bytes must work between the two sides as between processes.
     rmw_fastrtps::turn_off_delivery_within_the_process();

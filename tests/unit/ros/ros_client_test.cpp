@@ -15,6 +15,7 @@
 
 #include "ros_client_fixture.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/emulated.hpp"
 
 namespace {
 
@@ -199,6 +200,7 @@ TEST_F(RosClientTest, AClientThatIsKilledIsToldAndTheNextRequestStartsAnother) {
 }
 
 TEST_F(RosClientTest, AProgramThatIsMissingIsToldLater) {
+  NEEDS_VFORK();
   launch::RosClientProcess missing(*loop_, "/nowhere/launch-ros-client");
   std::optional<RosAnswer> answer;
   const auto source = missing.ask(launch::NodePresent{"/n"}, environment_, 0s, [&](const RosAnswer& given) {

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "tests/support/command.hpp"
+#include "tests/support/emulated.hpp"
 #include "tests/support/sandbox.hpp"
 #include "tests/support/sanitized.hpp"
 
@@ -107,6 +108,7 @@ TEST_F(DaemonArrival, MakesTheProcessTraceable) {
 
 // LTTng asks for the objects of a process when it registers the process, before it knows the events of the provider.
 TEST_F(DaemonArrival, MakesTheProcessTellItsObjectsToASessionThatRunsBeforeItIsRegistered) {
+  NEEDS_ITS_OWN_TRACER();
   RunningCommand process({.argv = {OBJECTS_ON_COMMAND}});
   ASSERT_THAT(maps_of_started(process), Not(HasSubstr("/liblttng-ust.so")));
   ASSERT_EQ(kill(process.pid(), SIGSTOP), 0);
@@ -210,6 +212,7 @@ TEST_F(DaemonArrival, IsNotAwaitedWhenTheFileSaysThatADaemonRuns) {
 }
 
 TEST_F(DaemonArrival, IsLeftToLttngInAProgramThatUsesIt) {
+  NEEDS_WHAT_QEMU_LACKS("a process has a thread more here, as under QEMU");
   if (test_support::kThreadSanitized) {
     GTEST_SKIP() << test_support::kHasOneMoreThread;
   }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tests/support/command.hpp"
+#include "tests/support/emulated.hpp"
 #include "tests/support/sandbox.hpp"
 
 namespace {
@@ -119,6 +120,7 @@ struct SeveralSessions : testing::TestWithParam<unsigned> {
 };
 
 TEST_F(SeveralSessions, GetNothingFromTheDumpsOfEachOther) {
+  NEEDS_ITS_OWN_TRACER();
   make();
   RecordedSession first = session("first");
   first.create("ros2:*,ros2_ext:*");
@@ -169,6 +171,7 @@ TEST_F(SeveralSessions, WithARuleForNoStateDumpHaveNewObjectsOnly) {
 
 // Three sessions begin, pause, resume, ask again and end at random, while objects come and go.
 TEST_P(SeveralSessions, HoldEachObjectOnce) {
+  NEEDS_ITS_OWN_TRACER();
   std::mt19937 random(GetParam());
   const auto one_of = [&random](unsigned count) {
     return std::uniform_int_distribution<unsigned>(0, count - 1)(random);

@@ -9,8 +9,8 @@
 
 namespace rmw_fault_layer {
 
-using rmw_fastrtps::DelayedCalls;
 using rmw_fastrtps::delayed_calls;
+using rmw_fastrtps::DelayedCalls;
 using rmw_fastrtps::MessageFate;
 
 IncomingMessages::IncomingMessages(std::unique_ptr<rmw_fastrtps::MessageFaults> faults, std::size_t size_of_info,

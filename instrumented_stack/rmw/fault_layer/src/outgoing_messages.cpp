@@ -5,8 +5,8 @@
 
 namespace rmw_fault_layer {
 
-using rmw_fastrtps::DelayedCalls;
 using rmw_fastrtps::delayed_calls;
+using rmw_fastrtps::DelayedCalls;
 using rmw_fastrtps::MessageFate;
 
 OutgoingMessages::~OutgoingMessages() {

@@ -51,8 +51,7 @@ inline std::unique_ptr<rmw_fastrtps::MessageFaults> faults_of(rmw_message_faults
     return nullptr;
   }
   const std::string name_space = node->namespace_;
-  return rmw_fastrtps::MessageFaults::of(side, name,
-                                         name_space + (name_space.ends_with('/') ? "" : "/") + node->name);
+  return rmw_fastrtps::MessageFaults::of(side, name, name_space + (name_space.ends_with('/') ? "" : "/") + node->name);
 }
 
 }  // namespace rmw_fault_layer

@@ -67,14 +67,14 @@ RMW_FAULT_LAYER_FUNCTION rmw_ret_t rmw_take_request(const rmw_service_t* service
     return take_next(service, info, request, taken);
   }
   const rosidl_message_type_support_t* const type = type_of_requests(*faulty);
-  return faulty->requests->take(
-      {.take =
-           [&](void* own_info, bool& is_taken) {
-             return take_next(service, static_cast<rmw_service_info_t*>(own_info), request, &is_taken);
-           },
-       .bytes = [&] { return type == nullptr ? Bytes() : serialize(request, type); },
-       .set = [&](const Bytes& bytes) { return deserialize(bytes, type, request); }},
-      info, *taken);
+  return faulty->requests->take({.take =
+                                     [&](void* own_info, bool& is_taken) {
+                                       return take_next(service, static_cast<rmw_service_info_t*>(own_info), request,
+                                                        &is_taken);
+                                     },
+                                 .bytes = [&] { return type == nullptr ? Bytes() : serialize(request, type); },
+                                 .set = [&](const Bytes& bytes) { return deserialize(bytes, type, request); }},
+                                info, *taken);
 }
 
 // A response cannot be copied, so one that is late keeps its thread waiting.

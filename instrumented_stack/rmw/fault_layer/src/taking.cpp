@@ -23,14 +23,14 @@ Registry<Subscription>& subscriptions() {
 rmw_ret_t take(const Subscription& faulty, const rmw_subscription_t* subscription, void* message, void* info,
                bool* taken, rmw_subscription_allocation_t* allocation) {
   static auto* const take_next = next<decltype(::rmw_take_with_info)>("rmw_take_with_info");
-  return faulty.messages->take(
-      {.take =
-           [&](void* own_info, bool& is_taken) {
-             return take_next(subscription, message, &is_taken, static_cast<rmw_message_info_t*>(own_info), allocation);
-           },
-       .bytes = [&] { return serialize(message, faulty.type); },
-       .set = [&](const Bytes& bytes) { return deserialize(bytes, faulty.type, message); }},
-      info, *taken);
+  return faulty.messages->take({.take =
+                                    [&](void* own_info, bool& is_taken) {
+                                      return take_next(subscription, message, &is_taken,
+                                                       static_cast<rmw_message_info_t*>(own_info), allocation);
+                                    },
+                                .bytes = [&] { return serialize(message, faulty.type); },
+                                .set = [&](const Bytes& bytes) { return deserialize(bytes, faulty.type, message); }},
+                               info, *taken);
 }
 
 bool assign(const Bytes& bytes, rmw_serialized_message_t& message) {

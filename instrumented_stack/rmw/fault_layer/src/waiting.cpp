@@ -55,16 +55,17 @@ std::optional<Clock::time_point> end_of(const rmw_time_t* timeout) {
 }
 
 rmw_time_t until(Clock::time_point end) {
-  const std::int64_t rest = std::max<std::int64_t>(
-      0, std::chrono::duration_cast<std::chrono::nanoseconds>(end - Clock::now()).count());
+  const std::int64_t rest =
+      std::max<std::int64_t>(0, std::chrono::duration_cast<std::chrono::nanoseconds>(end - Clock::now()).count());
   return {static_cast<std::uint64_t>(rest / kSecond), static_cast<std::uint64_t>(rest % kSecond)};
 }
 
 }  // namespace
 
-RMW_FAULT_LAYER_FUNCTION rmw_ret_t rmw_wait(rmw_subscriptions_t* subscriptions, rmw_guard_conditions_t* guard_conditions,
-                                            rmw_services_t* services, rmw_clients_t* clients, rmw_events_t* events,
-                                            rmw_wait_set_t* wait_set, const rmw_time_t* timeout) {
+RMW_FAULT_LAYER_FUNCTION rmw_ret_t rmw_wait(rmw_subscriptions_t* subscriptions,
+                                            rmw_guard_conditions_t* guard_conditions, rmw_services_t* services,
+                                            rmw_clients_t* clients, rmw_events_t* events, rmw_wait_set_t* wait_set,
+                                            const rmw_time_t* timeout) {
   static auto* const wait_next = next<decltype(::rmw_wait)>("rmw_wait");
   const auto of = [](auto* array, auto count, auto entries) {
     return array == nullptr ? std::span<void*>() : std::span<void*>(array->*entries, array->*count);
@@ -94,8 +95,8 @@ RMW_FAULT_LAYER_FUNCTION rmw_ret_t rmw_wait(rmw_subscriptions_t* subscriptions, 
     }
     rmw_guard_conditions_t all_guards{guards.size(), guards.data()};
     const rmw_time_t rest = is_waiting || !end ? rmw_time_t{0, 0} : until(*end);
-    const rmw_ret_t result = wait_next(subscriptions, &all_guards, services, clients, events, wait_set,
-                                       is_waiting || end ? &rest : nullptr);
+    const rmw_ret_t result =
+        wait_next(subscriptions, &all_guards, services, clients, events, wait_set, is_waiting || end ? &rest : nullptr);
     std::copy_n(guards.begin(), of_guards.size(), of_guards.begin());
     if (result != RMW_RET_OK && result != RMW_RET_TIMEOUT) {
       return result;

@@ -8,6 +8,7 @@ from launch._entities import entity
 from launch._values import LaunchFileError, WrongKind, boolean, name_of, text
 from launch.substitution import Substitution
 from launch.substitutions import _Builtin
+from launch.utilities.type_utils import is_text
 from launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
 
 _SCALARS = (bool, int, float)
@@ -85,6 +86,8 @@ def _list(values):
 
 def as_yaml(value):
     """The text that the rules of YAML read as this value; substitutions stay as they are."""
+    if isinstance(value, ParameterValue):
+        return _typed_as_yaml(value)
     value = parameter_value(value)
     if isinstance(value, bool):
         return 'true' if value else 'false'
@@ -97,3 +100,16 @@ def as_yaml(value):
             parts += text(as_yaml(item) if not isinstance(item, tuple) else item, 'an item')
         return (*parts, ']')
     return repr(value) if isinstance(value, (int, float)) else value
+
+
+_TAGS = {'bool': '!!bool ', 'int': '!!int ', 'float': '!!float '}
+
+
+def _typed_as_yaml(value):
+    """Of a ParameterValue. Without a type, a text is read by the rules of YAML."""
+    if not is_text(value._value):
+        return as_yaml(value._value)
+    parts = text(value._value, 'a parameter')
+    if value._type == 'str':
+        return as_yaml(parts[0]) if len(parts) == 1 and isinstance(parts[0], str) else ("'", *parts, "'")
+    return (_TAGS[value._type], *parts) if value._type in _TAGS else parts

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/emulated.hpp"
 #include "tests/unit/rclcpp/ros_test.hpp"
 
 using rclcpp::MessageInfo;
@@ -204,6 +205,7 @@ TEST_F(PubSubTest, KnowsNamesQueuesQosAndCounts) {
 }
 
 TEST_F(PubSubTest, TellsWhereInTheNetworkItSendsAndListens) {
+  NEEDS_NETWORK_DEVICES();
   const auto subscription = node_->create_subscription<String>("topic", 10, [](const String&) {});
   const auto endpoints = subscription->get_network_flow_endpoints();
   const auto udp = std::find_if(endpoints.begin(), endpoints.end(),
