@@ -147,19 +147,17 @@ class TreeBuilder {
     }
   }
 
-  // The tag takes numbers that are no float without it: 10, and 1e3, which YAML 1.1 reads as a text.
+  // The tag takes decimal numbers that are no float without it: 10, and 1e3, which YAML 1.1 reads as a text.
   static void make_float(Scalar& scalar) {
-    const std::string& text = scalar.text.text();
+    std::string digits = scalar.text.text();
+    digits.erase(std::remove(digits.begin(), digits.end(), '_'), digits.end());
+    const char* const begin = digits.data() + (digits.starts_with('+') ? 1 : 0);
+    const char* const end = digits.data() + digits.size();
     double number = 0;
-    if (scalar.type == Scalar::Type::kInt) {
-      number = static_cast<double>(scalar.int_value);
-    } else if (scalar.type != Scalar::Type::kString ||
-               std::from_chars(text.data(), text.data() + text.size(), number).ptr != text.data() + text.size() ||
-               text.empty()) {
-      return;
+    if (begin != end && std::from_chars(begin, end, number).ptr == end) {
+      scalar.type = Scalar::Type::kFloat;
+      scalar.float_value = number;
     }
-    scalar.type = Scalar::Type::kFloat;
-    scalar.float_value = number;
   }
 
   void apply_tag(std::string_view tag, Scalar& scalar) {

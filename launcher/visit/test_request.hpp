@@ -59,6 +59,7 @@ struct ExpectedMessages {
   std::optional<std::uint64_t> most;  // nullopt: any number
   std::optional<double> least_rate;   // messages in a second, from the first to the last one
   std::optional<double> most_rate;
+  bool without_publisher = false;  // `most` holds as well where nobody publishes
 };
 // The most that a process may have used when it ends.
 struct ExpectedResources {

@@ -36,6 +36,13 @@ class MessageCheck final : public Check {
       return with_messages(
           {fmt::format("there was not {} {}", enough_text(), when), expectation().where, count_text(), seen_text()});
     }
+    if (expected_.most && !could_have_come()) {
+      return Failure{.message = fmt::format("{} could not come", message_text()),
+                     .where = expectation().where,
+                     .expected = count_text(),
+                     .seen = seen_text(),
+                     .help = seen_.publishers == 0 ? "without_publisher=\"true\" allows that nobody publishes" : ""};
+    }
     if (!expected_.least_rate && !expected_.most_rate) {
       return std::nullopt;
     }
@@ -50,6 +57,14 @@ class MessageCheck final : public Check {
   }
 
  private:
+  // An upper limit says something only of a topic that has had a publisher of the type.
+  bool could_have_come() const {
+    return seen_.all != 0 || (seen_.publishers == 0 && expected_.without_publisher) || is_of_type();
+  }
+  bool is_of_type() const {
+    return std::find(seen_.types.begin(), seen_.types.end(), expected_.watch->type()) != seen_.types.end();
+  }
+
   bool holds_until_end() const { return expected_.most || expected_.least_rate || expected_.most_rate; }
 
   void take(const SeenMessages& seen) {
@@ -109,9 +124,8 @@ class MessageCheck final : public Check {
     if (seen_.publishers == 0) {
       return "nobody has published on the topic: it was never there";
     }
-    const std::vector<std::string>& types = seen_.types;
-    if (std::find(types.begin(), types.end(), expected_.watch->type()) == types.end()) {
-      return fmt::format("the topic has messages of type {}, and not {}", fmt::join(types, ", "),
+    if (!is_of_type()) {
+      return fmt::format("the topic has messages of type {}, and not {}", fmt::join(seen_.types, ", "),
                          expected_.watch->type());
     }
     return fmt::format("no message, but {} publisher{}", seen_.publishers, seen_.publishers == 1 ? "" : "s");

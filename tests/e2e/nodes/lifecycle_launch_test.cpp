@@ -141,6 +141,46 @@ def generate_launch_description():
   EXPECT_THAT(result.out, HasSubstr("it is active"));
 }
 
+// Matchers mean the action, so they find the node where its name and its namespace are gone.
+TEST_F(LifecycleLaunch, APythonFileLeadsANodeWhoseScopeHasEnded) {
+  const auto path = sandbox_.directory() / "system.launch.py";
+  write_file(path, R"py(
+from launch import LaunchDescription
+from launch.actions import EmitEvent, GroupAction, LogInfo, RegisterEventHandler, SetLaunchConfiguration, Shutdown
+from launch.events import matches_action
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import LifecycleNode, PushRosNamespace
+from launch_ros.event_handlers import OnStateTransition
+from launch_ros.events.lifecycle import ChangeState
+from lifecycle_msgs.msg import Transition
+
+
+def generate_launch_description():
+    talker = LifecycleNode(package='lifecycle', executable='lifecycle_talker', name=LaunchConfiguration('n'),
+                           namespace='')
+
+    def change(transition):
+        return EmitEvent(event=ChangeState(lifecycle_node_matcher=matches_action(talker), transition_id=transition))
+
+    return LaunchDescription([
+        GroupAction([
+            PushRosNamespace('left'),
+            SetLaunchConfiguration('n', 'talker'),
+            talker,
+            RegisterEventHandler(OnStateTransition(
+                target_lifecycle_node=talker, goal_state='inactive', entities=[change(Transition.TRANSITION_ACTIVATE)])),
+        ]),
+        RegisterEventHandler(OnStateTransition(
+            target_lifecycle_node=talker, goal_state='active',
+            entities=lambda event, context: [LogInfo(msg='active: ' + event.action.node_name), Shutdown(reason='done')])),
+        change(Transition.TRANSITION_CONFIGURE),
+    ])
+)py");
+  const CommandResult result = run_command({LAUNCH_PROGRAM, path.string()});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, HasSubstr("active: /left/talker"));
+}
+
 TEST_F(LifecycleLaunch, WhatNeverComesEndsTheLaunchAfterItsTime) {
   const std::string file =
       write(R"xml(<executable cmd="true"><depends_on service="/nobody/answers" timeout="0.5"/></executable>)xml");

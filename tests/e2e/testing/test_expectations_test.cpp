@@ -47,6 +47,31 @@ TEST_F(TestExpectations, MessagesAreCountedByTheirFields) {
   EXPECT_THAT(bad.out, HasSubstr("      = last messages:\n          {data: 7}\n"));
 }
 
+// A test that says what must not come passes on no misspelt topic, and on none of another type.
+TEST_F(TestExpectations, MessagesThatCannotComeAreNoneThatDoNot) {
+  const CommandResult result = run_file(R"xml(
+  <test name="nobody">
+    <executable cmd="sleep 0.3" name="p"/><exit process="p"/>
+    <message topic="/nowhere" type="std_msgs/msg/Int64" absent="true"/>
+  </test>)xml" + std::string(kPublisher) + R"xml(
+    <message topic="/numbers" type="std_msgs/msg/Int64"/>
+    <message topic="/numbers" type="std_msgs/msg/String" max="2"/>
+  </test>
+  <test name="nobody may">
+    <executable cmd="sleep 0.3" name="p"/><exit process="p"/>
+    <message topic="/nowhere" type="std_msgs/msg/Int64" absent="true" without_publisher="true"/>
+  </test>)xml");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, HasSubstr("a.launch.xml:5:6: error: a message on '/nowhere' could not come\n"));
+  EXPECT_THAT(result.out, HasSubstr("      = expected: never a message on '/nowhere'\n"
+                                    "      = seen: nobody has published on the topic: it was never there\n"
+                                    "      = help: without_publisher=\"true\" allows that nobody publishes\n"));
+  EXPECT_THAT(result.out, HasSubstr("a message on '/numbers' could not come\n"));
+  EXPECT_THAT(result.out, HasSubstr("      = seen: the topic has messages of type std_msgs/msg/Int64, and not "
+                                    "std_msgs/msg/String\n"));
+  EXPECT_THAT(result.out, HasSubstr("PASS  a.launch.xml: nobody may"));
+}
+
 TEST_F(TestExpectations, MessagesThatDoNotComeFailWithTheReason) {
   const CommandResult result = run_file(std::string(kPublisher) + R"xml(
     <message topic="/numbers" type="std_msgs/msg/String" within="3"/>

@@ -2,6 +2,7 @@ from launch import LaunchDescription
 from launch.actions import GroupAction, LogInfo, SetLaunchConfiguration
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import (Node, PushRosNamespace, SetParameter, SetRemap, SetROSLogDir, SetUseSimTime)
+from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import Parameter
 
 
@@ -9,7 +10,7 @@ def generate_launch_description():
     return LaunchDescription([
         GroupAction([
             PushRosNamespace('robot'),
-            SetParameter('use_sim_time', True),
+            SetParameter('use_sim_time', ParameterValue(True)),
             SetParameter('names', ['1', 'b']),
             SetRemap('/tf', 'tf'),
             SetROSLogDir('/var/log/robot'),

@@ -33,6 +33,15 @@ TEST(YamlFrontend, TypesPlainScalarsAndTakesQuotedOnesAsText) {
   EXPECT_EQ(type("h"), Scalar::Type::kOther);
 }
 
+TEST(YamlFrontend, ATagMakesAFloatOfAnyNumber) {
+  const Entity root = yaml("launch:\n- x: {a: !!float 10, b: !!float 1e3, c: !!float +1_6}\n");
+  for (const auto& [name, number] : {std::pair("a", 10.0), std::pair("b", 1000.0), std::pair("c", 16.0)}) {
+    const Scalar* const scalar = root.children[0].find(name)->value.scalar();
+    EXPECT_EQ(scalar->type, Scalar::Type::kFloat) << name;
+    EXPECT_EQ(scalar->float_value, number) << name;
+  }
+}
+
 TEST(YamlFrontend, GivesSubActionsFromAListOrFromChildren) {
   const Entity root = yaml(
       "launch:\n- group:\n  - log: {message: a}\n- group:\n    if: 'true'\n    children:\n    - log: {message: b}\n"

@@ -2,7 +2,9 @@
 """Messages of launch files, in the launcher's own log."""
 
 import logging as _logging
+import logging.handlers as handlers
 import os
+import sys
 from logging import *  # noqa: F401,F403  as ROS 2's module does
 from logging import CRITICAL, DEBUG, ERROR, INFO, WARNING
 
@@ -34,7 +36,7 @@ def get_logger(name=None):
     return logger
 
 
-class _LaunchConfig:
+class LaunchConfig:
 
     @property
     def log_dir(self):
@@ -65,7 +67,7 @@ class _LaunchConfig:
         pass
 
 
-launch_config = _LaunchConfig()
+launch_config = LaunchConfig()
 
 
 def get_output_loggers(process_name, output_config=None):
@@ -79,3 +81,8 @@ def log_launch_config(*, logger=None):
 
 def reset():
     """The launcher's own settings of its log stay as they are."""
+
+
+# A module of its own in ROS 2, with the classes of Python's.
+sys.modules[__name__ + '.handlers'] = handlers
+__path__ = []  # so that `import launch.logging.handlers` looks for it

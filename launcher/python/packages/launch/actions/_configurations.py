@@ -51,7 +51,7 @@ class DeclareBooleanLaunchArgument(DeclareLaunchArgument):
 
     def __init__(self, name, *, default_value=None, **kwargs):
         if isinstance(default_value, bool):
-            default_value = str(default_value).lower()
+            default_value = str(default_value)
         super().__init__(name, default_value=default_value, **kwargs)
 
 

@@ -220,5 +220,5 @@ class BooleanSubstitution(_Builtin):
         self._take(_operand(value))
 
 
-_names.same_module(__name__, __name__ + '.this_launch_file')
+_names.same_module(__name__, __name__ + '.this_launch_file', __name__ + '.for_loop_var')
 _names.one_class_modules(__name__)

@@ -8,6 +8,7 @@ from launch.actions._processes import _Process
 from launch.descriptions import Executable
 from launch.launch_context import LaunchContext
 from launch.substitution import Substitution
+from launch.substitutions._builtin import described
 from launch_ros._parameters import parameter_items
 from launch_ros._transitions import name_of_transition
 from launch_ros.descriptions import ComposableNode
@@ -48,6 +49,8 @@ class Node(_Process):
         self._ros_args = words(ros_arguments, 'ros_arguments') if ros_arguments else []
         self._more_attributes = []
         self._description = None
+        self._is_target = False  # a handler or an event is about this node
+        self._visited_name = None  # the full name of its latest visit, if it is a target
         # Read now, because a launch file may change its mappings later.
         self._parameters = parameter_items(parameters, self._place_of('parameters') or self._place())
         self._remappings = pairs(remappings or [], 'remappings')
@@ -96,7 +99,8 @@ class Node(_Process):
         arguments, ros_arguments = self._args, self._ros_args
         if self._description is not None and len(self._description.cmd) != len(self._words()):
             arguments, ros_arguments = self._description._command[1:], []  # the file has changed them
-        attributes = [('pkg', self._package), ('exec', self._executable), ('name', self._name),
+        name = (_NameOfTarget(self),) if self._is_target else self._name
+        attributes = [('pkg', self._package), ('exec', self._executable), ('name', name),
                       ('namespace', self._namespace), ('exec_name', self._exec_name), ('args', arguments or None),
                       ('ros_args', ros_arguments or None), *self._more_attributes]
         return self._with_handlers(self._tag, attributes, [*self._parameters, *remaps, *self._more_items()])
@@ -151,6 +155,7 @@ def full_name(node):
     """The fully qualified name of a node, as a substitution. The node must have a name."""
     if node._name is None:
         raise LaunchFileError(f'the {type(node).__name__} needs a name')
+    node._is_target = True
     return _FullName(node)
 
 
@@ -160,7 +165,29 @@ class _FullName(Substitution):
         self._node = node
 
     def perform(self, context):
-        return _full_namespace(self._node, context).rstrip('/') + '/' + context._perform(self._node._name)
+        return self._node._visited_name or _full_name_in(self._node, context)
+
+
+class _NameOfTarget(Substitution):
+    """
+    The name of a node that others are about. They mean this node, also where its name would be another one.
+
+    The configurations that its name has, and the namespace around it, may have gone by then.
+    """
+
+    def __init__(self, node):
+        self._node = node
+
+    def describe(self):
+        return described(self._node._name)
+
+    def perform(self, context):
+        self._node._visited_name = _full_name_in(self._node, context)
+        return context._perform(self._node._name)
+
+
+def _full_name_in(node, context):
+    return _full_namespace(node, context).rstrip('/') + '/' + context._perform(node._name)
 
 
 def _full_namespace(node, context):
