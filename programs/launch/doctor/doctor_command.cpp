@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `launch doctor`: what stands on this machine in the way of real time, of tracing and of limits.
+// `launch doctor`: what stands on this machine in the way of real time, of tracing and of limits, and which nodes
+// cannot hear each other.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -57,9 +58,11 @@ int doctor_command(const Words& words) {
   std::string cpus;
   std::string root = "/";
   bool json = false;
-  Subcommand command("launch doctor",
-                     "Tells what stands on this machine in the way of real time, of tracing and of limits. The exit "
-                     "status is 0 if nothing does, 1 if there is a warning, 2 after a wrong command line.");
+  Subcommand command(
+      "launch doctor",
+      "Tells what stands on this machine in the way of real time, of tracing and of limits, and which of "
+      "the nodes that run cannot hear each other. The exit "
+      "status is 0 if nothing does, 1 if there is a warning, 2 after a wrong command line.");
   command.take_text("--cpus", cpus, "the CPUs for real time, such as 2-3; without it the isolated ones");
   command.take_text("--root", root, "a directory with the proc, sys, etc, run and dev of another machine");
   command.take_flag("--json", json, "print JSON");
@@ -75,7 +78,8 @@ int doctor_command(const Words& words) {
   }
   const Machine machine(root);
   std::vector<MachineCheck> checks = check_real_time(machine, chosen.value_or(std::vector<int>()));
-  for (const std::vector<MachineCheck>& more : {check_tracing(machine), check_limits(machine, ::geteuid() == 0)}) {
+  for (const std::vector<MachineCheck>& more :
+       {check_tracing(machine), check_limits(machine, ::geteuid() == 0), check_nodes(machine)}) {
     checks.insert(checks.end(), more.begin(), more.end());
   }
   ResultOutput output("launch doctor");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands on a machine in the way of real time, of tracing and of limits. Everything is read below a directory, so
-// that tests can make machines.
+// What stands on a machine in the way of real time, of tracing, of limits and of nodes. Everything is read below a
+// directory, so that tests can make machines.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 namespace launch {
 
 struct MachineCheck {
-  std::string area;  // "real time", "tracing", "limits"
+  std::string area;  // "real time", "tracing", "limits", "nodes"
   std::string name;  // "governor"
   bool ok = false;
   std::string found;   // "CPUs 0-3: powersave"
@@ -45,6 +45,8 @@ class Machine {
 // `cpus` are those that are chosen for real time; if there are none, the isolated ones.
 std::vector<MachineCheck> check_real_time(const Machine& machine, std::vector<int> cpus);
 std::vector<MachineCheck> check_tracing(const Machine& machine);
+// Whether the nodes that run can hear each other. Of processes of others only root sees the settings.
+std::vector<MachineCheck> check_nodes(const Machine& machine);
 std::vector<MachineCheck> check_limits(const Machine& machine, bool is_root);
 
 }  // namespace launch

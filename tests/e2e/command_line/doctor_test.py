@@ -77,7 +77,7 @@ class Doctor(unittest.TestCase):
         self.assertEqual(found['isolated CPUs']['found'], '2-3 are isolated')
         self.assertEqual(found['interrupts']['found'], 'none comes to the CPUs 2-3')
         self.assertEqual(found['governor']['found'], 'CPUs 2-3: performance')
-        self.assertEqual({check['area'] for check in found.values()}, {'real time', 'tracing', 'limits'})
+        self.assertEqual({check['area'] for check in found.values()}, {'real time', 'tracing', 'limits', 'nodes'})
 
     def test_what_is_in_the_way_of_real_time(self):
         found = self.warnings(changes={
@@ -162,7 +162,71 @@ class Doctor(unittest.TestCase):
     def test_this_machine(self):
         result = subprocess.run([LAUNCH, 'doctor', '--json'], capture_output=True, text=True, timeout=60, check=False)
         self.assertIn(result.returncode, (0, 1))
-        self.assertEqual(len(json.loads(result.stdout)['checks']), len(self.checks()))
+        areas = {check['area'] for check in json.loads(result.stdout)['checks']}
+        self.assertEqual(areas, {'real time', 'tracing', 'limits', 'nodes'})
+
+    def add_node(self, pid, name, library='librmw_fastrtps_cpp.so', user=1000, network='net:[1]', shared_memory='a', **variables):
+        process = self.root / 'proc' / str(pid)
+        (process / 'ns').mkdir(parents=True)
+        (process / 'ns/net').symlink_to(network)
+        (process / 'root').symlink_to(self.root / 'roots' / shared_memory)
+        (self.root / 'roots' / shared_memory / 'dev/shm').mkdir(parents=True, exist_ok=True)
+        (process / 'maps').write_text(f'7f00-7f01 r-xp 00000000 08:01 12 /usr/bin/x\n7f02-7f03 r-xp 0 08:01 13 /opt/ros/lib/{library}\n'
+                                      '7f04-7f05 r-xp 0 08:01 14 /opt/ros/lib/librmw_implementation.so\n')
+        (process / 'cmdline').write_text(f'/opt/ros/lib/p/{name}\0--ros-args\0-r\0__node:={name}_node\0')
+        (process / 'environ').write_text(''.join(f'{key}={value}\0' for key, value in variables.items()))
+        (process / 'status').write_text(f'Name:\tx\nUid:\t{user}\t{user}\t{user}\t{user}\n')
+
+    def test_nodes_that_hear_each_other_are_no_warning(self):
+        self.add_node(12, 'talker')
+        self.add_node(13, 'listener', ROS_DOMAIN_ID='')
+        found = self.checks()
+        self.assertEqual(found['middleware']['found'], 'rmw_fastrtps_cpp: talker_node (12), listener_node (13)')
+        self.assertEqual(found['domains']['found'], '0: talker_node (12), listener_node (13)')
+        self.assertEqual(found['networks']['found'], 'all are in one network and share /dev/shm')
+        self.assertEqual(self.warnings(), {})
+
+    def test_nodes_that_cannot_hear_each_other(self):
+        self.add_node(12, 'talker')
+        self.add_node(13, 'listener', library='librmw_zenoh_cpp.so')
+        self.assertEqual(self.warnings(), {'middleware': (
+            'rmw_fastrtps_cpp: talker_node (12); rmw_zenoh_cpp: listener_node (13). They do not hear each other',
+            'give all nodes the same RMW_IMPLEMENTATION')})
+
+    def test_nodes_of_two_kinds_of_dds(self):
+        self.add_node(12, 'talker')
+        self.add_node(13, 'listener', library='librmw_cyclonedds_cpp.so')
+        self.assertEqual(self.warnings()['middleware'][0],
+                         'rmw_cyclonedds_cpp: listener_node (13); rmw_fastrtps_cpp: talker_node (12). Topics pass between them, '
+                         'services and the graph not always')
+
+    def test_nodes_of_two_domains_and_of_none(self):
+        self.add_node(12, 'talker', ROS_DOMAIN_ID='4')
+        self.add_node(13, 'listener')
+        self.add_node(14, 'map', ROS_AUTOMATIC_DISCOVERY_RANGE='OFF')
+        self.assertEqual(self.warnings(), {
+            'domains': ('0: listener_node (13), map_node (14); 4: talker_node (12). They do not hear each other',
+                        'give the nodes that belong together the same ROS_DOMAIN_ID'),
+            'discovery': ('ROS_AUTOMATIC_DISCOVERY_RANGE=OFF: map_node (14); any other node of this machine: listener_node (13). '
+                          'Whoever has OFF finds nobody', 'give all nodes the same range, SUBNET or LOCALHOST')})
+
+    def test_nodes_of_two_users_and_in_a_container(self):
+        self.add_node(12, 'talker')
+        self.add_node(13, 'listener', user=0, shared_memory='b')
+        self.assertEqual(self.warnings(), {
+            'users': ('user 0: listener_node (13); user 1000: talker_node (12). They cannot open each other\'s shared memory, so '
+                      'messages are lost', 'run them as one user, or set FASTDDS_BUILTIN_TRANSPORTS=UDPv4'),
+            'networks': ('one network, and a /dev/shm each: ' + self.warnings()['networks'][0].split(': ', 1)[1],
+                         'run containers with --ipc=host, or set FASTDDS_BUILTIN_TRANSPORTS=UDPv4')})
+        self.assertIn('Nodes find each other, and their messages are lost', self.warnings()['networks'][0])
+
+    def test_nodes_of_two_networks(self):
+        self.add_node(12, 'talker')
+        self.add_node(13, 'listener', network='net:[2]')
+        self.assertEqual(self.warnings()['networks'],
+                         ('net:[1]: talker_node (12); net:[2]: listener_node (13). Nodes of different networks find each other '
+                          'only by a bridge between them',
+                          'run containers with --network=host and --ipc=host, or name peers in ROS_STATIC_PEERS'))
 
 
 if __name__ == '__main__':

@@ -50,6 +50,17 @@ class LaunchConfig:
     def level(self, _value):
         pass  # `launch --debug` decides
 
+    @property
+    def log_handler_factory(self):
+        return lambda *_arguments, **_options: _handler
+
+    @log_handler_factory.setter
+    def log_handler_factory(self, _value):
+        pass  # the launcher writes the files
+
+    def reset(self):
+        """The launcher's own settings of its log stay as they are."""
+
     def get_log_file_path(self, file_name='launch.log'):
         return os.path.join(self.log_dir, file_name)
 
