@@ -24,7 +24,7 @@ TEST_F(ChainResults, ListTheStepsFromTheFirstOne) {
   chains.on_callback({.thread = {1, 2}, .callback = 0, .begin_ns = 150, .end_ns = 170});
   chains.finish();
   Ros2Results results;
-  add_chain_results(subjects, chains, results);
+  add_chain_results(subjects, chains, MessageMatcher(), results);
   ASSERT_EQ(results.chains.size(), 1u);
   const ChainResult& chain = results.chains[0];
   ASSERT_EQ(chain.steps.size(), 2u);
@@ -45,7 +45,7 @@ TEST_F(ChainResults, NameTheChainsThatWereNeverGoneThrough) {
   chains.define(model, {definition});
   chains.finish();
   Ros2Results results;
-  add_chain_results(subjects, chains, results);
+  add_chain_results(subjects, chains, MessageMatcher(), results);
   EXPECT_TRUE(results.chains.empty());
   EXPECT_EQ(results.unseen_chains, std::vector<std::string>{"brake"});
 }

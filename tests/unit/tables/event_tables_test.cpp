@@ -18,7 +18,7 @@ TEST(EventTables, HaveEveryHopOfAMessage) {
   const std::vector<std::string> messages =
       rows_of(system, "messages",
               {"rclcpp_ns", "rcl_ns", "published_ns", "written_ns", "taken_ns", "callback_ns", "transport_ns",
-               "executor_ns", "intra_process", "by_order"});
+               "executor_ns", "intra_process", "estimated"});
   ASSERT_THAT(messages, ::testing::SizeIs(4));
   EXPECT_EQ(messages[0],
             "1767225600020095000|1767225600020097000|1767225600020100000|-|1767225600020250000|1767225600020300000|-|-"

@@ -24,6 +24,9 @@ struct Ros2Results {
   std::vector<ExecutionResult> executions;  // by process, kind; empty without events of `ros2_ext`
   std::uint64_t internal_messages = 0;      // published or taken by the middleware for itself
   std::uint64_t unknown_messages = 0;       // published or taken by objects whose initialisation is not in the trace
+  std::uint64_t unknown_in_whole = 0;       // part of unknown_messages: of processes that began within the trace
+  std::uint64_t unnamed_messages = 0;       // published without a publisher, by ros2_tracing before 8.0 (MessageCounts)
+  std::vector<std::string> tracetools;      // the versions that processes have named in rcl_init, in order, once each
   std::vector<SubscriptionResult> subscriptions;  // those with messages; by topic, node
   std::vector<ExecutorResult> executors;          // by process, thread
   std::vector<ChainResult> chains;                // those with names, then from the slowest; those with few inputs last

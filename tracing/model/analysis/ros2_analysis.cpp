@@ -36,12 +36,15 @@ Ros2Results Ros2Analysis::finish(std::vector<std::optional<ProcessIndex>> places
   results.actions = action_results(results);
   results.executions = execution_results(subjects, join_.executions());
   results.executors = executor_results(subjects, executors_);
-  add_chain_results(subjects, chains_, results);
+  add_chain_results(subjects, chains_, join_.messages().through_middleware(), results);
   results.lifecycle = lifecycle_results(subjects, join_.lifecycle(), allocations_);
   results.nodes = node_results(subjects, results.callbacks);
   results.unmatched = unmatched_results(model_, join_, deliveries_);
   results.internal_messages = join_.messages().counts().internal;
   results.unknown_messages = join_.messages().counts().unknown;
+  results.unknown_in_whole = join_.messages().counts().unknown_in_whole;
+  results.tracetools.assign(join_.messages().versions().begin(), join_.messages().versions().end());
+  results.unnamed_messages = join_.messages().counts().unnamed;
   return results;
 }
 

@@ -81,8 +81,10 @@ struct MessageFlow {
   // Without a callback: the message has arrived nevertheless. A waitable has taken it, such as a client of an action,
   // or the program, which has asked for it.
   bool needs_no_callback = false;
-  // The trace does not tell which publication it is: the order of the messages says so.
-  bool is_by_order = false;
+  // The trace has no timestamp of the publication: which one it is was found by its time.
+  bool is_estimated = false;
+  // The publication is not known because publications of the topic have no timestamps.
+  bool is_unidentified = false;
 };
 
 // A request to a service and its response. Told when the response is taken.

@@ -24,6 +24,11 @@ std::uint64_t queue_depth(const EndpointObject& subscription) {
   return std::max<std::uint64_t>(depth, 1);
 }
 
+// The difference, at least 0.
+std::uint64_t without(std::uint64_t count, std::uint64_t others) {
+  return count - std::min(count, others);
+}
+
 }  // namespace
 
 void DeliveryStatistics::on_publication(const Publication& publication) {
@@ -38,6 +43,7 @@ void DeliveryStatistics::on_publication(const Publication& publication) {
     record.last_ns = publication.published_ns;
   }
   if (publication.intra_process) {
+    tells_intra_process_ = true;
     ++record.intra_process;
     return;
   }
@@ -70,37 +76,37 @@ void DeliveryStatistics::find_gaps(const MessageFlow& message) {
   const auto index = static_cast<std::uint64_t>(sent - publisher.newest.begin());
   const std::uint64_t place = publisher.count - publisher.newest.size() + 1 + index;
   DeliveryRecord& record = record_at(subscriptions_, message.subscription);
-  const auto [last, is_first] = last_place_.try_emplace({message.subscription, message.publication.publisher}, place);
+  const Progress now{place, record.unidentified};
+  const auto [found, is_first] = progress_.try_emplace({message.subscription, message.publication.publisher}, now);
   if (is_first) {
-    record.before_first += place - 1;
+    record.before_first += without(place - 1, record.unidentified);
     return;
   }
-  if (place <= last->second) {
+  const Progress last = found->second;
+  if (place <= last.place) {
     return;
   }
+  found->second = now;
+  // Of those that are missing, so many may have come.
+  const std::uint64_t unidentified = record.unidentified - last.unidentified;
   const EndpointObject& subscription = model_.subscriptions()[message.subscription];
   if (subscription.qos && subscription.qos->is_filtered) {
-    record.filtered += place - last->second - 1;
-    last->second = place;
+    record.filtered += without(place - last.place - 1, unidentified);
     return;
   }
   const std::uint64_t depth = queue_depth(subscription);
   const std::uint64_t topic_count = record_at(topic_counts_, message.publication.topic);
   std::uint64_t lost = 0;
-  for (std::uint64_t missing = last->second + 1; missing < place; ++missing) {
+  std::uint64_t pushed_out = 0;
+  for (std::uint64_t missing = last.place + 1; missing < place; ++missing) {
     const std::uint64_t back = place - missing;
     // It was older than the history of the reader is long when the reader was asked.
     const bool overwritten =
         back > index || topic_count - (sent - static_cast<std::ptrdiff_t>(back))->topic_count >= depth;
-    if (overwritten) {
-      ++record.overwritten;
-    }
-    if (!overwritten) {
-      ++lost;
-    }
+    ++(overwritten ? pushed_out : lost);
   }
-  count_lost(record, message, lost);
-  last->second = place;
+  record.overwritten += without(pushed_out, without(unidentified, lost));
+  count_lost(record, message, without(lost, unidentified));
 }
 
 void DeliveryStatistics::count_lost(DeliveryRecord& record, const MessageFlow& message, std::uint64_t count) const {
@@ -114,12 +120,19 @@ void DeliveryStatistics::count_lost(DeliveryRecord& record, const MessageFlow& m
 }
 
 // A publisher with intra-process communication also publishes through the middleware if other processes listen. The
-// subscriptions of its own process take that copy, too, and rclcpp drops it.
+// subscriptions of its own process take that copy, too, and rclcpp drops it. ros2_tracing before 6.1 does not record
+// what goes on within a process; and if publications have no timestamps, it may not be known which one it is.
 bool DeliveryStatistics::is_second_copy(const MessageFlow& message) const {
   const Publication& publication = message.publication;
-  return message.callback == kNoObject && !message.needs_no_callback && publication.number != 0 &&
-         !publication.intra_process && publication.thread.process == message.taking_thread.process &&
-         model_.rclcpp_objects(message.subscription) > 1 && publishers_[publication.publisher].intra_process > 0;
+  if (message.callback != kNoObject || message.needs_no_callback || publication.intra_process ||
+      model_.rclcpp_objects(message.subscription) < 2) {
+    return false;
+  }
+  if (publication.number == 0) {
+    return message.is_unidentified;
+  }
+  return publication.thread.process == message.taking_thread.process &&
+         (publishers_[publication.publisher].intra_process > 0 || (message.is_estimated && !tells_intra_process_));
 }
 
 void DeliveryStatistics::on_message(const MessageFlow& message) {
@@ -133,12 +146,14 @@ void DeliveryStatistics::on_message(const MessageFlow& message) {
   if (publication.intra_process) {
     ++record.intra_process;
   }
+  record.estimated += message.is_estimated ? 1 : 0;
+  record.unidentified += message.is_unidentified ? 1 : 0;
   const bool is_delivered = message.callback != kNoObject || message.needs_no_callback;
   ++(is_delivered ? record.delivered : record.not_executed);
   if (!is_known) {
     return;
   }
-  if (!publication.intra_process && !message.is_by_order) {
+  if (!publication.intra_process) {
     find_gaps(message);
   }
   if (message.callback == kNoObject) {
@@ -163,11 +178,12 @@ void DeliveryStatistics::on_message(const MessageFlow& message) {
 }
 
 void DeliveryStatistics::finish() {
-  for (const auto& [pair, place] : last_place_) {
+  for (const auto& [pair, last] : progress_) {
     const auto& [subscription, publisher] = pair;
-    subscriptions_[subscription].after_last += sent_[publisher].count - place;
+    DeliveryRecord& record = subscriptions_[subscription];
+    record.after_last += without(sent_[publisher].count - last.place, record.unidentified - last.unidentified);
   }
-  last_place_.clear();
+  progress_.clear();
 }
 
 }  // namespace tracing

@@ -23,6 +23,9 @@ struct DeliveryRecord {
   std::uint64_t intra_process = 0;  // part of received: without the middleware
   std::uint64_t delivered = 0;      // to a callback, a waitable, or the program that took it
   std::uint64_t not_executed = 0;   // taken, but given to no callback
+  // Parts of received, of topics whose publications have no timestamps:
+  std::uint64_t estimated = 0;     // which publication it is was found by its time
+  std::uint64_t unidentified = 0;  // that could not be found
 
   // Messages of publishers from which the subscription also got others.
   std::uint64_t overwritten = 0;  // pushed out of the full history of the reader by newer messages
@@ -78,6 +81,11 @@ class DeliveryStatistics : public ExecutionSink {
   };
 
   bool is_second_copy(const MessageFlow& message) const;
+  // Where the subscription is among the messages of a publisher.
+  struct Progress {
+    std::uint64_t place = 0;         // of the last message that it got
+    std::uint64_t unidentified = 0;  // DeliveryRecord::unidentified then
+  };
   void find_gaps(const MessageFlow& message);
   void count_lost(DeliveryRecord& record, const MessageFlow& message, std::uint64_t count) const;
 
@@ -92,7 +100,8 @@ class DeliveryStatistics : public ExecutionSink {
     }
   };
   // By subscription and publisher.
-  std::unordered_map<std::pair<ObjectId, ObjectId>, std::uint64_t, HashPair> last_place_;
+  std::unordered_map<std::pair<ObjectId, ObjectId>, Progress, HashPair> progress_;
+  bool tells_intra_process_ = false;  // the trace has rclcpp_intra_publish
 };
 
 }  // namespace tracing

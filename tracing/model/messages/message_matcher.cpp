@@ -2,28 +2,37 @@
 #include "tracing/model/messages/message_matcher.hpp"
 
 #include <algorithm>
+#include <optional>
 
 namespace tracing {
 
 void MessageMatcher::publish(const Publication& publication, std::int64_t source_timestamp) {
   TopicRecord& topic_record = record(publication.topic);
   ++topic_record.published;
+  Flight& flight = flights_[publication.topic];
   if (source_timestamp == 0) {
-    ++topic_record.untimed;
-    std::deque<Publication>& untimed = flights_[publication.topic].untimed;
-    untimed.push_back(publication);
-    if (untimed.size() > kRemembered) {
-      untimed.pop_front();
+    if (!flight.untimed) {
+      flight.untimed = std::make_unique<Untimed>();
     }
+    flight.untimed->publications.add(publication);
     return;
   }
-  Flight& flight = flights_[publication.topic];
   const bool received = !flight.unknown.empty() && was_taken_early(topic_record, flight, publication, source_timestamp);
-  flight.recent.add({source_timestamp, publication, received}, [&](const RecentPublication& oldest) {
+  add_timed(topic_record, flight, {source_timestamp, publication, received});
+}
+
+void MessageMatcher::add_timed(TopicRecord& topic_record, Flight& flight, const RecentPublication& publication) {
+  flight.recent.add(publication, [&](const RecentPublication& oldest) {
     if (!oldest.received) {
       ++topic_record.published_only;
     }
   });
+}
+
+void MessageMatcher::close(const Publication& publication, std::int64_t time_ns) {
+  if (Untimed* const untimed = flights_[publication.topic].untimed.get()) {
+    untimed->publications.close(publication, time_ns);
+  }
 }
 
 bool MessageMatcher::was_taken_early(TopicRecord& topic_record, Flight& flight, const Publication& publication,
@@ -46,36 +55,46 @@ void MessageMatcher::write(ObjectId topic, std::uint64_t number, std::int64_t so
                            std::int64_t written_ns) {
   TopicRecord& topic_record = record(topic);
   Flight& flight = flights_[topic];
-  const auto found = std::find_if(flight.untimed.rbegin(), flight.untimed.rend(),
-                                  [&](const Publication& publication) { return publication.number == number; });
-  if (found == flight.untimed.rend()) {
+  std::optional<Publication> publication = flight.untimed ? flight.untimed->publications.extract(number) : std::nullopt;
+  if (!publication) {
     RecentPublication* const known = flight.recent.find(source_timestamp);
     if (known != nullptr && known->publication.number == number) {
       known->publication.written_ns = written_ns;
     }
     return;
   }
-  Publication publication = *found;
-  publication.written_ns = written_ns;
-  flight.untimed.erase(std::next(found).base());
-  --topic_record.untimed;
+  publication->written_ns = written_ns;
   --topic_record.published;
-  publish(publication, source_timestamp);
+  publish(*publication, source_timestamp);
 }
 
-const Publication* MessageMatcher::find_untimed(Flight& flight, ObjectId subscription, std::int64_t source_timestamp) {
-  for (auto publication = flight.untimed.rbegin(); publication != flight.untimed.rend(); ++publication) {
-    if (publication->published_ns > source_timestamp) {
-      continue;
-    }
-    std::uint64_t& last = flight.last[{subscription, publication->publisher}];
-    if (publication->number < last || (publication->number == last && last != 0)) {
-      return nullptr;
-    }
-    last = publication->number;
-    return &*publication;
+void MessageMatcher::estimate(TopicRecord& topic_record, Flight& flight, TakenMessage& message,
+                              std::int64_t source_timestamp) {
+  Untimed& untimed = *flight.untimed;
+  const std::optional<Publication> publication =
+      source_timestamp == 0 ? std::nullopt : untimed.publications.take(source_timestamp, message.taken_ns, clocks_);
+  if (publication) {
+    ++topic_record.estimated;
+    message.publication = *publication;
+    message.is_estimated = true;
+    add_timed(
+        topic_record, flight,
+        {.source_timestamp = source_timestamp, .publication = *publication, .received = true, .is_estimated = true});
+    return;
   }
-  return nullptr;
+  ++topic_record.unidentified;
+  message.is_unidentified = true;
+  const bool is_repeated = source_timestamp != 0 &&
+                           std::find(untimed.unidentified.rbegin(), untimed.unidentified.rend(), source_timestamp) !=
+                               untimed.unidentified.rend();
+  if (is_repeated) {
+    return;
+  }
+  ++untimed.unidentified_count;
+  untimed.unidentified.push_back(source_timestamp);
+  if (untimed.unidentified.size() > kUnknown) {
+    untimed.unidentified.pop_front();
+  }
 }
 
 TakenMessage MessageMatcher::take(ObjectId subscription, ObjectId topic, std::int64_t source_timestamp,
@@ -85,26 +104,27 @@ TakenMessage MessageMatcher::take(ObjectId subscription, ObjectId topic, std::in
   TakenMessage message{subscription, {}, time_ns};
   message.publication.topic = topic;
   Flight& flight = flights_[topic];
-  RecentPublication* const found = flight.recent.find(source_timestamp);
-  if (found == nullptr && topic_record.untimed > 0 && source_timestamp != 0) {
-    if (const Publication* const untimed = find_untimed(flight, subscription, source_timestamp)) {
-      ++topic_record.by_order;
-      message.publication = *untimed;
-      message.is_by_order = true;
-      return message;
-    }
+  if (flight.untimed) [[unlikely]] {
+    flight.untimed->takers.insert(subscription);
   }
-  if (found == nullptr) {
-    ++(topic_record.untimed > 0 ? topic_record.untimed_taken : topic_record.received_only);
-    if (topic_record.untimed == 0 && source_timestamp != 0) {
-      flight.unknown.emplace_back(source_timestamp, time_ns);
-    }
-    if (flight.unknown.size() > kUnknown) {
-      flight.unknown.pop_front();
-    }
-  } else {
+  RecentPublication* const found = flight.recent.find(source_timestamp);
+  if (found != nullptr) {
     found->received = true;
     message.publication = found->publication;
+    message.is_estimated = found->is_estimated;
+    topic_record.estimated += found->is_estimated ? 1 : 0;
+    return message;
+  }
+  if (flight.untimed) {
+    estimate(topic_record, flight, message, source_timestamp);
+    return message;
+  }
+  ++topic_record.received_only;
+  if (source_timestamp != 0) {
+    flight.unknown.emplace_back(source_timestamp, time_ns);
+  }
+  if (flight.unknown.size() > kUnknown) {
+    flight.unknown.pop_front();
   }
   return message;
 }
@@ -116,14 +136,23 @@ void MessageMatcher::deliver(const TakenMessage& message, std::int64_t callback_
   record(message.publication.topic).latency.add(callback_start_ns - message.publication.published_ns);
 }
 
-void MessageMatcher::finish() {
+void MessageMatcher::finish(const std::function<bool(ObjectId, const Takers&)>& has_others) {
   for (std::size_t topic = 0; topic < flights_.size(); ++topic) {
-    for (const RecentPublication& remembered : flights_[topic].recent.all()) {
+    Flight& flight = flights_[topic];
+    TopicRecord& topic_record = records_[topic];
+    for (const RecentPublication& remembered : flight.recent.all()) {
       if (!remembered.received) {
-        ++records_[topic].published_only;
+        ++topic_record.published_only;
       }
     }
-    flights_[topic] = {};
+    if (flight.untimed) {
+      const std::uint64_t left = flight.untimed->publications.count();
+      const bool is_unknown = topic_record.unrecorded > 0 ||
+                              (has_others && has_others(static_cast<ObjectId>(topic), flight.untimed->takers));
+      topic_record.undecided = is_unknown ? left : std::min(left, flight.untimed->unidentified_count);
+      topic_record.published_only += left - topic_record.undecided;
+    }
+    flight = {};
   }
 }
 

@@ -16,6 +16,7 @@ struct RecentPublication {
   std::int64_t source_timestamp = 0;
   Publication publication;
   bool received = false;
+  bool is_estimated = false;  // its timestamp was found when it was taken
 };
 
 class RecentPublications {

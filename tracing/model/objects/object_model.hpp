@@ -12,9 +12,12 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
+#include <map>
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "tracing/decode/reader/ext_events.hpp"
@@ -60,6 +63,7 @@ class ObjectModel {
   void on(const Origin&, const ros2::RclcppTimerCallbackAdded&);
   void on(const Origin&, const ros2::RclcppTimerLinkNode&);
   void on(const Origin&, const ros2::RclcppCallbackRegister&);
+  void on(const Origin&, const ros2::RclLifecycleStateMachineInit&);
 
   void on(const Origin&, const ros2::ObjectEnd&);
   void on(const Origin&, const ros2::EndpointQosEvent&, const ros2::EndpointQos&);
@@ -120,6 +124,7 @@ class ObjectModel {
                    ros2::Handle handle, const RmwLookup& rmw, const EndpointObject& endpoint) const;
   ObjectId topic(std::string_view name);
   void count_rclcpp_object(ObjectId subscription);
+  ObjectId next_lifecycle_service(const Origin& origin, ros2::Handle service_handle);
   ObjectId add_subscription_object(ProcessId process, ros2::Handle handle, SubscriptionObject object);
 
   std::vector<NodeObject> nodes_;
@@ -147,6 +152,13 @@ class ObjectModel {
   Index client_index_;
   RmwIndex rmw_client_index_;  // to clients_
   std::unordered_map<std::string, ObjectId> topic_index_;
+
+  // The last services of each thread, and those of a state machine that rclcpp is about to give callbacks.
+  struct ThreadServices {
+    std::vector<ObjectId> made;  // by rcl, for one node, and without a callback yet
+    std::deque<ObjectId> expected;
+  };
+  std::map<std::pair<ProcessId, std::int64_t>, ThreadServices> thread_services_;
 };
 
 }  // namespace tracing

@@ -152,7 +152,7 @@ struct MessageDetail {
   std::int64_t waited_ns = -1;  // MessageFlow::executor_waited_ns; -1: not known
   bool has_rclcpp = false;      // Message::called_ns is rclcpp_publish
   bool intra_process = false;
-  bool is_by_order = false;
+  bool is_estimated = false;  // MessageFlow::is_estimated
 };
 
 // A request to a service; 0 for what the trace does not hold.

@@ -200,7 +200,7 @@ void TimelineRecorder::on_message(const MessageFlow& flow) {
     message.publishing_instance = static_cast<Index>(message_details_.size());
     message_details_.push_back(detail_of(flow.publication));
     message_details_.back().waited_ns = flow.executor_waited_ns.value_or(-1);
-    message_details_.back().is_by_order = flow.is_by_order;
+    message_details_.back().is_estimated = flow.is_estimated;
   }
   timeline_.messages.push_back(message);
 }

@@ -51,6 +51,7 @@ void visit_report(const Report& report, Visit& visit) {
   visit("has_all_chains", ros2.has_all_chains);
   visit("internal_messages", ros2.internal_messages);
   visit("unknown_messages", ros2.unknown_messages);
+  visit("tracetools", ros2.tracetools);
   visit("lacks_thread_context", ros2.lacks_thread_context);
   visit("warnings", warnings);
 }

@@ -88,7 +88,8 @@ Table message_table(System system) {
        {"subscription", kInteger, [](System, const Message& message) { return reference(message.subscription); },
         "in `subscriptions`"},
        {"taken_ns", kInteger, [](System, const Message& message) { return time(message.taken_ns); },
-        "`rmw_take`, or taken out of the ring buffer; `NULL`: nobody took it"},
+        "`rmw_take`, or taken out of the ring buffer; `NULL`: nobody took it, or it can't be told (`undecided` of the "
+        "topic)"},
        {"receiving_instance", kInteger,
         [](System, const Message& message) { return reference(message.receiving_instance); },
         "in `callback_instances`: that got it"},
@@ -99,9 +100,10 @@ Table message_table(System system) {
        {"rcl_ns", kInteger, detail_time<&MessageDetail::rcl_ns>, "`rcl_publish`"},
        {"written_ns", kInteger, detail_time<&MessageDetail::written_ns>, "`dds:write`, of middleware that records it"},
        {"intra_process", kInteger, detail_flag<&MessageDetail::intra_process>, "1: without the middleware"},
-       {"by_order", kInteger, detail_flag<&MessageDetail::is_by_order>,
-        "1: the trace has no timestamps of publications. The order of messages says which one it is, which is not "
-        "certain"},
+       {"estimated", kInteger, detail_flag<&MessageDetail::is_estimated>,
+        "1: the trace has no timestamps of publications (ros2_tracing before 8.0). Which one it is was found by its "
+        "time "
+        "(`docs/analysis.md`)"},
        {"transport_ns", kInteger,
         [](System all, const Message& message) {
           const MessageDetail* detail = detail_of(all, message);

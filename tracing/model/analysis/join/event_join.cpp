@@ -17,8 +17,10 @@ void EventJoin::on(const Origin& origin, const ros2::CallbackStart& event) {
 }
 
 void EventJoin::on(const Origin& origin, const ros2::CallbackEnd& event) {
+  ThreadState& running = thread(origin);
+  messages_.go_on(origin, running);
   const std::optional<ObjectId> ended =
-      callbacks_.end({origin.process, origin.vtid}, thread(origin).callbacks, event.callback, origin.time_ns);
+      callbacks_.end({origin.process, origin.vtid}, running.callbacks, event.callback, origin.time_ns);
   if (ended) {
     waits_.end_callback(origin, *ended);
     if (model_.callbacks()[*ended].owner == CallbackObject::Owner::kService) {
@@ -32,8 +34,15 @@ void EventJoin::on(const Origin& origin, const ros2::RmwSendResponse& event) {
   executions_.end(thread(origin).execution, ros2::ExecutionEvent::Kind::kService, origin.time_ns);
 }
 
+// The model wants to know whose services rclcpp names next.
+void EventJoin::on(const Origin& origin, const ros2::RclLifecycleStateMachineInit& event) {
+  model_.on(origin, event);
+  lifecycle_.on(origin, event);
+}
+
 void EventJoin::on(const Origin& origin, const ros2::RclcppExecutorGetNextReady&) {
   ThreadState& spinning = thread(origin);
+  messages_.go_on(origin, spinning);
   spinning.execution.reset();
   const ThreadId thread{origin.process, origin.vtid};
   const bool is_first = spinning.waits.looked_ns == 0;
@@ -46,6 +55,7 @@ void EventJoin::on(const Origin& origin, const ros2::RclcppExecutorGetNextReady&
 
 void EventJoin::on(const Origin& origin, const ros2::RclcppExecutorWaitForWork&) {
   ThreadState& spinning = thread(origin);
+  messages_.go_on(origin, spinning);
   spinning.execution.reset();
   messages_.give_to_none(origin, spinning);
   spinning.executed = 0;

@@ -83,6 +83,7 @@ class EventJoin {
   void on(const Origin& origin, const ros2::CallbackStart& event);
   void on(const Origin& origin, const ros2::CallbackEnd& event);
   void on(const Origin& origin, const ros2::RmwSendResponse& event);
+  void on(const Origin& origin, const ros2::RclLifecycleStateMachineInit& event);
   void on(const Origin& origin, const ros2::RclcppExecutorGetNextReady& event);
   void on(const Origin& origin, const ros2::RclcppExecutorWaitForWork& event);
   void on(const Origin& origin, const ros2::RclcppExecutorExecute& event);

@@ -1,35 +1,60 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/model/analysis/join/message_join.hpp"
 
+#include <utility>
+
 namespace tracing {
 
 void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::RclcppPublish& event) {
+  go_on(origin, thread);
   thread.rclcpp_message = event.message;
   thread.rclcpp_ns = origin.time_ns;
 }
 
 void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::RclPublish& event) {
+  go_on(origin, thread);
+  tells_publishers_ = true;
   thread.rcl_publisher = event.publisher_handle;
   thread.rcl_message = event.message;
   thread.rcl_ns = origin.time_ns;
 }
 
-void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::RmwPublish& event) {
+// ros2_tracing before 8.0 records only the message: its rcl_publish came just before, in the same thread. What the
+// middleware publishes for itself has none.
+RmwLookup MessageJoin::publisher_of(const Origin& origin, const ThreadState& thread,
+                                    const ros2::RmwPublish& event) const {
   RmwLookup publisher = model_.rmw_publisher(origin.process, event.rmw_publisher_handle);
-  if (publisher.kind == RmwHandle::kUnknown) {
-    // ros2_tracing before 8.0 records only the message: its rcl_publish came just before, in the same thread.
-    if (thread.rcl_message == event.message) {
-      publisher.id = model_.publisher(origin.process, thread.rcl_publisher);
-      if (publisher.id != kNoObject) {
-        publisher.kind = RmwHandle::kKnown;
-      }
+  if (publisher.kind == RmwHandle::kUnknown && thread.rcl_message == event.message) {
+    publisher.id = model_.publisher(origin.process, thread.rcl_publisher);
+    if (publisher.id != kNoObject) {
+      publisher.kind = RmwHandle::kKnown;
     }
   }
+  return publisher;
+}
+
+void MessageJoin::count_unknown(const Origin& origin) {
+  ++counts_.unknown;
+  counts_.unknown_in_whole += begun_.contains(origin.process) ? 1 : 0;
+}
+
+void MessageJoin::close(const Origin& origin, ThreadState& thread) {
+  messages_.close(*thread.untimed, origin.time_ns);
+  thread.untimed.reset();
+}
+
+void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::RmwPublish& event) {
+  go_on(origin, thread);
+  const RmwLookup publisher = publisher_of(origin, thread, event);
   if (publisher.kind == RmwHandle::kInternal) {
     ++counts_.internal;
   } else if (publisher.kind == RmwHandle::kUnknown) {
-    ++counts_.unknown;
-    ++counts_.unknown_publications;
+    if (event.rmw_publisher_handle == 0 && thread.rcl_message != event.message) {
+      ++counts_.unnamed;
+    } else {
+      count_unknown(origin);
+      ++counts_.unknown_publications;
+    }
   } else {
     Publication publication{.number = ++counts_.publications,
                             .topic = model_.publishers()[publisher.id].topic,
@@ -46,6 +71,9 @@ void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::RmwP
     thread.written_number = publication.number;
     sink_.on_publication(publication);
     messages_.publish(publication, event.timestamp);
+    if (event.timestamp == 0) [[unlikely]] {
+      thread.untimed = publication;
+    }
   }
   if (publisher.kind != RmwHandle::kKnown) {
     thread.written_topic = kNoObject;
@@ -63,6 +91,7 @@ void MessageJoin::on_write(const Origin& origin, ThreadState& thread, std::int64
 }
 
 void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::RmwTake& event) {
+  go_on(origin, thread);
   if (thread.taken) {
     tell_taken(origin, thread, kNoObject);
   }
@@ -73,7 +102,7 @@ void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::RmwT
   if (subscription.kind == RmwHandle::kInternal) {
     ++counts_.internal;
   } else if (subscription.kind == RmwHandle::kUnknown) {
-    ++counts_.unknown;
+    count_unknown(origin);
   } else {
     const ObjectId topic = model_.subscriptions()[subscription.id].topic;
     thread.taken = messages_.take(subscription.id, topic, event.source_timestamp, origin.time_ns);
@@ -83,10 +112,11 @@ void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::RmwT
 }
 
 void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::RclcppIntraPublish& event) {
+  go_on(origin, thread);
   thread.intra_process.reset();
   const ObjectId publisher = model_.publisher(origin.process, event.publisher_handle);
   if (publisher == kNoObject) {
-    ++counts_.unknown;
+    count_unknown(origin);
     ++counts_.unknown_publications;
     return;
   }
@@ -112,13 +142,17 @@ void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::Rclc
 }
 
 void MessageJoin::on_callback(const Origin& origin, ThreadState& thread, ObjectId callback, bool intra_process) {
+  go_on(origin, thread);
   if (intra_process) {
     if (thread.buffered) {
       tell_buffered(origin, thread, callback);
+    } else {
+      deliver_unrecorded(callback);
     }
     return;
   }
   if (!thread.taken) {
+    deliver_unrecorded(callback);
     return;
   }
   // The next callback of the thread gets the message. If it belongs to another subscription, the callback was disabled.
@@ -129,6 +163,13 @@ void MessageJoin::on_callback(const Origin& origin, ThreadState& thread, ObjectI
     messages_.deliver(*thread.taken, origin.time_ns);
   }
   tell_taken(origin, thread, gets_it ? callback : kNoObject);
+}
+
+void MessageJoin::deliver_unrecorded(ObjectId callback) {
+  const ObjectId subscription = model_.subscription_of(model_.callbacks()[callback]);
+  if (subscription != kNoObject) {
+    messages_.deliver_unrecorded(model_.subscriptions()[subscription].topic);
+  }
 }
 
 void MessageJoin::give_to_none(const Origin& origin, ThreadState& thread) {
@@ -160,7 +201,8 @@ void MessageJoin::tell_taken(const Origin& origin, ThreadState& thread, ObjectId
        .callback = callback,
        .callback_begin_ns = callback == kNoObject ? 0 : origin.time_ns,
        .needs_no_callback = callback == kNoObject && needs_no_callback(thread),
-       .is_by_order = thread.taken->is_by_order});
+       .is_estimated = thread.taken->is_estimated,
+       .is_unidentified = thread.taken->is_unidentified});
   thread.taken.reset();
 }
 
@@ -181,6 +223,21 @@ void MessageJoin::tell_buffered(const Origin& origin, ThreadState& thread, Objec
     sink_.on_message(flow);
   }
   thread.buffered.reset();
+}
+
+void MessageJoin::finish() {
+  if (tells_publishers_) {
+    counts_.internal += std::exchange(counts_.unnamed, 0);
+  }
+  // ros2_tracing before 8.0 does not record what subscriptions without a type take, such as those of a recorder.
+  messages_.finish([this](ObjectId topic, const MessageMatcher::Takers& takers) {
+    for (ObjectId id = 0; id < model_.subscriptions().size(); ++id) {
+      if (model_.subscriptions()[id].topic == topic && model_.rclcpp_objects(id) == 0 && !takers.contains(id)) {
+        return true;
+      }
+    }
+    return false;
+  });
 }
 
 void MessageJoin::link(const Origin& origin, const std::vector<ros2::Handle>& subscriptions,

@@ -6,6 +6,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "tracing/decode/reader/ros2_events.hpp"
@@ -23,6 +26,10 @@ struct MessageCounts {
   std::uint64_t internal = 0;              // published or taken by the middleware for itself
   std::uint64_t unknown = 0;               // published or taken by objects whose initialisation is not in the trace
   std::uint64_t unknown_publications = 0;  // part of unknown
+  std::uint64_t unknown_in_whole = 0;      // part of unknown: of processes that began within the trace
+  // Published without a publisher, as ros2_tracing before 8.0 records it, and the trace has no rcl_publish that tells
+  // it.
+  std::uint64_t unnamed = 0;
 };
 
 class MessageJoin {
@@ -31,6 +38,10 @@ class MessageJoin {
   MessageJoin(const ObjectModel& model, const ExecutorWaits& waits, ExecutionSink& sink)
       : model_(model), waits_(waits), sink_(sink) {}
 
+  void on(const Origin& origin, const ros2::RclInit& event) {
+    begun_.insert(origin.process);
+    versions_.emplace(event.version);
+  }
   // `thread`: that of the event. The caller keeps it between events.
   void on(const Origin& origin, ThreadState& thread, const ros2::RclcppPublish& event);
   void on(const Origin& origin, ThreadState& thread, const ros2::RclPublish& event);
@@ -53,18 +64,32 @@ class MessageJoin {
   // dds:write, of middleware that records it: what the thread has published last.
   void on_write(const Origin& origin, ThreadState& thread, std::int64_t source_timestamp);
 
+  // The thread does something else than publishing.
+  void go_on(const Origin& origin, ThreadState& thread) {
+    if (thread.untimed) [[unlikely]] {
+      close(origin, thread);
+    }
+  }
+
   // The thread begins a callback, which gets the message that the thread has taken.
   void on_callback(const Origin& origin, ThreadState& thread, ObjectId callback, bool intra_process);
   // No callback of the thread gets what it has taken.
   void give_to_none(const Origin& origin, ThreadState& thread);
   // At the end of the trace.
-  void finish() { messages_.finish(); }
+  void finish();
 
+  const std::set<std::string, std::less<>>& versions() const { return versions_; }  // of tracetools
   const MessageCounts& counts() const { return counts_; }
   const MessageMatcher& through_middleware() const { return messages_; }
   const IntraProcessMatcher& within_processes() const { return buffers_; }
 
  private:
+  // The publisher of a message that is published; `id` is that of a known one.
+  RmwLookup publisher_of(const Origin& origin, const ThreadState& thread, const ros2::RmwPublish& event) const;
+  void count_unknown(const Origin& origin);
+  void close(const Origin& origin, ThreadState& thread);
+  // A callback begins that gets a message, if it is that of a subscription, and the trace has no take of it.
+  void deliver_unrecorded(ObjectId callback);
   // The thread gives its message to `callback`, or to none.
   void tell_taken(const Origin& origin, ThreadState& thread, ObjectId callback);
   bool needs_no_callback(const ThreadState& thread) const;
@@ -77,7 +102,10 @@ class MessageJoin {
   ExecutionSink& sink_;
   MessageMatcher messages_;
   IntraProcessMatcher buffers_{model_};
-  bool tells_executions_ = false;  // the trace has rclcpp_executor_execute
+  bool tells_executions_ = false;                // the trace has rclcpp_executor_execute
+  bool tells_publishers_ = false;                // the trace has rcl_publish
+  std::set<ProcessId> begun_;                    // processes with rcl_init
+  std::set<std::string, std::less<>> versions_;  // that these have named
   MessageCounts counts_;
 };
 

@@ -33,6 +33,7 @@ struct ThreadState {
   ObjectId written_topic = kNoObject;  // of the thread's last rmw_publish, which dds:write follows; kNoObject: it has
   std::uint64_t written_number = 0;
   std::optional<Publication> intra_process;  // the thread's last publication within the process
+  std::optional<Publication> untimed;        // its last one without a timestamp, until it goes on
 
   // Messages that are not yet given to a callback.
   std::optional<TakenMessage> taken;

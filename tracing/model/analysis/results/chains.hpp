@@ -34,6 +34,7 @@ struct ChainResult {
   std::int64_t longest_begin_ns = 0;
   std::int64_t longest_end_ns = 0;
   bool is_loop = false;
+  bool estimated = false;
   bool doubtful = false;
   std::uint32_t path = 0;  // PathId: index in ChainTracker::paths()
 
@@ -67,6 +68,7 @@ inline constexpr Field<ChainResult> ChainResult::kFields[] = {
     {"longest_begin_ns", &ChainResult::longest_begin_ns, "of the longest response", trait::kTime | trait::kNotOnPage},
     {"longest_end_ns", &ChainResult::longest_end_ns, "likewise", trait::kTime},
     {"is_loop", &ChainResult::is_loop, "the last callback is in the chain already"},
+    {"estimated", &ChainResult::estimated, "a topic of the chain has `estimated` messages"},
     {"doubtful", &ChainResult::doubtful, "a process of the chain may have lost events"},
 };
 

@@ -21,7 +21,14 @@ struct TopicResult {
   std::uint64_t intra_process_received = 0;
   std::uint64_t early = 0;
   std::int64_t earliest_ns = 0;
+  std::uint64_t estimated = 0;
+  std::uint64_t unidentified = 0;
+  std::uint64_t undecided = 0;
+  std::uint64_t unrecorded = 0;
   bool doubtful = false;
+
+  // Part of its figures was found by the times of messages, without timestamps of publications.
+  bool is_estimated() const { return estimated + unidentified + undecided > 0; }
 
   static const Field<TopicResult> kFields[];
 };
@@ -47,6 +54,13 @@ inline constexpr Field<TopicResult> TopicResult::kFields[] = {
      "part of `received`: taken before they were published, because the clocks of two machines differ; they have no "
      "latency"},
     {"earliest_ns", &TopicResult::earliest_ns, "how long before, at most"},
+    {"estimated", &TopicResult::estimated,
+     "part of `received`: the trace has no timestamps of publications (ros2_tracing before 8.0), and which one it is "
+     "was found by its time (`docs/analysis.md`)"},
+    {"unidentified", &TopicResult::unidentified, "part of `received`, likewise: which one it is can't be told"},
+    {"undecided", &TopicResult::undecided,
+     "part of `published`, likewise: whether a subscription took them can't be told"},
+    {"unrecorded", &TopicResult::unrecorded, "messages that began a callback, and whose take the trace does not hold"},
     {"doubtful", &TopicResult::doubtful,
      "the process of a publisher or subscription may have lost events, or clocks differ"},
 };
@@ -75,6 +89,8 @@ struct SubscriptionResult {
   DurationSummary transport;
   DurationSummary executor;
   DurationSummary take;
+  std::uint64_t estimated = 0;
+  std::uint64_t unidentified = 0;
   bool doubtful = false;
 
   std::uint64_t lost_unplaced() const { return lost - lost_by_publisher - lost_in_transport; }
@@ -111,6 +127,8 @@ inline constexpr Field<SubscriptionResult> SubscriptionResult::kFields[] = {
     {"transport", &SubscriptionResult::transport, "on the way"},
     {"executor", &SubscriptionResult::executor, "waiting for the executor"},
     {"take", &SubscriptionResult::take, "from the take to the callback"},
+    {"estimated", &SubscriptionResult::estimated, "as in `topics`: part of `received`"},
+    {"unidentified", &SubscriptionResult::unidentified, "likewise; they count as neither lost nor overwritten"},
     {"doubtful", &SubscriptionResult::doubtful, "the process of either side may have lost events"},
 };
 

@@ -10,7 +10,11 @@ namespace tracing {
 
 namespace {
 
-ChainResult chain_result(const Subjects& subjects, const ChainTracker& chains, const ChainRecord& last) {
+// By topic, whether the publications of messages were estimated.
+using EstimatedTopics = std::vector<bool>;
+
+ChainResult chain_result(const Subjects& subjects, const ChainTracker& chains, const ChainRecord& last,
+                         const EstimatedTopics& estimated) {
   const ObjectModel& model = subjects.model();
   ChainResult result;
   for (const ChainRecord* step = &last; step != nullptr;
@@ -23,6 +27,7 @@ ChainResult chain_result(const Subjects& subjects, const ChainTracker& chains, c
     shown.callback_id = step->callback;
     if (step->topic != kNoObject) {
       shown.topic = model.topics()[step->topic].name;
+      result.estimated = result.estimated || (step->topic < estimated.size() && estimated[step->topic]);
     }
     shown.until_publish = step->until_publish.summary();
     shown.transfer = step->transfer.summary();
@@ -56,7 +61,12 @@ bool is_natural(const ChainTracker& chains, const ChainRecord& last) {
 
 }  // namespace
 
-void add_chain_results(const Subjects& subjects, const ChainTracker& chains, Ros2Results& results) {
+void add_chain_results(const Subjects& subjects, const ChainTracker& chains, const MessageMatcher& messages,
+                       Ros2Results& results) {
+  EstimatedTopics estimated;
+  for (const TopicRecord& record : messages.records()) {
+    estimated.push_back(record.estimated > 0);
+  }
   std::vector<std::pair<std::size_t, ChainResult>> named;  // by definition
   for (const ChainRecord& last : chains.paths()) {
     if (last.length < 2 || last.response.count() == 0) {
@@ -64,14 +74,14 @@ void add_chain_results(const Subjects& subjects, const ChainTracker& chains, Ros
     }
     for (const NamedPath& path : last.named) {
       const ChainDefinition& definition = chains.definitions()[path.definition];
-      ChainResult result = chain_result(subjects, chains, last);
+      ChainResult result = chain_result(subjects, chains, last, estimated);
       result.name = definition.name;
       result.budget_ns = definition.budget_ns;
       result.over_budget = path.over_budget;
       named.emplace_back(path.definition, std::move(result));
     }
     if (last.named.empty() && !last.goes_on && is_natural(chains, last)) {
-      results.chains.push_back(chain_result(subjects, chains, last));
+      results.chains.push_back(chain_result(subjects, chains, last, estimated));
     }
   }
   // A chain that hardly ever was gone through says little.

@@ -54,6 +54,10 @@ TopicResult topic_result(const Subjects& subjects, ObjectId id, const MessageMat
   result.received_only = record.received_only;
   result.early = record.early;
   result.earliest_ns = record.earliest_ns;
+  result.estimated = record.estimated;
+  result.unidentified = record.unidentified;
+  result.undecided = record.undecided;
+  result.unrecorded = record.unrecorded;
   result.doubtful = result.doubtful || record.early > 0;
   result.latency = record.latency.summary();
   return result;
@@ -109,6 +113,8 @@ std::vector<SubscriptionResult> subscription_results(const Subjects& subjects, c
     result.transport = record.transport.summary();
     result.executor = record.executor.summary();
     result.take = record.take.summary();
+    result.estimated = record.estimated;
+    result.unidentified = record.unidentified;
     result.doubtful = subjects.is_doubtful_node(subscription.node);
     results.push_back(std::move(result));
   }

@@ -71,7 +71,8 @@ std::vector<ExecutionResult> execution_results(const Subjects& subjects, const E
 std::vector<ExecutorResult> executor_results(const Subjects& subjects, const ExecutorLoad& executors);
 
 // Fills in what `results` tell of chains.
-void add_chain_results(const Subjects& subjects, const ChainTracker& chains, Ros2Results& results);
+void add_chain_results(const Subjects& subjects, const ChainTracker& chains, const MessageMatcher& messages,
+                       Ros2Results& results);
 
 std::vector<NodeResult> node_results(const Subjects& subjects, const std::vector<CallbackResult>& callbacks);
 std::vector<LifecycleResult> lifecycle_results(const Subjects& subjects, const LifecycleTracker& lifecycle,

@@ -15,16 +15,16 @@ std::vector<UnmatchedResult> unmatched_results(const ObjectModel& model, const E
   std::uint64_t untaken = 0;
   std::uint64_t without_subscription = 0;
   std::uint64_t unpublished = 0;
-  std::uint64_t untimed = 0;
-  std::uint64_t untimed_taken = 0;
-  std::uint64_t by_order = 0;
+  std::uint64_t undecided = 0;
+  std::uint64_t unidentified = 0;
+  std::uint64_t estimated = 0;
   for (ObjectId topic = 0; topic < messages.records().size(); ++topic) {
     const TopicRecord& record = messages.records()[topic];
     (model.topics()[topic].subscriptions == 0 ? without_subscription : untaken) += record.published_only;
     unpublished += record.received_only;
-    untimed += record.untimed;
-    untimed_taken += record.untimed_taken;
-    by_order += record.by_order;
+    undecided += record.undecided;
+    unidentified += record.unidentified;
+    estimated += record.estimated;
   }
   std::uint64_t not_executed = 0;
   for (const DeliveryRecord& record : deliveries.subscriptions()) {
@@ -48,12 +48,14 @@ std::vector<UnmatchedResult> unmatched_results(const ObjectModel& model, const E
       join.callbacks().ends_without_begin());
   add("rmw_publish", "the topic has no subscription in the trace", without_subscription);
   add("rmw_publish", "no subscription took the message: not connected, or it got lost", untaken);
-  add("rmw_publish", "it has no timestamp, as in ros2_tracing before 8.0: who took its message is not certain",
-      untimed);
+  add("rmw_publish", "it has no timestamp, as in ros2_tracing before 8.0: whether it was taken can't be told",
+      undecided);
+  add("rmw_publish", "it has no publisher, as in ros2_tracing before 8.0, and the trace has no rcl_publish",
+      counts.unnamed);
   add("rmw_publish", "the creation of the publisher is not in the trace", counts.unknown_publications);
   add("rmw_take", "the publication is not in the trace", unpublished);
-  add("rmw_take", "the publications have no timestamps", untimed_taken);
-  add("rmw_take", "the publications have no timestamps: found by time and order, which is not certain", by_order);
+  add("rmw_take", "the publications have no timestamps: which one it is can't be told", unidentified);
+  add("rmw_take", "the publications have no timestamps: which one it is was found by its time, an estimate", estimated);
   add("rmw_take", "the creation of the subscription is not in the trace", counts.unknown - counts.unknown_publications);
   add("rmw_take", "no callback got the message", not_executed);
   add("rclcpp_ring_buffer_enqueue", "a newer message took the place of this one", buffers.overwritten);
