@@ -219,7 +219,7 @@ std::vector<std::string> find_test_files(const std::vector<std::string>& words, 
 }
 
 std::vector<TestCase> list_tests(const std::string& file, const Registry& registry, const Environment& environment,
-                                 const LaunchArguments& arguments) {
+                                 const LaunchArguments& arguments, ProcessNames process_names) {
   const TestFile tests_of(file, registry, environment, arguments);
   const LaunchPlan all = tests_of.plan(std::nullopt);
   if (all.tests.empty()) {
@@ -244,7 +244,9 @@ std::vector<TestCase> list_tests(const std::string& file, const Registry& regist
     // A test without actions starts what the file starts. So a file of many such tests is visited once.
     const std::optional<LaunchPlan> own = test.has_actions ? std::optional(tests_of.plan(tests.size())) : std::nullopt;
     const TestRequest& same = own ? own->tests.front() : test;
-    check_names(same, own ? *own : all, errors);
+    if (process_names == ProcessNames::kOfLaunchFile) {
+      check_names(same, own ? *own : all, errors);
+    }
     tests.push_back(tests_of.test_case(same, tests.size()));
     tests.back().is_only = all.tests.size() == 1;
   }
@@ -263,6 +265,13 @@ TestCase find_test(const std::string& file, const Registry& registry, const Envi
                       SourceRange{tests_of.description->file, 0, 0});
   }
   return tests_of.test_case(whole.tests.front(), number);
+}
+
+TestRequest request_of(const TestCase& test, const Registry& registry, const Environment& environment,
+                       const LaunchArguments& arguments) {
+  LaunchPlan plan =
+      plan_of(*test.description, registry, with_variables_of_a_test_run(environment), arguments, test.number, {});
+  return std::move(plan.tests.at(0));
 }
 
 DiskPlan plan_disks(const TestCase& test, const Registry& registry, const Environment& environment,

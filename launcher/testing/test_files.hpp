@@ -48,9 +48,14 @@ struct TestCase {
 std::vector<std::string> find_test_files(const std::vector<std::string>& words, const Scope& scope);
 
 // The tests of a launch file. Everything that is wrong with them is an error, also a process that they name and that
-// the launch file does not start. Throws LaunchError.
+// the launch file does not start, unless it need not do that. Throws LaunchError.
+enum class ProcessNames { kOfLaunchFile, kAny };
 std::vector<TestCase> list_tests(const std::string& file, const Registry& registry, const Environment& environment,
-                                 const LaunchArguments& arguments);
+                                 const LaunchArguments& arguments, ProcessNames names = ProcessNames::kOfLaunchFile);
+
+// What the test asks for. Throws LaunchError.
+TestRequest request_of(const TestCase& test, const Registry& registry, const Environment& environment,
+                       const LaunchArguments& arguments);
 
 // The test of this number, which list_tests() has found elsewhere. Its mistakes are not looked for again. Throws
 // LaunchError, also if it has another name here.

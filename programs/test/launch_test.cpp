@@ -25,6 +25,7 @@
 #include "launcher/substitution/package_index.hpp"
 #include "launcher/substitution/template_parser.hpp"
 #include "launcher/testing/engine_task.hpp"
+#include "launcher/testing/finished_trace.hpp"
 #include "launcher/testing/launch_testing_files.hpp"
 #include "launcher/testing/result_files.hpp"
 #include "launcher/testing/seeds.hpp"
@@ -60,6 +61,8 @@ struct Options {
   std::string engine;
   SeedOptions seeds;
   bool shrink = false;
+  std::vector<std::string> traces;
+  bool skip_others = false;
 };
 
 std::vector<TestCase> list_all(const Options& options, const Registry& registry, const Environment& environment) {
@@ -71,7 +74,8 @@ std::vector<TestCase> list_all(const Options& options, const Registry& registry,
   const std::vector<std::string> files = find_test_files(options.target.words, scope);
   for (const std::string& file : files) {
     try {
-      std::vector<TestCase> found = list_tests(file, registry, environment, options.target.arguments);
+      const ProcessNames names = options.traces.empty() ? ProcessNames::kOfLaunchFile : ProcessNames::kAny;
+      std::vector<TestCase> found = list_tests(file, registry, environment, options.target.arguments, names);
       // Of several files, each may declare other arguments.
       if (files.size() == 1 && !options.target.arguments.empty()) {
         const LaunchDescription& description = *found.front().description;
@@ -193,15 +197,86 @@ void run_if_launch_testing(const Options& options) {
       !options.jobs.empty() || !options.names.empty() || options.list || !options.directory.empty() || options.keep ||
       !options.tap.empty() || !options.json.empty() || options.github || !options.repeat.empty() ||
       options.until_failure || !options.retries.empty() || !options.shard.empty() || !options.engine.empty() ||
-      !options.seeds.seed.empty() || !options.seeds.seeds.empty() || !options.seeds.faults.empty() || options.shrink;
+      !options.seeds.seed.empty() || !options.seeds.seeds.empty() || !options.seeds.faults.empty() || options.shrink ||
+      !options.traces.empty() || options.skip_others;
   if (has_options) {
     throw UsageError(fmt::format("'{}' is a file of launch_testing: of the options only --junit goes with it", *first));
   }
   run_launch_testing_files(files, options.target.arguments, options.junit);
 }
 
+// Options that say how tests run do not go with a trace of a run that is over.
+void check_trace_options(const Options& options) {
+  if (options.traces.empty()) {
+    if (options.skip_others) {
+      throw UsageError("--skip-others needs --trace DIR");
+    }
+    return;
+  }
+  const std::pair<const char*, bool> others[] = {{"--jobs", !options.jobs.empty()},
+                                                 {"--directory", !options.directory.empty()},
+                                                 {"--keep", options.keep},
+                                                 {"--repeat", !options.repeat.empty()},
+                                                 {"--until-failure", options.until_failure},
+                                                 {"--retries", !options.retries.empty()},
+                                                 {"--engine", !options.engine.empty()},
+                                                 {"--seed", !options.seeds.seed.empty()},
+                                                 {"--seeds", !options.seeds.seeds.empty()},
+                                                 {"--faults", !options.seeds.faults.empty()},
+                                                 {"--shrink", options.shrink}};
+  for (const auto& [name, is_given] : others) {
+    if (is_given) {
+      throw UsageError(fmt::format("{} does not go with --trace, which starts nothing", name));
+    }
+  }
+}
+
+void list(const std::vector<TestCase>& tests) {
+  for (const TestCase& test : tests) {
+    fmt::print("{}:{}: {}\n", test.file, test.line, test.full_name());
+  }
+}
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// Prints and writes them, and returns the exit code.
+int conclude(const Options& options, const std::vector<TestResult>& results, bool interrupted) {
+  if (options.github) {
+    std::error_code ignored;
+    fmt::print("{}", as_github(results, fs::current_path(ignored).string()));
+  }
+  const bool written = write_results(options, results);
+  const bool passed = std::all_of(results.begin(), results.end(), [](const auto& result) { return result.passed(); });
+  return interrupted ? kInterrupted : passed && written ? 0 : 1;
+}
+
+int judge_traces(const Options& options) {
+  const Environment environment = own_environment();
+  const Registry registry = builtin_actions();
+  std::vector<TestCase> tests = list_all(options, registry, environment);
+  keep_named(options.names, tests);
+  keep_shard(options.shard, tests);
+  if (options.list) {
+    list(tests);
+    return 0;
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  TestReport report(stdout);
+  const FinishedTrace trace{{options.traces.begin(), options.traces.end()}, options.skip_others};
+  const std::vector<TestResult> results =
+      judge_finished_trace(tests, registry, environment, options.target.arguments, trace, report);
+  report.finish(results, results.size(), seconds_since(begin), false);
+  return conclude(options, results, false);
+}
+
 int run(const Options& options) {
   run_if_launch_testing(options);
+  check_trace_options(options);
+  if (!options.traces.empty()) {
+    return judge_traces(options);
+  }
   const Environment environment = own_environment();
   const Registry registry = builtin_actions();
   QueueOptions queue;
@@ -219,9 +294,7 @@ int run(const Options& options) {
   apply_seeds(options.seeds, tests);
   keep_shard(options.shard, tests);
   if (options.list) {
-    for (const TestCase& test : tests) {
-      fmt::print("{}:{}: {}\n", test.file, test.line, test.full_name());
-    }
+    list(tests);
     return 0;
   }
   queue.directory = fs::absolute(options.directory.empty() ? default_directory(environment) : options.directory);
@@ -239,16 +312,10 @@ int run(const Options& options) {
   }
   const bool is_open = queue.stop_at_failure || queue.rounds == 0;
   report.finish(results, is_open ? results.size() : tests.size() * queue.rounds,
-                std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), interrupted);
+                seconds_since(begin), interrupted);
   std::error_code not_empty;
   fs::remove(queue.directory, not_empty);
-  if (options.github) {
-    std::error_code ignored;
-    fmt::print("{}", as_github(results, fs::current_path(ignored).string()));
-  }
-  const bool written = write_results(options, results);
-  const bool passed = std::all_of(results.begin(), results.end(), [](const auto& result) { return result.passed(); });
-  return interrupted ? kInterrupted : passed && written ? 0 : 1;
+  return conclude(options, results, interrupted);
 }
 
 // `words` come after "launch test". Returns the exit code: 0 when every test has passed, 1 when one has failed or a
@@ -283,6 +350,10 @@ int test_command(std::vector<std::string> words) {
                     "only apply the faults with these numbers, such as 1,3, or none of them");
   command.take_flag("--shrink", options.shrink,
                     "run tests that have failed again, to find the fewest faults with which they still fail");
+  command.take_texts("--trace", options.traces,
+                     "judge what the tests expect of the traces in this directory, and start nothing; may be repeated");
+  command.take_flag("--skip-others", options.skip_others,
+                    "with --trace: leave out what a finished trace does not tell, instead of failing");
   if (const std::optional<int> code = command.parse(std::move(words))) {
     return *code;
   }

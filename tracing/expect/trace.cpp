@@ -2,6 +2,7 @@
 #include "launch_trace_testing/trace.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -33,12 +34,16 @@ class TraceStore {
   std::vector<std::filesystem::path> directories;
   std::vector<CallbackRun> callbacks;
   std::vector<Delivery> deliveries;
+  std::vector<MessageDoubts> doubts;
+  std::string tracetools;
+  bool lacks_middleware = false;
 
  private:
   Event stored(const tracing::Event& event, const std::string& host);
   void set_class(Event& stored, const tracing::EventClass& event_class, const std::string& host);
   void add_callbacks(const tracing::timeline::Timeline& timeline);
   void add_deliveries(const tracing::timeline::Timeline& timeline);
+  void add_doubts(const tracing::Ros2Results& results);
 
   std::vector<std::shared_ptr<const EventClass>> classes_;  // by tracing::EventClass::id
   std::vector<std::vector<std::size_t>> contexts_;          // of each class, those that are kept as values
@@ -125,6 +130,7 @@ TraceStore::TraceStore(const std::vector<std::filesystem::path>& paths, const Re
     damage = reader.damage();
     const tracing::TraceResults results = analysis.finish();
     timeline = recorder.finish(analysis, results.overview);
+    add_doubts(results.ros2);
   } catch (const tracing::TraceReadError& error) {
     throw TraceError(error.remedy().empty() ? std::string(error.what())
                                             : std::string(error.what()) + "\nhelp: " + error.remedy());
@@ -232,6 +238,17 @@ void TraceStore::add_deliveries(const tracing::timeline::Timeline& timeline) {
   }
 }
 
+void TraceStore::add_doubts(const tracing::Ros2Results& results) {
+  for (const tracing::TopicResult& topic : results.topics) {
+    const std::uint64_t taken = topic.unidentified + (results.is_older ? topic.unrecorded : 0);
+    if (topic.is_estimated() || taken > 0) {
+      doubts.push_back({topic.name, topic.estimated, taken, topic.undecided});
+    }
+  }
+  tracetools = fmt::format("{}", fmt::join(results.tracetools, ", "));
+  lacks_middleware = results.lacks_middleware;
+}
+
 Trace::Trace() : store_(std::make_shared<const TraceStore>()) {}
 
 Trace::Trace(const std::filesystem::path& directory, const ReadOptions& options)
@@ -262,6 +279,18 @@ const std::vector<CallbackRun>& Trace::callbacks() const {
 
 const std::vector<Delivery>& Trace::deliveries() const {
   return store_->deliveries;
+}
+
+const std::vector<MessageDoubts>& Trace::doubts() const {
+  return store_->doubts;
+}
+
+const std::string& Trace::tracetools() const {
+  return store_->tracetools;
+}
+
+bool Trace::lacks_middleware() const {
+  return store_->lacks_middleware;
 }
 
 std::int64_t Trace::begin_ns() const {

@@ -5,14 +5,15 @@
 
 namespace launch {
 
-tracing::TraceResults analyse_chains(const std::string& directory, const std::set<std::int64_t>& pids,
+tracing::TraceResults analyse_chains(const std::vector<std::filesystem::path>& directories,
+                                     const std::optional<std::set<std::int64_t>>& pids,
                                      const std::vector<tracing::ChainDefinition>& chains) {
   tracing::TraceAnalysis analysis(nullptr, chains);
-  tracing::TraceReader reader{std::filesystem::path(directory)};
+  tracing::TraceReader reader(directories, tracing::TraceReader::Clocks::kOne);
   while (const tracing::TraceItem item = reader.next()) {
     if (item.loss != nullptr) {
       analysis.on_loss(*item.loss);
-    } else if (pids.contains(item.event->vpid.value_or(-1))) {
+    } else if (!pids || pids->contains(item.event->vpid.value_or(-1))) {
       analysis.on_event(*item.event);
     }
   }

@@ -4,6 +4,8 @@
 
 #include <sys/types.h>
 
+#include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,21 @@ struct RecordedProcess {
 
 // Throws LaunchError at its place for a mistake in the expectation that only this code can find.
 void check_trace_expectation(const Expectation& expectation);
+
+// Judges expectations of finished traces, which are read once. All that is in them counts. A process has the names that
+// the traces tell: those of its program and its nodes, and that of the launch file if a launcher has recorded it.
+class TraceJudge {
+ public:
+  explicit TraceJudge(const std::vector<std::filesystem::path>& directories);
+  ~TraceJudge();
+
+  // As judge_trace() below.
+  std::vector<Failure> judge(const std::vector<Expectation>& expectations, const SourceRange& where);
+
+ private:
+  class Parts;
+  std::unique_ptr<Parts> parts_;
+};
 
 // Reads the traces in and below the directory, and judges each expectation of the trace. Only the events of these
 // processes count. Every trace is expected to be there, and to have lost nothing; `where` is the place of the test.

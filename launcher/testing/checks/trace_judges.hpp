@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <set>
 #include <string>
@@ -25,9 +26,10 @@ std::optional<Failure> judge_allocations(const ExpectedAllocations& expected, co
 std::optional<Failure> judge_timer(const ExpectedTimer& expected, const launch_trace_testing::Trace& trace,
                                    const SourceRange& where);
 
-// The chains that the trace holds, with the names of the definitions, of the events of these processes. Throws
-// tracing::TraceReadError.
-tracing::TraceResults analyse_chains(const std::string& directory, const std::set<std::int64_t>& pids,
+// The chains that the traces hold, with the names of the definitions, of the events of these processes; nullopt: of all.
+// Throws tracing::TraceReadError.
+tracing::TraceResults analyse_chains(const std::vector<std::filesystem::path>& directories,
+                                     const std::optional<std::set<std::int64_t>>& pids,
                                      const std::vector<tracing::ChainDefinition>& chains);
 
 // The share of the durations that are below; `percentile` is one of those that a summary has.

@@ -47,9 +47,11 @@ class Example {
         variant_(variant) {}
 
   void begin() {
-    exec(kSensor, "sensor-1", 3, -30'000'000);
-    exec(kFilter, "filter-2", 4, -28'000'000);
-    exec(kDisplay, "display-3", 5, -us(1));
+    if (!variant_.is_older) {
+      exec(kSensor, "sensor-1", 3, -30'000'000);
+      exec(kFilter, "filter-2", 4, -28'000'000);
+      exec(kDisplay, "display-3", 5, -us(1));
+    }
     node(kSensor, 0, "sensor");
     publisher(kSensor, us(100), "/scan");
     write(kSensor, us(200), RclTimerInit{kTimer, kExamplePeriod});
@@ -148,7 +150,7 @@ class Example {
   }
 
   void node(const Thread& thread, std::int64_t after, std::string_view name) {
-    write(thread, after, RclInit{kContext, "8.10.1"});
+    write(thread, after, RclInit{kContext, variant_.is_older ? "6.3.2" : "8.10.1"});
     write(thread, after + us(10), RclNodeInit{kNode, kRmwNode, name, "/"});
   }
 
@@ -173,7 +175,11 @@ class Example {
   void publish(const Thread& thread, std::int64_t published) {
     write(thread, published - us(5), RclcppPublish{kMessage});
     write(thread, published - us(3), RclPublish{kPublisher, kMessage});
-    write(thread, published, RmwPublish{kRmwPublisher, kMessage, kExampleBegin + published});
+    if (variant_.is_older) {
+      publish_as_before(thread, published);
+    } else {
+      write(thread, published, RmwPublish{kRmwPublisher, kMessage, kExampleBegin + published});
+    }
     if (variant_.has_writes) {
       if (!dds_write_) {
         dds_write_ = writer_.declare("dds:write",
@@ -188,9 +194,22 @@ class Example {
     }
   }
 
+  // As ros2_tracing before 8.0.
+  void publish_as_before(const Thread& thread, std::int64_t published) {
+    if (!rmw_publish_) {
+      rmw_publish_ = writer_.declare(RmwPublish::kName,
+                                     "\t\tinteger { size = 64; align = 8; signed = 0; base = 16; } _message;\n");
+    }
+    std::string payload;
+    detail::append(payload, std::uint64_t{kMessage});
+    writer_.write_raw(static_cast<unsigned>(thread.vpid - kSensor.vpid), kExampleBegin + published, thread,
+                      *rmw_publish_, payload);
+  }
+
   void take(const Thread& thread, std::int64_t after, std::int64_t published) {
+    const std::int64_t source = kExampleBegin + published + (variant_.is_older ? us(5) : 0);
     execute(thread, after, kSubscription);
-    write(thread, after, RmwTake{kRmwSubscription, kMessage, kExampleBegin + published, true});
+    write(thread, after, RmwTake{kRmwSubscription, kMessage, variant_.has_source_timestamps ? source : 0, true});
     write(thread, after + us(2), RclTake{kMessage});
     write(thread, after + us(4), RclcppTake{kMessage});
   }
@@ -208,6 +227,7 @@ class Example {
   ExampleVariant variant_;
   std::optional<std::uint16_t> exec_;
   std::optional<std::uint16_t> dds_write_;
+  std::optional<std::uint16_t> rmw_publish_;
 };
 
 }  // namespace

@@ -34,6 +34,10 @@ struct ExampleVariant {
   std::int64_t usual_us = 400;  // how long the callback of /filter takes, in most cycles
   bool has_links = false;       // /filter declares that it publishes what it keeps of /scan
   bool has_writes = false;      // dds:write, 3 us after rmw_publish: two more events in a cycle
+  // As nodes of ROS 2 Iron record it under `ros2 trace`: rmw_publish has the message alone, the timestamp is taken 5 us
+  // after it, and there is no launcher.
+  bool is_older = false;
+  bool has_source_timestamps = true;  // rmw_take has them
 };
 
 // Creates the directory. A cycle has 28 events, and at most 7 of the scheduler.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// write_example_trace DIRECTORY CYCLES [scheduler] [writes] [slow]: for tests in Python, and for measurements.
+// write_example_trace DIRECTORY CYCLES [scheduler] [writes] [slow] [older] [without_source_timestamps]: for tests in Python, and for measurements.
 #include <cstdlib>
 #include <string>
 
@@ -17,6 +17,10 @@ int main(int argc, char** argv) {
       variant.has_writes = true;
     } else if (word == "slow") {
       variant.usual_us = 1'400;
+    } else if (word == "older") {
+      variant.is_older = true;
+    } else if (word == "without_source_timestamps") {
+      variant.has_source_timestamps = false;
     } else {
       return 2;
     }

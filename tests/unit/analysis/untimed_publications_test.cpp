@@ -9,7 +9,7 @@
 namespace tracing {
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr std::int64_t kOneSecond = 1'000'000'000;
 constexpr std::int64_t kWrite = 5'000;   // ns, from rcl_publish to the source timestamp
 constexpr std::int64_t kWindow = 30'000;  // ns, from rcl_publish to the next event of the thread
 
@@ -33,7 +33,7 @@ class UntimedPublicationsTest : public ::testing::Test {
   // Messages with all the time in the world between them, after which the clock of the process is confirmed.
   void confirm(ProcessId process, std::int64_t begin_ns) {
     for (std::uint32_t i = 0; i < SourceClock::kConfirmed; ++i) {
-      const std::int64_t at = begin_ns + i * kSecond;
+      const std::int64_t at = begin_ns + i * kOneSecond;
       publish_and_go_on(900 + i, at, {process, 71}, 3 + process);
       ASSERT_EQ(take(at + kWrite, at + 100'000), 900 + i);
     }
@@ -54,96 +54,96 @@ class UntimedPublicationsTest : public ::testing::Test {
 };
 
 TEST_F(UntimedPublicationsTest, FindsTheOneThatWasWrittenAtTheTime) {
-  publish_and_go_on(1, 1 * kSecond);
-  publish_and_go_on(2, 2 * kSecond);
-  publish_and_go_on(3, 3 * kSecond);
-  EXPECT_EQ(take(2 * kSecond + kWrite, 4 * kSecond), 2u);
-  EXPECT_EQ(take(3 * kSecond + kWrite, 4 * kSecond), 3u);
-  EXPECT_EQ(take(1 * kSecond + kWrite, 4 * kSecond), 1u) << "for a subscription that is late";
+  publish_and_go_on(1, 1 * kOneSecond);
+  publish_and_go_on(2, 2 * kOneSecond);
+  publish_and_go_on(3, 3 * kOneSecond);
+  EXPECT_EQ(take(2 * kOneSecond + kWrite, 4 * kOneSecond), 2u);
+  EXPECT_EQ(take(3 * kOneSecond + kWrite, 4 * kOneSecond), 3u);
+  EXPECT_EQ(take(1 * kOneSecond + kWrite, 4 * kOneSecond), 1u) << "for a subscription that is late";
   EXPECT_EQ(publications.count(), 0u);
 }
 
 TEST_F(UntimedPublicationsTest, GivesEachPublicationOnce) {
-  publish_and_go_on(1, 1 * kSecond);
-  EXPECT_EQ(take(1 * kSecond + kWrite, 2 * kSecond), 1u);
-  EXPECT_EQ(take(1 * kSecond + kWrite + 1, 2 * kSecond), 0u) << "a message of somebody else";
+  publish_and_go_on(1, 1 * kOneSecond);
+  EXPECT_EQ(take(1 * kOneSecond + kWrite, 2 * kOneSecond), 1u);
+  EXPECT_EQ(take(1 * kOneSecond + kWrite + 1, 2 * kOneSecond), 0u) << "a message of somebody else";
 }
 
 TEST_F(UntimedPublicationsTest, FindsNoneForAMessageFromBeforeTheTrace) {
-  publish_and_go_on(1, 10 * kSecond);
-  EXPECT_EQ(take(9 * kSecond, 10 * kSecond + kWindow), 0u);
-  EXPECT_EQ(take(10 * kSecond + kWrite, 10 * kSecond + 2 * kWindow), 1u);
+  publish_and_go_on(1, 10 * kOneSecond);
+  EXPECT_EQ(take(9 * kOneSecond, 10 * kOneSecond + kWindow), 0u);
+  EXPECT_EQ(take(10 * kOneSecond + kWrite, 10 * kOneSecond + 2 * kWindow), 1u);
 }
 
 TEST_F(UntimedPublicationsTest, LeavesOutWhatGotLost) {
   for (std::uint64_t i = 1; i <= 10; ++i) {
-    publish_and_go_on(i, static_cast<std::int64_t>(i) * kSecond);
+    publish_and_go_on(i, static_cast<std::int64_t>(i) * kOneSecond);
   }
-  EXPECT_EQ(take(2 * kSecond + kWrite, 11 * kSecond), 2u);
-  EXPECT_EQ(take(9 * kSecond + kWrite, 11 * kSecond), 9u);
+  EXPECT_EQ(take(2 * kOneSecond + kWrite, 11 * kOneSecond), 2u);
+  EXPECT_EQ(take(9 * kOneSecond + kWrite, 11 * kOneSecond), 9u);
   EXPECT_EQ(publications.count(), 8u);
 }
 
 TEST_F(UntimedPublicationsTest, TellsPublishersOfOneThreadApart) {
-  confirm(0, kSecond);
-  publish(1, 20 * kSecond, {0, 71}, 3);
-  publications.close({.number = 1, .thread = {0, 71}}, 20 * kSecond + 20'000);
-  publish(2, 20 * kSecond + 20'000, {0, 71}, 4);
-  publications.close({.number = 2, .thread = {0, 71}}, 20 * kSecond + 40'000);
-  EXPECT_EQ(take(20 * kSecond + 20'000 + kWrite, 21 * kSecond), 2u);
-  EXPECT_EQ(take(20 * kSecond + kWrite, 21 * kSecond), 1u);
+  confirm(0, kOneSecond);
+  publish(1, 20 * kOneSecond, {0, 71}, 3);
+  publications.close({.number = 1, .thread = {0, 71}}, 20 * kOneSecond + 20'000);
+  publish(2, 20 * kOneSecond + 20'000, {0, 71}, 4);
+  publications.close({.number = 2, .thread = {0, 71}}, 20 * kOneSecond + 40'000);
+  EXPECT_EQ(take(20 * kOneSecond + 20'000 + kWrite, 21 * kOneSecond), 2u);
+  EXPECT_EQ(take(20 * kOneSecond + kWrite, 21 * kOneSecond), 1u);
 }
 
 TEST_F(UntimedPublicationsTest, FindsTheMessagesOfABurst) {
-  confirm(0, kSecond);
+  confirm(0, kOneSecond);
   for (std::uint64_t i = 1; i <= 50; ++i) {
-    publish_and_go_on(i, 20 * kSecond + static_cast<std::int64_t>(i) * 9'000, {0, 71}, 3, 9'000);
+    publish_and_go_on(i, 20 * kOneSecond + static_cast<std::int64_t>(i) * 9'000, {0, 71}, 3, 9'000);
   }
   for (std::uint64_t i = 1; i <= 50; i += 2) {  // every other one is lost
-    EXPECT_EQ(take(20 * kSecond + static_cast<std::int64_t>(i) * 9'000 + kWrite, 21 * kSecond), i);
+    EXPECT_EQ(take(20 * kOneSecond + static_cast<std::int64_t>(i) * 9'000 + kWrite, 21 * kOneSecond), i);
   }
 }
 
 TEST_F(UntimedPublicationsTest, LeavesTheMessagesOfABurstOpenAsLongAsTheClockIsNotKnown) {
   for (std::uint64_t i = 1; i <= 5; ++i) {
-    publish_and_go_on(i, 20 * kSecond + static_cast<std::int64_t>(i) * 9'000, {0, 71}, 3, 9'000);
+    publish_and_go_on(i, 20 * kOneSecond + static_cast<std::int64_t>(i) * 9'000, {0, 71}, 3, 9'000);
   }
-  EXPECT_EQ(take(20 * kSecond + 3 * 9'000 + kWrite, 21 * kSecond), 0u);
+  EXPECT_EQ(take(20 * kOneSecond + 3 * 9'000 + kWrite, 21 * kOneSecond), 0u);
 }
 
 TEST_F(UntimedPublicationsTest, LeavesOpenWhatTwoThreadsPublishAtOnce) {
-  confirm(0, kSecond);
-  publish_and_go_on(1, 20 * kSecond, {0, 71});
-  publish_and_go_on(2, 20 * kSecond + 2'000, {0, 72});
-  EXPECT_EQ(take(20 * kSecond + 10'000, 21 * kSecond), 0u);
-  EXPECT_EQ(take(20 * kSecond + 12'000, 21 * kSecond), 0u);
-  publish_and_go_on(3, 22 * kSecond, {0, 71});
-  publish_and_go_on(4, 22 * kSecond + kWindow + 10'000, {0, 72});
-  EXPECT_EQ(take(22 * kSecond + kWrite, 23 * kSecond), 3u) << "one after the other";
-  EXPECT_EQ(take(22 * kSecond + kWindow + 10'000 + kWrite, 23 * kSecond), 4u);
+  confirm(0, kOneSecond);
+  publish_and_go_on(1, 20 * kOneSecond, {0, 71});
+  publish_and_go_on(2, 20 * kOneSecond + 2'000, {0, 72});
+  EXPECT_EQ(take(20 * kOneSecond + 10'000, 21 * kOneSecond), 0u);
+  EXPECT_EQ(take(20 * kOneSecond + 12'000, 21 * kOneSecond), 0u);
+  publish_and_go_on(3, 22 * kOneSecond, {0, 71});
+  publish_and_go_on(4, 22 * kOneSecond + kWindow + 10'000, {0, 72});
+  EXPECT_EQ(take(22 * kOneSecond + kWrite, 23 * kOneSecond), 3u) << "one after the other";
+  EXPECT_EQ(take(22 * kOneSecond + kWindow + 10'000 + kWrite, 23 * kOneSecond), 4u);
 }
 
 TEST_F(UntimedPublicationsTest, LeavesOpenWhatTwoProcessesPublishAtOneTime) {
-  confirm(0, kSecond);
-  confirm(1, 20 * kSecond);
-  publish_and_go_on(1, 40 * kSecond, {0, 71}, 3);
-  publish_and_go_on(2, 40 * kSecond, {1, 71}, 4);
-  EXPECT_EQ(take(40 * kSecond + kWrite, 41 * kSecond), 0u);
+  confirm(0, kOneSecond);
+  confirm(1, 20 * kOneSecond);
+  publish_and_go_on(1, 40 * kOneSecond, {0, 71}, 3);
+  publish_and_go_on(2, 40 * kOneSecond, {1, 71}, 4);
+  EXPECT_EQ(take(40 * kOneSecond + kWrite, 41 * kOneSecond), 0u);
 }
 
 TEST_F(UntimedPublicationsTest, PrefersAWriteThatTakesAsLongAsUsual) {
-  confirm(0, kSecond);
-  confirm(1, 20 * kSecond);
+  confirm(0, kOneSecond);
+  confirm(1, 20 * kOneSecond);
   // Process 0 works for 50 ms after it has published.
-  publish_and_go_on(1, 40 * kSecond, {0, 71}, 3, 50'000'000);
-  publish_and_go_on(2, 40 * kSecond + 30'000'000, {1, 71}, 4);
-  EXPECT_EQ(take(40 * kSecond + 30'000'000 + kWrite, 41 * kSecond), 2u);
-  EXPECT_EQ(take(40 * kSecond + kWrite, 41 * kSecond), 1u);
+  publish_and_go_on(1, 40 * kOneSecond, {0, 71}, 3, 50'000'000);
+  publish_and_go_on(2, 40 * kOneSecond + 30'000'000, {1, 71}, 4);
+  EXPECT_EQ(take(40 * kOneSecond + 30'000'000 + kWrite, 41 * kOneSecond), 2u);
+  EXPECT_EQ(take(40 * kOneSecond + kWrite, 41 * kOneSecond), 1u);
 }
 
 TEST_F(UntimedPublicationsTest, FindsWhatIsTakenBeforeItsThreadGoesOn) {
-  publish(1, 1 * kSecond);
-  EXPECT_EQ(take(1 * kSecond + kWrite, 1 * kSecond + 20'000), 1u);
+  publish(1, 1 * kOneSecond);
+  EXPECT_EQ(take(1 * kOneSecond + kWrite, 1 * kOneSecond + 20'000), 1u);
 }
 
 TEST_F(UntimedPublicationsTest, AllowsForClocksThatDifferALittle) {
@@ -163,12 +163,12 @@ TEST_F(UntimedPublicationsTest, AllowsForClocksThatDifferALittle) {
 }
 
 TEST_F(UntimedPublicationsTest, LearnsThatTheClockWasSet) {
-  confirm(0, kSecond);
+  confirm(0, kOneSecond);
   std::uint64_t found = 0;
   for (std::uint64_t i = 1; i <= 20; ++i) {
-    const std::int64_t at = static_cast<std::int64_t>(100 + i) * kSecond;
+    const std::int64_t at = static_cast<std::int64_t>(100 + i) * kOneSecond;
     publish_and_go_on(i, at);
-    const std::uint64_t taken = take(at + kWrite + 3'600 * kSecond, at + 100'000);
+    const std::uint64_t taken = take(at + kWrite + 3'600 * kOneSecond, at + 100'000);
     EXPECT_TRUE(taken == 0 || taken == i);
     found += taken == i ? 1 : 0;
   }
@@ -177,16 +177,16 @@ TEST_F(UntimedPublicationsTest, LearnsThatTheClockWasSet) {
 
 TEST_F(UntimedPublicationsTest, ForgetsTheOldestOfAThread) {
   for (std::uint64_t i = 1; i <= 101; ++i) {
-    publish_and_go_on(i, static_cast<std::int64_t>(i) * kSecond);
+    publish_and_go_on(i, static_cast<std::int64_t>(i) * kOneSecond);
   }
-  EXPECT_EQ(take(1 * kSecond + kWrite, 200 * kSecond), 0u);
-  EXPECT_EQ(take(2 * kSecond + kWrite, 200 * kSecond), 2u);
+  EXPECT_EQ(take(1 * kOneSecond + kWrite, 200 * kOneSecond), 0u);
+  EXPECT_EQ(take(2 * kOneSecond + kWrite, 200 * kOneSecond), 2u);
   EXPECT_EQ(publications.count(), 100u) << "the forgotten one counts";
 }
 
 TEST_F(UntimedPublicationsTest, GivesAPublicationByItsNumber) {
-  publish_and_go_on(1, 1 * kSecond);
-  publish_and_go_on(2, 2 * kSecond);
+  publish_and_go_on(1, 1 * kOneSecond);
+  publish_and_go_on(2, 2 * kOneSecond);
   ASSERT_TRUE(publications.extract(1));
   EXPECT_FALSE(publications.extract(1));
   EXPECT_EQ(publications.count(), 1u);
@@ -211,7 +211,7 @@ TEST_F(UntimedPublicationsTest, IsHardlyEverWrong) {
   for (ProcessId process = 0; process < 4; ++process) {
     const std::int64_t offset = between(-5'000, 5'000);
     for (std::int64_t vtid = 1; vtid <= 1 + process % 2; ++vtid) {
-      for (std::int64_t at = between(0, 20'000'000); at < 100 * kSecond; at += between(18'000'000, 22'000'000)) {
+      for (std::int64_t at = between(0, 20'000'000); at < 100 * kOneSecond; at += between(18'000'000, 22'000'000)) {
         const std::int64_t write = between(1, 50) == 1 ? between(100'000, 3'000'000) : between(3'000, 12'000);
         written.push_back({++number, at, at + write + between(3'000, 60'000), at + write + offset, {process, vtid}});
       }

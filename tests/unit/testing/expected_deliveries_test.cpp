@@ -68,5 +68,40 @@ missing:
 no message of this topic; did you mean '/ping'?)");
 }
 
+constexpr tracing::testing::ExampleVariant kOlder{.is_older = true};
+constexpr tracing::testing::ExampleVariant kUnidentified{.is_older = true, .has_source_timestamps = false};
+
+TEST(ExpectedDeliveredOfAnOlderRecording, IsAnEstimate) {
+  const Trace trace = example_trace(50, kOlder);
+  EXPECT_EQ(expect_delivered(trace, {.topic = "/scan"}, exactly(50)).text,
+            "expected: exactly 50 messages of topic '/scan' reach a callback\n     saw: 50 of 50; an estimate, as "
+            "publications have no timestamps");
+  EXPECT_TRUE(expect_delivered(trace, {.topic = "/scan"}, at_least(50), at_most(205us)));
+  EXPECT_FALSE(expect_delivered(trace, {.topic = "/scan"}, at_least(50), at_most(200us)));
+  EXPECT_TRUE(expect_all_delivered(trace, {.topic = "/scan"}));
+  const Verdict lost = expect_delivered(trace, {.topic = "/points"}, at_least(50));
+  EXPECT_FALSE(lost.holds);
+  EXPECT_FALSE(lost.is_undecided) << "nobody took one of them, and that is known";
+  EXPECT_EQ(trace.tracetools(), "6.3.2");
+  ASSERT_EQ(trace.doubts().size(), 2u);
+  EXPECT_EQ(trace.doubts()[0].topic, "/points");
+  EXPECT_EQ(trace.doubts()[0].estimated, 49u);
+}
+
+TEST(ExpectedDeliveredOfAnOlderRecording, SaysWhatTheTraceDoesNotTell) {
+  const Trace trace = example_trace(7, kUnidentified);
+  const Verdict delivered = expect_delivered(trace, {.topic = "/scan"}, at_least(5));
+  EXPECT_TRUE(delivered.is_undecided);
+  EXPECT_EQ(failure(delivered), R"(expected: at least 5 messages of topic '/scan' reach a callback
+     saw: 0 of 7
+the publications of 7 messages that were taken can't be told; the trace was recorded by tracetools 6.3.2, which gives publications no timestamps
+needed: tracetools 8.0 or later (ROS 2 Jazzy))");
+  const Verdict all = expect_all_delivered(trace, {.topic = "/scan"});
+  EXPECT_TRUE(all.is_undecided);
+  const Verdict too_many = expect_delivered(trace, {.topic = "/scan"}, at_least(8));
+  EXPECT_FALSE(too_many.is_undecided) << "so many have not come, whatever the trace does not tell";
+  EXPECT_FALSE(too_many.holds);
+}
+
 }  // namespace
 }  // namespace launch_trace_testing

@@ -35,9 +35,10 @@ inline Trace ping_pong_trace(const ReadOptions& options = {}) {
 }
 
 // Nodes /sensor, /filter and /display, as example_system.hpp has them.
-inline Trace example_trace(std::uint64_t cycles) {
+inline Trace example_trace(std::uint64_t cycles, const tracing::testing::ExampleVariant& variant = {}) {
   const tracing::testing::TemporaryDirectory directory;
-  tracing::testing::write_example_system(directory.path() / "trace", cycles);
+  tracing::testing::write_example_system(directory.path() / "trace", cycles, tracing::testing::ExampleEvents::kRos,
+                                         variant);
   return Trace(directory.path());
 }
 

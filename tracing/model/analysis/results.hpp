@@ -27,6 +27,9 @@ struct Ros2Results {
   std::uint64_t unknown_in_whole = 0;       // part of unknown_messages: of processes that began within the trace
   std::uint64_t unnamed_messages = 0;       // published without a publisher, by ros2_tracing before 8.0 (MessageCounts)
   std::vector<std::string> tracetools;      // the versions that processes have named in rcl_init, in order, once each
+  bool is_older = false;                    // some of it was recorded by ros2_tracing before 8.0
+  bool lacks_middleware = false;            // rcl_publish is in the trace, and no event of rmw that it leads to
+  std::vector<std::string> remarks;         // sentences about what the version of ros2_tracing does not tell
   std::vector<SubscriptionResult> subscriptions;  // those with messages; by topic, node
   std::vector<ExecutorResult> executors;          // by process, thread
   std::vector<ChainResult> chains;                // those with names, then from the slowest; those with few inputs last

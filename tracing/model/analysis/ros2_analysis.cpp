@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/model/analysis/ros2_analysis.hpp"
 
+#include <algorithm>
+#include <charconv>
 #include <utility>
 
 #include "tracing/model/analysis/derived_results.hpp"
@@ -20,6 +22,22 @@ void Ros2Analysis::on_caret_event(const Origin& origin, const ros2::CaretEvent& 
     groups_.on(origin, event);
   }
 }
+
+namespace {
+
+// A version of tracetools is "6.3.2".
+bool is_older(const Ros2Results& results) {
+  const auto is_old = [](const std::string& version) {
+    int major = 0;
+    const auto [end, error] = std::from_chars(version.data(), version.data() + version.size(), major);
+    return error == std::errc() && major < 8;
+  };
+  return std::any_of(results.tracetools.begin(), results.tracetools.end(), is_old) ||
+         std::any_of(results.topics.begin(), results.topics.end(),
+                     [](const TopicResult& topic) { return topic.is_estimated(); });
+}
+
+}  // namespace
 
 Ros2Results Ros2Analysis::finish(std::vector<std::optional<ProcessIndex>> places,
                                  const std::vector<ProcessResult>& processes) {
@@ -45,6 +63,9 @@ Ros2Results Ros2Analysis::finish(std::vector<std::optional<ProcessIndex>> places
   results.unknown_in_whole = join_.messages().counts().unknown_in_whole;
   results.tracetools.assign(join_.messages().versions().begin(), join_.messages().versions().end());
   results.unnamed_messages = join_.messages().counts().unnamed;
+  results.is_older = is_older(results);
+  results.lacks_middleware = join_.messages().lacks_middleware();
+  results.remarks = recording_remarks(results);
   return results;
 }
 

@@ -39,8 +39,8 @@ std::int64_t usual_worst(const DurationSummary& times);
 
 // "1.20 ms"
 std::string duration(std::int64_t nanoseconds);
-// " (events were lost)", or nothing
-std::string mark(bool doubtful);
+// " (events were lost)", " (an estimate)", both, or nothing
+std::string mark(bool doubtful, bool estimated = false);
 // "left: /ping, timer 100 ms" if there are several machines
 std::string label(const Hosts& hosts, const CallbackResult& callback);
 // "/ping, timer 100 ms (Ping::send())"

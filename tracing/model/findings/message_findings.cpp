@@ -66,7 +66,7 @@ Findings dropped_messages(const TraceResults& results) {
     findings.push_back({Finding::Kind::kDroppedMessages,
                         weight,
                         label(hosts, subscription),
-                        fmt::format("{} of {}: {}{}", dropped, sent, places, mark(subscription.doubtful)),
+                        fmt::format("{} of {}: {}{}", dropped, sent, places, mark(subscription.doubtful, subscription.estimated > 0)),
                         remedy(subscription, callback_of(results, subscription)),
                         {},
                         subscription.topic});
@@ -91,7 +91,7 @@ Findings waiting_messages(const TraceResults& results) {
                     label(hosts, subscription),
                     fmt::format("messages wait {} for a busy executor, at p99 {} of {} in all{}",
                                 duration(subscription.executor.p50_ns), duration(subscription.executor.p99_ns),
-                                duration(subscription.latency.p99_ns), mark(subscription.doubtful)),
+                                duration(subscription.latency.p99_ns), mark(subscription.doubtful, subscription.estimated > 0)),
                     callback == nullptr || callback->held_up_by.empty()
                         ? "launch report DIR --html FILE shows what its thread does meanwhile"
                         : fmt::format("mostly for {}: give one of them an executor of its own", callback->held_up_by),

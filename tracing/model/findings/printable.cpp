@@ -99,6 +99,8 @@ TraceResults printable(TraceResults results) {
     clean(results.startup->critical_path);
   }
   clean(results.warnings);
+  clean(ros2.remarks);
+  clean(ros2.tracetools);
   return results;
 }
 

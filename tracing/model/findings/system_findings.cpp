@@ -54,7 +54,7 @@ Findings slow_chains(const TraceResults& results) {
     findings.push_back(
         {Finding::Kind::kSlowestChain, weight, Hosts(results.overview).before(chain) + chain_label(chain),
          fmt::format("{} steps take {}, at p99 {}, at most {}{}", chain.steps.size(), duration(chain.response.p50_ns),
-                     duration(chain.response.p99_ns), duration(chain.response.max_ns), mark(chain.doubtful)),
+                     duration(chain.response.p99_ns), duration(chain.response.max_ns), mark(chain.doubtful, chain.estimated)),
          step_by_step(chain)});
   }
   return findings;
@@ -72,7 +72,7 @@ Findings exceeded_budgets(const TraceResults& results) {
     findings.push_back({Finding::Kind::kOverBudget, weight, hosts.before(chain) + chain_label(chain),
                         fmt::format("{} of {} took longer than the budget of {}, at most {}{}", chain.over_budget,
                                     chain.response.count, duration(*chain.budget_ns), duration(chain.response.max_ns),
-                                    mark(chain.doubtful)),
+                                    mark(chain.doubtful, chain.estimated)),
                         step_by_step(chain)});
   }
   return findings;

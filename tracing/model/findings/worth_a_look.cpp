@@ -41,8 +41,8 @@ std::string duration(std::int64_t nanoseconds) {
   return format_duration(static_cast<double>(nanoseconds));
 }
 
-std::string mark(bool doubtful) {
-  return doubtful ? " (events were lost)" : "";
+std::string mark(bool doubtful, bool estimated) {
+  return std::string(estimated ? " (an estimate)" : "") + (doubtful ? " (events were lost)" : "");
 }
 
 std::string label(const Hosts& hosts, const CallbackResult& callback) {

@@ -301,6 +301,18 @@ Json chains(const TracedSystem& system) {
   return list;
 }
 
+// [topic, messages whose publication is an estimate, publications that may have been taken or not] of recordings without
+// timestamps of publications.
+Json estimates(const TracedSystem& system) {
+  Json list = Json::array();
+  for (const TopicResult& topic : system.results.ros2.topics) {
+    if (topic.is_estimated()) {
+      list.push_back({topic_at(system.timeline, topic.name), topic.estimated, topic.undecided});
+    }
+  }
+  return list;
+}
+
 // starts, startup, calls, actions, state_memory, callback_memory, cost, absences, overwritten.
 Json result_facts(const TracedSystem& system) {
   const ResultFacts facts(system.timeline.begin_ns);
@@ -337,6 +349,8 @@ std::string page_facts(const TracedSystem& system) {
              {"chains", chains(system)},
              {"unseen_chains", system.results.ros2.unseen_chains},
              {"has_all_chains", system.results.ros2.has_all_chains},
+             {"estimates", estimates(system)},
+             {"remarks", system.results.ros2.remarks},
              {"warnings", system.results.warnings}};
   facts.update(objects(timeline));
   facts.update(result_facts(system));

@@ -219,11 +219,23 @@ std::string notes(const Report& report) {
   if (ros2.lacks_thread_context) {
     note("The session had no context vpid or vtid: processes and threads can't be told apart.");
   }
-  if (ros2.unknown_messages > 0) {
+  if (const std::uint64_t late = ros2.unknown_messages - ros2.unknown_in_whole; late > 0) {
     note(fmt::format("{} of publishers or subscriptions whose creation is not in the trace: was it started late?",
-                     format_count(ros2.unknown_messages, "message")));
+                     format_count(late, "message")));
+  }
+  if (ros2.unknown_in_whole > 0) {
+    note(fmt::format(
+        "{} of publishers or subscriptions whose creation is not in the trace, although it has the begin of their "
+        "processes: were these events recorded, or lost?",
+        format_count(ros2.unknown_in_whole, "message")));
+  }
+  for (const std::string& remark : ros2.remarks) {
+    note(remark);
   }
   for (const std::string& warning : results.warnings) {
+    if (!ros2.remarks.empty() && warning.starts_with("ros2:rmw_publish has no field ")) {
+      continue;  // a remark says what that means
+    }
     note(fmt::format("{} (recorded by another version of ros2_tracing?)", warning));
   }
   return text.empty() ? "" : "\nNotes\n" + text;

@@ -12,6 +12,22 @@ namespace tracing {
 
 namespace {
 
+std::string topic_remarks(const TopicResult& topic) {
+  const std::pair<std::uint64_t, const char*> parts[] = {
+      {topic.received_only, "of those received were published outside the trace"},
+      {topic.estimated, "of those received are an estimate: their publication was found by its time"},
+      {topic.unidentified, "of those received may be any of several publications, or of none in the trace"},
+      {topic.undecided, "of those published may have been taken or not"},
+  };
+  std::string text;
+  for (const auto& [count, what] : parts) {
+    if (count > 0) {
+      text += fmt::format("    {} {}\n", count, what);
+    }
+  }
+  return text;
+}
+
 std::string topic_section(const Ros2Results& ros2) {
   std::vector<TopicResult> spoken;
   for (const TopicResult& topic : ros2.topics) {
@@ -25,13 +41,8 @@ std::string topic_section(const Ros2Results& ros2) {
       .columns = {{"published", 10, number_of(&TopicResult::published)},
                   {"received", 9, number_of(&TopicResult::received)},
                   {"untaken", 9, number_of(&TopicResult::published_only)}},
-      .label = [](const TopicResult& topic) { return "  " + topic.name; },
-      .more =
-          [](const TopicResult& topic) {
-            return topic.received_only == 0 ? ""
-                                            : fmt::format("    {} of those received were published outside the trace\n",
-                                                          topic.received_only);
-          },
+      .label = [](const TopicResult& topic) { return "  " + topic.name + (topic.is_estimated() ? " ~" : ""); },
+      .more = topic_remarks,
       .end = "  (times: from rmw_publish to callback_start; untaken: by any subscription in the trace)\n"};
   for (const auto& column : duration_columns(&TopicResult::latency)) {
     if (column.title != std::string_view("count") && column.title != std::string_view("stddev")) {
@@ -76,8 +87,9 @@ std::string delivery_section(const TraceResults& results) {
   }
   std::string text = "\n" + duration_header("Ways of messages");
   for (const SubscriptionResult& subscription : results.ros2.subscriptions) {
-    text += fmt::format("{} to {}\n", subscription.topic,
-                        node_label(subscription.node, subscription.process, results.overview));
+    text += fmt::format("{} to {}{}\n", subscription.topic,
+                        node_label(subscription.node, subscription.process, results.overview),
+                        subscription.estimated > 0 ? " ~" : "");
     for (const auto& [name, took] : kParts) {
       if ((subscription.*took).count > 0) {
         text += duration_row(name, subscription.*took);
@@ -181,8 +193,8 @@ std::string chain_details(const ChainResult& chain, const Hosts& hosts) {
       text += duration_row("    until it publishes", step.until_publish);
       text += duration_row(fmt::format("    {} on its way", step.topic), step.transfer);
     }
-    text += fmt::format("  {}{}, {}\n", hosts.before(step.process), step.node.empty() ? "node unknown" : step.node,
-                        step.callback);
+    text += fmt::format("  {}{}, {}{}\n", hosts.before(step.process), step.node.empty() ? "node unknown" : step.node,
+                        step.callback, chain.estimated && &step == &chain.steps.front() ? " ~" : "");
   }
   if (chain.is_loop) {
     text += "    (a loop: the chain is not followed further)\n";

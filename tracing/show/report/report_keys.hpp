@@ -52,6 +52,7 @@ void visit_report(const Report& report, Visit& visit) {
   visit("internal_messages", ros2.internal_messages);
   visit("unknown_messages", ros2.unknown_messages);
   visit("tracetools", ros2.tracetools);
+  visit("remarks", ros2.remarks);
   visit("lacks_thread_context", ros2.lacks_thread_context);
   visit("warnings", warnings);
 }

@@ -25,9 +25,9 @@ bool matches(const std::string& pattern, const std::string& name) {
   return pattern.empty() || fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
 }
 
-// "*" behind a result that lost events may have changed.
-std::string marked(std::string label, bool doubtful) {
-  return doubtful ? label + " *" : label;
+// "*" behind a result that lost events may have changed, "~" behind an estimate.
+std::string marked(const std::string& label, bool doubtful, bool estimated = false) {
+  return label + (estimated ? " ~" : "") + (doubtful ? " *" : "");
 }
 
 // "/scan, /points": several chains may have one name.
@@ -141,7 +141,7 @@ std::string chain_table(const TraceResults& results, const ReportOptions& option
       continue;
     }
     const std::string label = hosts.before(chain) + chain_label(chain);
-    Row row{.label = marked(label, chain.doubtful)};
+    Row row{.label = marked(label, chain.doubtful, chain.estimated)};
     row.below = difference(chain, alike[label]);
     row.remark = chain.name.empty() ? chain.steps.front().callback : topics_of(chain);
     sort_by(row, chain.response);
@@ -227,7 +227,7 @@ std::string topic_table(const Ros2Results& ros2, const ReportOptions& options) {
       continue;
     }
     const DurationSummary latency = slowest[topic.name].count > 0 ? slowest[topic.name] : topic.latency;
-    Row row{.label = marked(topic.name, topic.doubtful)};
+    Row row{.label = marked(topic.name, topic.doubtful, topic.is_estimated())};
     sort_by(row, latency);
     row.rate = topic.rate_hz;
     row.count = static_cast<double>(sent);

@@ -47,7 +47,8 @@ Table verdict_table(const TracedSystem& system) {
 Table remark_table(const TracedSystem& system) {
   return {"remarks",
           "sentences about what is missing or doubtful",
-          {{"kind", kText, "`absent`, `overwritten`, `open` (a directory that was still being written) or `warning`"},
+          {{"kind", kText, "`absent`, `overwritten`, `open` (a directory that was still being written), `recording` (what the version "
+            "of ros2_tracing does not tell) or `warning`"},
            {"text", kText, ""}},
           [&system](const Emit& emit) {
             for (const std::string& absence : system.verdict.absences) {
@@ -58,6 +59,9 @@ Table remark_table(const TracedSystem& system) {
             }
             for (const std::filesystem::path& open : system.open) {
               emit({std::string_view("open"), std::string_view(open.native())});
+            }
+            for (const std::string& remark : system.results.ros2.remarks) {
+              emit({std::string_view("recording"), std::string_view(remark)});
             }
             for (const std::string& warning : system.results.warnings) {
               emit({std::string_view("warning"), std::string_view(warning)});

@@ -23,6 +23,9 @@ namespace launch_trace_testing {
 struct Verdict {
   bool holds = false;
   std::string text;  // of a success, too: then the table shows what was found
+  // The trace does not tell whether it holds, because an older version of ros2_tracing has recorded it. `holds` is
+  // false.
+  bool is_undecided = false;
   explicit operator bool() const { return holds; }
 };
 

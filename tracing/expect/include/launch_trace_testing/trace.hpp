@@ -69,6 +69,15 @@ struct Delivery {
   std::int64_t callback_end_ns = 0;
 };
 
+// What the version of ros2_tracing that has recorded a topic leaves open: before 8.0 publications have no timestamp, and
+// which one a message is was found by its time.
+struct MessageDoubts {
+  std::string topic;
+  std::size_t estimated = 0;  // messages whose publication was found
+  std::size_t taken = 0;      // that were taken or began a callback, and whose publication is not known
+  std::size_t published = 0;  // that were published, and may have been taken or not
+};
+
 struct ReadOptions {
   // Events that are not accepted are left out, and with them the objects and messages that they tell of.
   std::function<bool(const Event&)> accepts;
@@ -89,6 +98,12 @@ class Trace {
 
   const std::vector<CallbackRun>& callbacks() const;  // by start
   const std::vector<Delivery>& deliveries() const;    // by publication
+
+  const std::vector<MessageDoubts>& doubts() const;  // of topics that have some
+  // The versions of tracetools that nodes have named when they began: "6.3.2", "4.1.1, 6.3.2"; empty: none has.
+  const std::string& tracetools() const;
+  // The trace has rcl_publish, and neither rmw_publish nor rmw_take.
+  bool lacks_middleware() const;
 
   std::int64_t begin_ns() const;  // of the first event; 0 without events
   std::int64_t end_ns() const;    // of the last event

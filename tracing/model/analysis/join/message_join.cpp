@@ -45,6 +45,7 @@ void MessageJoin::close(const Origin& origin, ThreadState& thread) {
 
 void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::RmwPublish& event) {
   go_on(origin, thread);
+  tells_middleware_ = true;
   const RmwLookup publisher = publisher_of(origin, thread, event);
   if (publisher.kind == RmwHandle::kInternal) {
     ++counts_.internal;
@@ -92,6 +93,7 @@ void MessageJoin::on_write(const Origin& origin, ThreadState& thread, std::int64
 
 void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::RmwTake& event) {
   go_on(origin, thread);
+  tells_middleware_ = true;
   if (thread.taken) {
     tell_taken(origin, thread, kNoObject);
   }

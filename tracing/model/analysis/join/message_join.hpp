@@ -79,6 +79,8 @@ class MessageJoin {
   void finish();
 
   const std::set<std::string, std::less<>>& versions() const { return versions_; }  // of tracetools
+  // There is rcl_publish, and neither rmw_publish nor rmw_take.
+  bool lacks_middleware() const { return tells_publishers_ && !tells_middleware_; }
   const MessageCounts& counts() const { return counts_; }
   const MessageMatcher& through_middleware() const { return messages_; }
   const IntraProcessMatcher& within_processes() const { return buffers_; }
@@ -104,6 +106,7 @@ class MessageJoin {
   IntraProcessMatcher buffers_{model_};
   bool tells_executions_ = false;                // the trace has rclcpp_executor_execute
   bool tells_publishers_ = false;                // the trace has rcl_publish
+  bool tells_middleware_ = false;                // rmw_publish or rmw_take
   std::set<ProcessId> begun_;                    // processes with rcl_init
   std::set<std::string, std::less<>> versions_;  // that these have named
   MessageCounts counts_;

@@ -71,6 +71,9 @@ std::vector<ExecutionResult> execution_results(const Subjects& subjects, const E
 std::vector<ExecutorResult> executor_results(const Subjects& subjects, const ExecutorLoad& executors);
 
 // Fills in what `results` tell of chains.
+// What the version of ros2_tracing that recorded the trace does not tell, and what is estimated instead: whole
+// sentences. The other results must be there.
+std::vector<std::string> recording_remarks(const Ros2Results& results);
 void add_chain_results(const Subjects& subjects, const ChainTracker& chains, const MessageMatcher& messages,
                        Ros2Results& results);
 

@@ -103,7 +103,7 @@ function chainBar(data, chain, longest, statistic) {
     element('summary', {}, 'Percentiles of each part'), hopTable(hops, chain));
   return element('div', {class: 'chain'},
     element('div', {class: 'head'}, element('b', {}, `${chain.name ? chain.name + ': ' : ''}${nodeOf(chain.steps[0])} → ${nodeOf(chain.steps[chain.steps.length - 1])}`),
-      element('span', {}, `${plural(chain.steps.length, 'callback')}, ${plural(chain.response.count, 'run')}${chain.doubtful ? ' (events were lost)' : ''}`),
+      element('span', {}, `${plural(chain.steps.length, 'callback')}, ${plural(chain.response.count, 'run')}${chain.estimated ? ' (an estimate)' : ''}${chain.doubtful ? ' (events were lost)' : ''}`),
       element('span', {}, timesText('response', chain.response)),
       chain.budget === null ? null : element('span', {class: chain.over_budget > 0 ? 'bad' : 'good'}, `${formatCount(chain.over_budget)} over the budget of ${formatDuration(chain.budget)}`),
       ...['max', 'p50', 'p90', 'p99'].map(which => runButton(data, chain, which))),

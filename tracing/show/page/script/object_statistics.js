@@ -29,7 +29,7 @@ function topicStatistics(data) {
   const computed = computedOf(data);
   if (computed.topics.size > 0) return [...computed.topics.values()];
   const {messages, instances} = data;
-  const topics = data.topics.map((name, id) => ({id, name, publishers: 0, subscriptions: 0, published: 0, taken: 0, missed: 0, times: [], values: [], publishedAt: []}));
+  const topics = data.topics.map((name, id) => ({id, name, publishers: 0, subscriptions: 0, published: 0, taken: 0, missed: 0, isEstimated: false, times: [], values: [], publishedAt: []}));
   for (const end of data.publishers) ++topics[end.topic].publishers;
   for (const end of data.subscriptions) ++topics[end.topic].subscriptions;
   for (let i = 0; i < messages.count; ++i) {
@@ -47,6 +47,12 @@ function topicStatistics(data) {
     if (messages.to[i] < 0) continue;
     topic.times.push(messages.published[i]);
     topic.values.push(instances.start[messages.to[i]] - messages.published[i]);
+  }
+  // Of these it is not known whether somebody took them.
+  for (const [id, , undecided] of data.estimates) {
+    if (id === null) continue;
+    topics[id].isEstimated = true;
+    topics[id].missed = Math.max(0, topics[id].missed - undecided);
   }
   for (const topic of topics) {
     topic.latency = summary(Float64Array.from(topic.values));

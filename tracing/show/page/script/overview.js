@@ -56,6 +56,7 @@ function overviewView(data) {
       ['Directory', data.directory],
       ['Begin', new Date(data.begin_ms).toISOString().replace('T', ' ').replace('Z', ' UTC')],
       ['Most frequent events', overview.event_counts.slice().sort((a, b) => b.total - a.total).slice(0, 5).map(e => `${e.name} ${formatCount(e.total)}`).join(', ')],
+      ...data.remarks.map(remark => ['Remark', remark]),
       ...data.warnings.map(warning => ['Warning', warning]),
     ].flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)])))),
     overview.losses.length === 0 ? null : panel('Losses', dataTable(overview.losses, [

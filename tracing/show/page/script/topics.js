@@ -8,7 +8,7 @@ function topicsView(data) {
   const latency = (title, value) => ({title, value: row => row.latency.count ? value(row.latency) : NaN, show: row => row.latency.count ? formatDuration(value(row.latency)) : '–'});
   const count = (title, value) => ({title, value, show: row => formatCount(value(row))});
   const table = dataTable(rows, [
-    {title: 'Topic', value: row => row.name, wide: true},
+    {title: 'Topic', value: row => row.name, show: row => row.name + (row.isEstimated ? ' ~' : ''), wide: true},
     count('Publishers', row => row.publishers), count('Subscriptions', row => row.subscriptions),
     count('Published', row => row.published), count('Taken', row => row.taken), count('Not taken', row => row.missed),
     {title: 'Rate', value: row => row.published, show: row => row.rate},
@@ -23,7 +23,8 @@ function topicsView(data) {
 
   showPlots();
   const view = panel('Topics', table, element('p', {class: 'note'},
-    'Latency: from the publication (rmw_publish) to the start of the callback. Not taken: by any subscription in the trace, although there is one.'));
+    'Latency: from the publication (rmw_publish) to the start of the callback. Not taken: by any subscription in the trace, although there is one.' +
+    (data.estimates.length > 0 ? ' ~: an estimate. The trace has no timestamps of publications; which one a message is was found by its time.' : '')));
   view.refresh = change => {
     if ('node' in change) return false;
     table.update();
