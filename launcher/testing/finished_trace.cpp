@@ -16,7 +16,8 @@ namespace launch {
 
 namespace {
 
-constexpr const char* kHelp = "--skip-others leaves out what a trace does not tell; without --trace, everything is judged";
+constexpr const char* kHelp =
+    "--skip-others leaves out what a trace does not tell; without --trace, everything is judged";
 
 // What the expectation is about.
 std::string subject_of(const Expectation& expectation) {
@@ -63,8 +64,7 @@ class Judgement {
     if (of_trace.empty() && failures.empty()) {
       failures.push_back({"the test expects nothing that a finished trace tells", test.where});
     }
-    const std::vector<Failure> found =
-        of_trace.empty() ? std::vector<Failure>() : judge_.judge(of_trace, test.where);
+    const std::vector<Failure> found = of_trace.empty() ? std::vector<Failure>() : judge_.judge(of_trace, test.where);
     result.met = of_trace.size() - std::min(of_trace.size(), found.size());
     failures.insert(failures.end(), found.begin(), found.end());
     std::transform(failures.begin(), failures.end(), std::back_inserter(result.failures),

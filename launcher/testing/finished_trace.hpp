@@ -15,7 +15,7 @@ namespace launch {
 
 struct FinishedTrace {
   std::vector<std::filesystem::path> directories;  // they are read as one trace
-  bool skips_others = false;  // what a trace does not tell is left out; else it is a failure
+  bool skips_others = false;                       // what a trace does not tell is left out; else it is a failure
 };
 
 // One result for each test, in their order, which the observer is told.

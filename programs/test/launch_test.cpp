@@ -224,6 +224,12 @@ void check_trace_options(const Options& options) {
                                                  {"--seeds", !options.seeds.seeds.empty()},
                                                  {"--faults", !options.seeds.faults.empty()},
                                                  {"--shrink", options.shrink}};
+  for (const std::string& directory : options.traces) {
+    std::error_code ignored;
+    if (!fs::is_directory(directory, ignored)) {
+      throw UsageError(fmt::format("--trace: there is no directory '{}'", directory));
+    }
+  }
   for (const auto& [name, is_given] : others) {
     if (is_given) {
       throw UsageError(fmt::format("{} does not go with --trace, which starts nothing", name));
@@ -311,8 +317,7 @@ int run(const Options& options) {
         [&](const TestResult& result) { report.on_shrunk(result); }, interrupted);
   }
   const bool is_open = queue.stop_at_failure || queue.rounds == 0;
-  report.finish(results, is_open ? results.size() : tests.size() * queue.rounds,
-                seconds_since(begin), interrupted);
+  report.finish(results, is_open ? results.size() : tests.size() * queue.rounds, seconds_since(begin), interrupted);
   std::error_code not_empty;
   fs::remove(queue.directory, not_empty);
   return conclude(options, results, interrupted);

@@ -59,13 +59,15 @@ Verdict undecided(const Trace& trace, const std::string& text, const MessageDoub
   const std::string recorder = trace.tracetools().empty() ? "" : fmt::format(" by tracetools {}", trace.tracetools());
   std::string why;
   if (trace.lacks_middleware()) {
-    why = fmt::format("the trace has no rmw_publish and no rmw_take; it was recorded{}, and they are there from tracetools "
-                      "3.1 on",
-                      recorder);
+    why = fmt::format(
+        "the trace has no rmw_publish and no rmw_take; it was recorded{}, and they are there from tracetools "
+        "3.1 on",
+        recorder);
   } else {
-    why = fmt::format("the publications of {} that {} taken can't be told; the trace was recorded{}, which gives "
-                      "publications no timestamps",
-                      counted(doubts.taken, "message"), doubts.taken == 1 ? "was" : "were", recorder);
+    why = fmt::format(
+        "the publications of {} that {} taken can't be told; the trace was recorded{}, which gives "
+        "publications no timestamps",
+        counted(doubts.taken, "message"), doubts.taken == 1 ? "was" : "were", recorder);
   }
   return {.holds = false,
           .text = fmt::format("{}\n{}\nneeded: tracetools 8.0 or later (ROS 2 Jazzy)", text, why),
@@ -77,7 +79,8 @@ std::string delivery_line(const Trace& trace, const Delivery& delivery) {
   std::string line = fmt::format("\n  {}  {}  {}", relative_time(trace, delivery.called_ns), delivery.topic,
                                  delivery.publisher.empty() ? "?" : delivery.publisher);
   if (delivery.taken_ns == 0) {
-    return line + (doubts_of(trace, {delivery.topic}).published > 0 ? "  not taken, as far as the trace tells" : "  not taken");
+    return line + (doubts_of(trace, {delivery.topic}).published > 0 ? "  not taken, as far as the trace tells"
+                                                                    : "  not taken");
   }
   line += fmt::format(" -> {}  taken after {}", delivery.subscriber.empty() ? "?" : delivery.subscriber,
                       after(delivery.taken_ns));

@@ -240,7 +240,7 @@ void TraceStore::add_deliveries(const tracing::timeline::Timeline& timeline) {
 
 void TraceStore::add_doubts(const tracing::Ros2Results& results) {
   for (const tracing::TopicResult& topic : results.topics) {
-    const std::uint64_t taken = topic.unidentified + (results.is_older ? topic.unrecorded : 0);
+    const std::uint64_t taken = topic.unidentified + (results.is_older ? topic.unrecorded + topic.received_only : 0);
     if (topic.is_estimated() || taken > 0) {
       doubts.push_back({topic.name, topic.estimated, taken, topic.undecided});
     }

@@ -257,8 +257,7 @@ class ReadTraceJudge {
   // A message that is missing in the chain may be one of those that are not known.
   void explain_doubts(Failure& failure) const {
     const auto is_open = [](const testing::MessageDoubts& doubts) { return doubts.taken > 0; };
-    if (!trace_.lacks_middleware() &&
-        std::none_of(trace_.doubts().begin(), trace_.doubts().end(), is_open)) {
+    if (!trace_.lacks_middleware() && std::none_of(trace_.doubts().begin(), trace_.doubts().end(), is_open)) {
       return;
     }
     failure.message = "the trace does not tell whether this holds";
@@ -311,10 +310,19 @@ namespace {
 
 // What went wrong reading the traces.
 std::vector<Failure> unreadable(const std::exception& error, const SourceRange& where) {
-  return {{fmt::format("the trace can't be read: {}", error.what()), where}};
+  // The second line is help.
+  constexpr std::string_view kHelp = "\nhelp: ";
+  const std::string text = error.what();
+  const std::size_t help = text.find(kHelp);
+  Failure failure{fmt::format("the trace can't be read: {}", text.substr(0, help)), where};
+  if (help != std::string::npos) {
+    failure.help = text.substr(help + kHelp.size());
+  }
+  return {std::move(failure)};
 }
 
-std::vector<Failure> judge_all(ReadTraceJudge& judge, const std::vector<Expectation>& expectations, const SourceRange& where) {
+std::vector<Failure> judge_all(ReadTraceJudge& judge, const std::vector<Expectation>& expectations,
+                               const SourceRange& where) {
   std::vector<Failure> failures;
   if (const testing::Verdict loss = testing::expect_no_loss(judge.trace()); !loss.holds) {
     failures.push_back(

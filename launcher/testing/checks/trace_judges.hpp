@@ -26,8 +26,8 @@ std::optional<Failure> judge_allocations(const ExpectedAllocations& expected, co
 std::optional<Failure> judge_timer(const ExpectedTimer& expected, const launch_trace_testing::Trace& trace,
                                    const SourceRange& where);
 
-// The chains that the traces hold, with the names of the definitions, of the events of these processes; nullopt: of all.
-// Throws tracing::TraceReadError.
+// The chains that the traces hold, with the names of the definitions, of the events of these processes; nullopt: of
+// all. Throws tracing::TraceReadError.
 tracing::TraceResults analyse_chains(const std::vector<std::filesystem::path>& directories,
                                      const std::optional<std::set<std::int64_t>>& pids,
                                      const std::vector<tracing::ChainDefinition>& chains);

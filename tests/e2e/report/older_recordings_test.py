@@ -96,6 +96,7 @@ class OlderRecordings(unittest.TestCase):
 
     def test_the_files_mark_estimates(self):
         folder = self.root / 'files'
+        folder.mkdir()
         run('report', self.older, '--csv', folder / 'csv', '--sql', folder / 'trace.db', '--html', folder / 'page.html',
             '--perfetto', folder / 'trace.json')
         with (folder / 'csv' / 'messages.csv').open() as rows:
@@ -119,37 +120,45 @@ class OlderRecordings(unittest.TestCase):
 
     def test_it_is_compared_with_others_and_makes_a_baseline(self):
         self.assertIn('no', run('report', '--diff', self.older, self.newer))
+        slower = self.root / 'slower'
+        write(slower, 'older', 'slow')
+        text = run('report', '--diff', self.older, slower)
+        self.assertIn('response, median ~', text)
+        self.assertIn('~ an estimate: a recording has no timestamps of publications', text)
+        self.assertNotIn('duration, median ~', text)
         base = self.root / 'base.json'
         run('report', self.older, '--save-baseline', base)
         run('report', self.older, '--baseline', base, '--json', '--fail-on', 'slower')
+        changes = json.loads(run('report', slower, '--baseline', base, '--json'))['changes']
+        self.assertEqual({change['kind'] for change in changes if change['estimated']}, {'chain'})
 
     def test_several_sessions_and_folders_are_read(self):
         report = self.json_of(self.root / 'tracing')
         self.assertEqual(report['error'], None)
         self.assertEqual(len([process for process in report['processes'] if not process['folded']]), 3)
 
-    def tests(self, text=TESTS):
+    def launch_file(self, text=TESTS):
         file = self.root / f'{self.id().rsplit(".", 1)[-1]}.launch.xml'
         file.write_text(text)
         return file
 
     def test_expectations_are_judged(self):
-        self.assertRegex(run('test', '--trace', self.older, self.tests(), '--name', 'arrives'),
+        self.assertRegex(run('test', '--trace', self.older, self.launch_file(), '--name', 'arrives'),
                          r'1 test: 1 passed')
-        output = run('test', '--trace', self.older, self.tests(), code=1)
+        output = run('test', '--trace', self.older, self.launch_file(), code=1)
         self.assertIn("error: messages of '/points' were lost", output)
-        self.assertIn('saw: 58 of 59; an estimate, as publications have no timestamps', output)
+        self.assertIn('seen: 59 of 60; an estimate, as publications have no timestamps', output)
         self.assertRegex(output, r'2 tests: 1 passed, 1 failed')
 
     def test_what_the_trace_does_not_tell_is_an_error_that_says_what_is_needed(self):
-        output = run('test', self.tests(), '--trace', self.blurred, '-n', 'loses none', code=1)
+        output = run('test', self.launch_file(), '--trace', self.blurred, '-n', 'loses none', code=1)
         self.assertIn('error: the trace does not tell whether this holds', output)
         self.assertIn('the trace was recorded by tracetools 6.3.2, which gives publications no timestamps', output)
         self.assertIn('record it with tracetools 8.0 or later (ROS 2 Jazzy)', output)
         self.assertNotIn('not taken', output)
 
     def test_what_no_trace_tells_fails_or_is_left_out(self):
-        file = self.tests("""<launch>
+        file = self.launch_file("""<launch>
   <executable cmd="sleep 1" name="work"/>
   <test name="mixed">
     <output process="work" text="ready"/>
@@ -164,12 +173,12 @@ class OlderRecordings(unittest.TestCase):
                       '      = help: --skip-others leaves out what a trace does not tell; without --trace, everything is judged', output)
         self.assertIn(f'{file}:5:6: error: a finished trace does not tell how processes end', output)
         self.assertRegex(run('test', file, '--trace', self.newer, '--skip-others'), '1 passed')
-        only = self.tests('<launch><test name="exits"><exit process="work"/></test></launch>')
+        only = self.launch_file('<launch><test name="exits"><exit process="work"/></test></launch>')
         self.assertIn('error: the test expects nothing that a finished trace tells',
                       run('test', only, '--trace', self.newer, '--skip-others', code=1))
 
     def test_processes_have_the_names_that_the_trace_tells(self):
-        file = self.tests("""<launch>
+        file = self.launch_file("""<launch>
   <test name="names">
     <event name="ros2:rcl_init" process="sensor-1" max="1"/>
     <event name="ros2:rcl_init" process="filter"/>
@@ -183,8 +192,13 @@ class OlderRecordings(unittest.TestCase):
         self.assertEqual(output.count('error:'), 1)
 
     def test_mistakes_are_told(self):
-        file = self.tests()
-        self.assertIn("there is no trace in or below", run('test', file, '--trace', self.root / 'nothing', code=1))
+        file = self.launch_file()
+        self.assertIn(f"--trace: there is no directory '{self.root}/nothing'",
+                      run('test', file, '--trace', self.root / 'nothing', code=2))
+        (self.root / 'empty').mkdir()
+        output = run('test', file, '--trace', self.root / 'empty', code=1)
+        self.assertIn(f"error: the trace can't be read: no trace found in '{self.root}/empty'", output)
+        self.assertIn('      = help: ', output)
         self.assertIn('--repeat does not go with --trace, which starts nothing',
                       run('test', file, '--trace', self.older, '--repeat', '2', code=2))
         self.assertIn('--skip-others needs --trace DIR', run('test', file, '--skip-others', code=2))
@@ -192,7 +206,7 @@ class OlderRecordings(unittest.TestCase):
 
     def test_results_are_written(self):
         junit = self.root / 'results.xml'
-        run('test', self.tests(), '--trace', self.older, '--junit', junit, code=1)
+        run('test', self.launch_file(), '--trace', self.older, '--junit', junit, code=1)
         self.assertIn('tests="2"', junit.read_text())
 
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// write_example_trace DIRECTORY CYCLES [scheduler] [writes] [slow] [older] [without_source_timestamps]: for tests in Python, and for measurements.
+// write_example_trace DIRECTORY CYCLES [scheduler] [writes] [slow] [older] [without_source_timestamps]: for tests in
+// Python, and for measurements.
 #include <cstdlib>
 #include <string>
 

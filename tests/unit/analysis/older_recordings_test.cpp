@@ -144,10 +144,11 @@ TEST(OlderRecordingsInPart, DoNotBlameTheSessionForMessagesWithoutRclPublish) {
 TEST(OlderRecordingsInPart, SayThatTheMiddlewareIsNotInTheTrace) {
   Feed feed;
   feed(ros2::RclInit{1, "2.3.0"})(ros2::RclPublisherInit{11, 0, 1, "/topic", 10})(ros2::RclPublish{11, 9});
-  EXPECT_THAT(feed.results().remarks,
-              ::testing::ElementsAre("The trace has rcl_publish, and no event of the middleware (rmw_publish, rmw_take) "
-                                     "(tracetools 2.3.0): ros2_tracing before 3.1 has none. Which messages came, and "
-                                     "when, is not known."));
+  EXPECT_THAT(
+      feed.results().remarks,
+      ::testing::ElementsAre("The trace has rcl_publish, and no event of the middleware (rmw_publish, rmw_take) "
+                             "(tracetools 2.3.0): ros2_tracing before 3.1 has none. Which messages came, and "
+                             "when, is not known."));
 }
 
 // A container: node /both publishes /topic (rcl 11), and its subscription (rmw 2, rcl 12) has an object for messages

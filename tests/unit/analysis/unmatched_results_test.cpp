@@ -21,7 +21,8 @@ TEST_F(UnmatchedResults, AreEventsWithoutTheOneThatBelongsToThem) {
   ASSERT_EQ(results.size(), 4u);
   EXPECT_EQ(results[0].reason, "no end: an exception, a killed process, or it ran when the trace ended");
   EXPECT_EQ(results[1].reason, "no begin: it ran when the trace began, or the begin was lost");
-  EXPECT_EQ(results[2].reason, "no subscription took the message: not connected, ignored by those of its own process, or lost");
+  EXPECT_EQ(results[2].reason,
+            "no subscription took the message: not connected, ignored by those of its own process, or lost");
   EXPECT_EQ(results[3].reason, "the creation of the subscription is not in the trace");
   for (const UnmatchedResult& result : results) {
     EXPECT_EQ(result.count, 1u);

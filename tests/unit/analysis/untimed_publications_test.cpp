@@ -10,7 +10,7 @@ namespace tracing {
 namespace {
 
 constexpr std::int64_t kOneSecond = 1'000'000'000;
-constexpr std::int64_t kWrite = 5'000;   // ns, from rcl_publish to the source timestamp
+constexpr std::int64_t kWrite = 5'000;    // ns, from rcl_publish to the source timestamp
 constexpr std::int64_t kWindow = 30'000;  // ns, from rcl_publish to the next event of the thread
 
 class UntimedPublicationsTest : public ::testing::Test {
@@ -27,7 +27,7 @@ class UntimedPublicationsTest : public ::testing::Test {
   }
   // The number of the publication, 0 for none.
   std::uint64_t take(std::int64_t source_timestamp, std::int64_t taken_ns) {
-    const std::optional<Publication> found = publications.take(source_timestamp, taken_ns, clocks);
+    const std::optional<Publication> found = publications.take({source_timestamp, taken_ns, 9}, clocks);
     return found ? found->number : 0;
   }
   // Messages with all the time in the world between them, after which the clock of the process is confirmed.
@@ -155,7 +155,7 @@ TEST_F(UntimedPublicationsTest, AllowsForClocksThatDifferALittle) {
       const Publication publication{.number = i, .publisher = 3, .thread = thread, .rcl_ns = at, .published_ns = at};
       of_process.add(publication);
       of_process.close(publication, at + kWindow);
-      const auto found = of_process.take(at + kWrite + difference, at + 100'000, clocks);
+      const auto found = of_process.take({at + kWrite + difference, at + 100'000, 9}, clocks);
       ASSERT_TRUE(found) << i;
       EXPECT_EQ(found->number, i);
     }
@@ -175,6 +175,18 @@ TEST_F(UntimedPublicationsTest, LearnsThatTheClockWasSet) {
   EXPECT_EQ(found, 20 - SourceClock::kAgreeing);
 }
 
+TEST_F(UntimedPublicationsTest, LearnsNothingFromProcessesOfAnotherMachine) {
+  clocks.compare_by([](ProcessId process, ProcessId other) { return process == other; });
+  confirm(0, kOneSecond);
+  for (std::uint64_t i = 1; i <= 20; ++i) {
+    const std::int64_t at = static_cast<std::int64_t>(100 + i) * kOneSecond;
+    publish_and_go_on(i, at);
+    // Taken before the next one, which it is, was published.
+    EXPECT_EQ(take(at + kOneSecond + kWrite, at + kOneSecond - 100'000), 0u);
+  }
+  EXPECT_EQ(clocks.of(0).least_ns(), kWrite);
+}
+
 TEST_F(UntimedPublicationsTest, ForgetsTheOldestOfAThread) {
   for (std::uint64_t i = 1; i <= 101; ++i) {
     publish_and_go_on(i, static_cast<std::int64_t>(i) * kOneSecond);
@@ -190,6 +202,34 @@ TEST_F(UntimedPublicationsTest, GivesAPublicationByItsNumber) {
   ASSERT_TRUE(publications.extract(1));
   EXPECT_FALSE(publications.extract(1));
   EXPECT_EQ(publications.count(), 1u);
+}
+
+// As programs that publish, sleep and publish again: the trace has no event of the thread in between.
+TEST_F(UntimedPublicationsTest, TellsProcessesApartThatDoNothingElse) {
+  std::mt19937 random(11);
+  std::uniform_int_distribution<std::int64_t> jitter(0, 400'000);
+  struct Sent {
+    std::int64_t at;
+    std::uint64_t number;
+    ProcessId process;
+  };
+  std::vector<Sent> all;
+  for (ProcessId process = 0; process < 4; ++process) {
+    for (std::int64_t i = 0; i < 1'000; ++i) {
+      all.push_back({i * 5'000'000 + process * 1'100'000 + jitter(random), 0, process});
+    }
+  }
+  std::sort(all.begin(), all.end(), [](const Sent& a, const Sent& b) { return a.at < b.at; });
+  std::uint64_t number = 0;
+  std::size_t found = 0;
+  for (Sent& one : all) {
+    one.number = ++number;
+    publish(one.number, one.at, {one.process, 71}, 3 + one.process);
+    const std::uint64_t taken = take(one.at + kWrite + jitter(random) / 100, one.at + 300'000);
+    EXPECT_TRUE(taken == 0 || taken == one.number) << taken << " for " << one.number;
+    found += taken == one.number ? 1 : 0;
+  }
+  EXPECT_GT(found, all.size() * 99 / 100);
 }
 
 // Processes with one or two threads publish at random times on one topic. Writes take from 3 us on, sometimes

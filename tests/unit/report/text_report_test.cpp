@@ -72,7 +72,7 @@ node unknown, ping [71]
 Topics                  published received  untaken    mean     min     p50     p90     p99     max
   /camera/front/image_raw/compressed
                             70010    70001       10  150 us  100 us  140 us  200 us  300 us 1.00 ms
-    1 of those received were published outside the trace
+    1 of those received have no publication in the trace
   (times: from rmw_publish to callback_start; untaken: by any subscription in the trace)
   (1 topic without messages)
 

@@ -27,6 +27,9 @@ Json json_of(const Measurement& one) {
             {"quantity", one.quantity},
             {"count", one.count},
             {"doubtful", one.doubtful}};
+  if (one.estimated) {
+    json["estimated"] = true;
+  }
   if (!one.steps.empty()) {
     json["steps"] = one.steps;
   }
@@ -51,6 +54,7 @@ Measurement measurement_of(const Json& json) {
   json.at("quantity").get_to(one.quantity);
   json.at("count").get_to(one.count);
   json.at("doubtful").get_to(one.doubtful);
+  one.estimated = json.value("estimated", false);
   if (json.contains("steps")) {
     json.at("steps").get_to(one.steps);
   }

@@ -43,6 +43,10 @@ bool is_doubtful(const Found& side) {
   return std::any_of(side.begin(), side.end(), [](const Measurement* one) { return one->doubtful; });
 }
 
+bool is_estimated(const Found& side) {
+  return std::any_of(side.begin(), side.end(), [](const Measurement* one) { return one->estimated; });
+}
+
 Change change_of(const TestedQuantity& tested, double probability, const CompareOptions& options) {
   Change change;
   std::tie(change.kind, change.subject, change.quantity) = tested.key;
@@ -51,6 +55,7 @@ Change change_of(const TestedQuantity& tested, double probability, const Compare
   change.before_ns = value_of(*tested.before, share_of(tested.statistic));
   change.after_ns = value_of(*tested.after, share_of(tested.statistic));
   change.doubtful = is_doubtful(*tested.before) || is_doubtful(*tested.after);
+  change.estimated = is_estimated(*tested.before) || is_estimated(*tested.after);
   // Of several pairs of runs the smallest shift is told, with an interval that holds those of all pairs.
   std::optional<Shift> told;
   for (const PairTest& pair : tested.pairs) {

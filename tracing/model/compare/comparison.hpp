@@ -26,7 +26,8 @@ struct Change {
   double after_ns = 0;
   Shift shift;  // of the values of blocks, nanoseconds
   double probability = 1;
-  bool doubtful = false;  // on either side
+  bool doubtful = false;   // on either side
+  bool estimated = false;  // likewise
   std::vector<std::string> changed_steps;
   std::string cause;
 
@@ -51,6 +52,7 @@ inline constexpr Field<Change> Change::kFields[] = {
     {"shift_high_ns", &Change::shift_high_ns, ""},
     {"probability", &Change::probability, "corrected for the number of tests"},
     {"doubtful", &Change::doubtful, "events may be missing"},
+    {"estimated", &Change::estimated, "which publication a message is was found by its time"},
     {"changed_steps", &Change::changed_steps, "of a chain: its callbacks that have changed in the same direction"},
     {"cause", &Change::cause,
      "of the duration of a callback, from events of the kernel's scheduler; empty without them"},

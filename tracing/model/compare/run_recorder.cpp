@@ -30,13 +30,13 @@ class Writer {
     return node != kNoObject && is_doubtful(objects_.nodes()[node].process);
   }
   Measurement* add(Kind kind, const std::string& subject, const char* quantity, const KeptSamples& samples,
-                   bool doubtful) {
+                   bool doubtful, bool estimated = false) {
     if (samples.count() == 0) {
       return nullptr;
     }
     const int number = ++seen_[{kind, subject, quantity}];
     const std::string name = number == 1 ? subject : fmt::format("{} #{}", subject, number);
-    run_.measurements.push_back({kind, name, quantity, {}, samples.count(), samples.values(), doubtful});
+    run_.measurements.push_back({kind, name, quantity, {}, samples.count(), samples.values(), doubtful, estimated});
     return &run_.measurements.back();
   }
 
@@ -84,6 +84,7 @@ void RunRecorder::on_message(const MessageFlow& message) {
   const HopTimes times = hop_times(message);
   Hop& hop = record_at(hops_, message.subscription);
   hop.latency.add(times.latency_ns);
+  hop.is_estimated = hop.is_estimated || message.is_estimated;
   if (times.transport_ns) {
     hop.transport.add(*times.transport_ns);
   }
@@ -117,9 +118,11 @@ RunSummary RunRecorder::finish(const TraceAnalysis& analysis, const TraceResults
   }
   for (ObjectId id = 0; id < hops_.size(); ++id) {
     const bool doubtful = writer.is_node_doubtful(objects.subscriptions()[id].node);
-    writer.add(Kind::kHop, names.subscription(id), "latency", hops_[id].latency, doubtful);
-    writer.add(Kind::kHop, names.subscription(id), "on the way", hops_[id].transport, doubtful);
-    writer.add(Kind::kHop, names.subscription(id), "waiting for the executor", hops_[id].executor, doubtful);
+    const Hop& hop = hops_[id];
+    writer.add(Kind::kHop, names.subscription(id), "latency", hop.latency, doubtful, hop.is_estimated);
+    writer.add(Kind::kHop, names.subscription(id), "on the way", hop.transport, doubtful, hop.is_estimated);
+    writer.add(Kind::kHop, names.subscription(id), "waiting for the executor", hop.executor, doubtful,
+               hop.is_estimated);
   }
   for (const auto& [pair, samples] : calls_) {
     const auto& [client, service] = pair;
@@ -134,13 +137,17 @@ RunSummary RunRecorder::finish(const TraceAnalysis& analysis, const TraceResults
     std::vector<std::string> steps;
     std::string subject;
     bool doubtful = false;
+    bool estimated = false;
     for (PathId at = path; at != kNoPath; at = chains_.paths()[at].parent) {
       const ObjectId callback = chains_.paths()[at].callback;
       subject = names.step(callback) + (subject.empty() ? "" : " -> ") + subject;
       steps.insert(steps.begin(), names.callback(callback));
       doubtful = doubtful || writer.is_doubtful(objects.callbacks()[callback].process);
+      const ObjectId subscription = objects.subscription_of(objects.callbacks()[callback]);
+      estimated = estimated || (subscription < hops_.size() && hops_[subscription].is_estimated);
     }
-    Measurement* const chain = writer.add(Kind::kChain, subject, "response", chains_.responses[path], doubtful);
+    Measurement* const chain =
+        writer.add(Kind::kChain, subject, "response", chains_.responses[path], doubtful, estimated);
     if (chain != nullptr) {
       chain->steps = std::move(steps);
     }

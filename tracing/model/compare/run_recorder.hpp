@@ -55,6 +55,7 @@ class RunRecorder : public ExecutionSink {
     KeptSamples latency;
     KeptSamples transport;
     KeptSamples executor;
+    bool is_estimated = false;
   };
 
   std::vector<Callback> callbacks_;                             // by ObjectId

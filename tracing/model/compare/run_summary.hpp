@@ -32,6 +32,8 @@ struct Measurement {
   std::uint64_t count = 0;            // of all samples
   std::vector<std::int64_t> samples;  // nanoseconds, in the order of time; KeptSamples::kMost at most
   bool doubtful = false;              // events of its process may be missing
+  // Which publication its messages are is an estimate (MessageFlow::is_estimated).
+  bool estimated = false;
 };
 
 struct RunSummary {

@@ -63,13 +63,14 @@ Findings dropped_messages(const TraceResults& results) {
     // The part counts, and the number where parts are equal.
     const double share = std::min(1.0, static_cast<double>(dropped) * 4 / static_cast<double>(sent));
     const double weight = 55 + 39 * share + std::min(1.0, std::log10(static_cast<double>(dropped)) / 10);
-    findings.push_back({Finding::Kind::kDroppedMessages,
-                        weight,
-                        label(hosts, subscription),
-                        fmt::format("{} of {}: {}{}", dropped, sent, places, mark(subscription.doubtful, subscription.estimated > 0)),
-                        remedy(subscription, callback_of(results, subscription)),
-                        {},
-                        subscription.topic});
+    findings.push_back(
+        {Finding::Kind::kDroppedMessages,
+         weight,
+         label(hosts, subscription),
+         fmt::format("{} of {}: {}{}", dropped, sent, places, mark(subscription.doubtful, subscription.estimated > 0)),
+         remedy(subscription, callback_of(results, subscription)),
+         {},
+         subscription.topic});
   }
   return findings;
 }
@@ -86,17 +87,18 @@ Findings waiting_messages(const TraceResults& results) {
                          static_cast<double>(std::max<std::int64_t>(usual_worst(subscription.latency), 1));
     const double milliseconds = static_cast<double>(wait_ns) / 1e6;
     const CallbackResult* const callback = callback_of(results, subscription);
-    Finding finding{Finding::Kind::kLongestWait,
-                    25 + 25 * std::min(1.0, share) + std::min(20.0, 5 * std::log10(1 + milliseconds)),
-                    label(hosts, subscription),
-                    fmt::format("messages wait {} for a busy executor, at p99 {} of {} in all{}",
-                                duration(subscription.executor.p50_ns), duration(subscription.executor.p99_ns),
-                                duration(subscription.latency.p99_ns), mark(subscription.doubtful, subscription.estimated > 0)),
-                    callback == nullptr || callback->held_up_by.empty()
-                        ? "launch report DIR --html FILE shows what its thread does meanwhile"
-                        : fmt::format("mostly for {}: give one of them an executor of its own", callback->held_up_by),
-                    {},
-                    subscription.topic};
+    Finding finding{
+        Finding::Kind::kLongestWait,
+        25 + 25 * std::min(1.0, share) + std::min(20.0, 5 * std::log10(1 + milliseconds)),
+        label(hosts, subscription),
+        fmt::format("messages wait {} for a busy executor, at p99 {} of {} in all{}",
+                    duration(subscription.executor.p50_ns), duration(subscription.executor.p99_ns),
+                    duration(subscription.latency.p99_ns), mark(subscription.doubtful, subscription.estimated > 0)),
+        callback == nullptr || callback->held_up_by.empty()
+            ? "launch report DIR --html FILE shows what its thread does meanwhile"
+            : fmt::format("mostly for {}: give one of them an executor of its own", callback->held_up_by),
+        {},
+        subscription.topic};
     if (callback != nullptr) {
       finding.callback = callback->id;
     }

@@ -51,11 +51,12 @@ Findings slow_chains(const TraceResults& results) {
     }
     // Of two, the one that usually takes longer.
     const double weight = 40 + std::min(10.0, std::log10(static_cast<double>(chain.response.p50_ns) / kSlowChain));
-    findings.push_back(
-        {Finding::Kind::kSlowestChain, weight, Hosts(results.overview).before(chain) + chain_label(chain),
-         fmt::format("{} steps take {}, at p99 {}, at most {}{}", chain.steps.size(), duration(chain.response.p50_ns),
-                     duration(chain.response.p99_ns), duration(chain.response.max_ns), mark(chain.doubtful, chain.estimated)),
-         step_by_step(chain)});
+    findings.push_back({Finding::Kind::kSlowestChain, weight,
+                        Hosts(results.overview).before(chain) + chain_label(chain),
+                        fmt::format("{} steps take {}, at p99 {}, at most {}{}", chain.steps.size(),
+                                    duration(chain.response.p50_ns), duration(chain.response.p99_ns),
+                                    duration(chain.response.max_ns), mark(chain.doubtful, chain.estimated)),
+                        step_by_step(chain)});
   }
   return findings;
 }

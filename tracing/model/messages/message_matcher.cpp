@@ -69,10 +69,11 @@ void MessageMatcher::write(ObjectId topic, std::uint64_t number, std::int64_t so
 }
 
 void MessageMatcher::estimate(TopicRecord& topic_record, Flight& flight, TakenMessage& message,
-                              std::int64_t source_timestamp) {
+                              const SourceStamp& stamp) {
+  const std::int64_t source_timestamp = stamp.source_timestamp;
   Untimed& untimed = *flight.untimed;
   const std::optional<Publication> publication =
-      source_timestamp == 0 ? std::nullopt : untimed.publications.take(source_timestamp, message.taken_ns, clocks_);
+      source_timestamp == 0 ? std::nullopt : untimed.publications.take(stamp, clocks_);
   if (publication) {
     ++topic_record.estimated;
     message.publication = *publication;
@@ -98,7 +99,7 @@ void MessageMatcher::estimate(TopicRecord& topic_record, Flight& flight, TakenMe
 }
 
 TakenMessage MessageMatcher::take(ObjectId subscription, ObjectId topic, std::int64_t source_timestamp,
-                                  std::int64_t time_ns) {
+                                  std::int64_t time_ns, ProcessId taking_process) {
   TopicRecord& topic_record = record(topic);
   ++topic_record.received;
   TakenMessage message{subscription, {}, time_ns};
@@ -116,7 +117,7 @@ TakenMessage MessageMatcher::take(ObjectId subscription, ObjectId topic, std::in
     return message;
   }
   if (flight.untimed) {
-    estimate(topic_record, flight, message, source_timestamp);
+    estimate(topic_record, flight, message, {source_timestamp, time_ns, taking_process});
     return message;
   }
   ++topic_record.received_only;

@@ -59,11 +59,16 @@ class MessageMatcher {
   // So many messages without a publication are remembered for each topic, in case it comes later.
   static constexpr std::size_t kUnknown = 64;
 
+  // As SourceClocks::compare_by().
+  void compare_clocks_by(std::function<bool(ProcessId, ProcessId)> have_one_clock) {
+    clocks_.compare_by(std::move(have_one_clock));
+  }
   // `source_timestamp`: 0 when the trace doesn't hold it.
   void publish(const Publication& publication, std::int64_t source_timestamp);
   // The middleware has written the publication, with this timestamp.
   void write(ObjectId topic, std::uint64_t number, std::int64_t source_timestamp, std::int64_t written_ns);
-  TakenMessage take(ObjectId subscription, ObjectId topic, std::int64_t source_timestamp, std::int64_t time_ns);
+  TakenMessage take(ObjectId subscription, ObjectId topic, std::int64_t source_timestamp, std::int64_t time_ns,
+                    ProcessId taking_process = kNoProcess);
   // The thread of a publication without a timestamp goes on.
   void close(const Publication& publication, std::int64_t time_ns);
   // A callback gets a message whose take is not in the trace.
@@ -97,7 +102,7 @@ class MessageMatcher {
   TopicRecord& record(ObjectId topic);
   void add_timed(TopicRecord& topic_record, Flight& flight, const RecentPublication& publication);
   // Finds the publication by its time.
-  void estimate(TopicRecord& topic_record, Flight& flight, TakenMessage& message, std::int64_t source_timestamp);
+  void estimate(TopicRecord& topic_record, Flight& flight, TakenMessage& message, const SourceStamp& stamp);
   // Whether the message was taken already, on a machine whose clock differs.
   bool was_taken_early(TopicRecord& topic_record, Flight& flight, const Publication& publication,
                        std::int64_t source_timestamp);

@@ -2,6 +2,7 @@
 #include "tracing/model/messages/untimed_publications.hpp"
 
 #include <algorithm>
+#include <functional>
 
 namespace tracing {
 
@@ -9,8 +10,12 @@ namespace {
 
 constexpr std::int64_t kTolerance = 2'000;        // ns: a write often takes so much less than all before it
 constexpr std::int64_t kMostInaccurate = 20'000;  // ns: of the distance from the epoch that the tracer has measured
-constexpr std::int64_t kUsual = 200'000;          // ns: how much longer a write may take than the least one,
-constexpr std::int64_t kTimesSlowest = 4;         // or so many times as much as the slowest one of its publisher
+// How much longer than the least one a write usually takes at most, if there are others that it may be: nothing is
+// known of the publisher; else so much, and so many times its mean.
+constexpr std::int64_t kUsual = 200'000;      // ns
+constexpr std::int64_t kUsualLeast = 20'000;  // ns
+constexpr double kUsualTimes = 8;
+constexpr double kWeight = 1.0 / 16;  // of a write in the mean
 
 }  // namespace
 
@@ -37,17 +42,26 @@ void UntimedPublications::close(const Publication& publication, std::int64_t tim
   }
 }
 
-void UntimedPublications::add_candidate(OfThread& sent, std::size_t place, const Message& message,
+void UntimedPublications::add_candidate(OfThread& sent, std::size_t place, const SourceStamp& message,
                                         const SourceClock& clock) {
-  Candidate candidate{&sent, place, message.source_timestamp - sent[place].begin_ns};
-  const auto slowest = slowest_.find(sent[place].publication.publisher);
-  if (clock.is_confirmed() && slowest != slowest_.end()) {
-    candidate.is_usual = candidate.delay_ns - clock.least_ns() <= kUsual + kTimesSlowest * slowest->second;
-  }
-  found_.push_back(candidate);
+  const std::int64_t delay_ns = message.source_timestamp - sent[place].begin_ns;
+  const std::int64_t after_least_ns = delay_ns - (clock.is_confirmed() ? clock.least_ns() : clock.offset_ns());
+  found_.push_back({&sent, place, delay_ns, after_least_ns <= usual_ns(sent[place].publication.publisher)});
 }
 
-void UntimedPublications::find_by_clock(OfThread& sent, const Message& message, const SourceClock& clock) {
+std::int64_t UntimedPublications::usual_ns(ObjectId publisher) const {
+  const auto mean = means_.find(publisher);
+  return mean == means_.end() ? kUsual : kUsualLeast + static_cast<std::int64_t>(kUsualTimes * mean->second);
+}
+
+void UntimedPublications::learn(ObjectId publisher, std::int64_t after_least_ns) {
+  // A write that had to wait for a processor hardly counts.
+  const double taken = static_cast<double>(std::min(after_least_ns, usual_ns(publisher)));
+  const auto [mean, is_first] = means_.try_emplace(publisher, taken);
+  mean->second += is_first ? 0 : kWeight * (taken - mean->second);
+}
+
+void UntimedPublications::find_by_clock(OfThread& sent, const SourceStamp& message, const SourceClock& clock) {
   const std::int64_t written_ns = message.source_timestamp - clock.least_ns();
   const std::size_t begun = begun_by(sent, written_ns + kTolerance);
   if (begun > 0 && std::min(sent[begun - 1].end_ns, message.taken_ns) >= written_ns) {
@@ -55,7 +69,7 @@ void UntimedPublications::find_by_clock(OfThread& sent, const Message& message, 
   }
 }
 
-void UntimedPublications::find_near(OfThread& sent, const Message& message, const SourceClock& clock) {
+void UntimedPublications::find_near(OfThread& sent, const SourceStamp& message, const SourceClock& clock) {
   const std::int64_t written_ns = message.source_timestamp - clock.offset_ns();
   std::size_t begun = begun_by(sent, std::min(written_ns + SourceClock::kUncertainty, message.taken_ns));
   while (begun > 0 && std::min(sent[begun - 1].end_ns, message.taken_ns) >= written_ns - SourceClock::kUncertainty) {
@@ -63,7 +77,7 @@ void UntimedPublications::find_near(OfThread& sent, const Message& message, cons
   }
 }
 
-void UntimedPublications::find_faster(OfThread& sent, const Message& message, const SourceClock& clock) {
+void UntimedPublications::find_faster(OfThread& sent, const SourceStamp& message, const SourceClock& clock) {
   const std::int64_t least_ns =
       std::max(clock.least_ns() - SourceClock::kUncertainty, clock.offset_ns() - kMostInaccurate);
   const std::size_t before = begun_by(sent, message.source_timestamp - clock.least_ns() + kTolerance);
@@ -73,9 +87,7 @@ void UntimedPublications::find_faster(OfThread& sent, const Message& message, co
   }
 }
 
-std::optional<Publication> UntimedPublications::take(std::int64_t source_timestamp, std::int64_t taken_ns,
-                                                     SourceClocks& clocks) {
-  const Message message{source_timestamp, taken_ns};
+std::optional<Publication> UntimedPublications::take(const SourceStamp& message, SourceClocks& clocks) {
   found_.clear();
   for (auto& [thread, sent] : threads_) {
     const SourceClock& clock = clocks.of(thread.process);
@@ -93,7 +105,10 @@ std::optional<Publication> UntimedPublications::take(std::int64_t source_timesta
     return std::nullopt;
   }
   if (found_.size() > 1) {
-    std::erase_if(found_, [](const Candidate& candidate) { return !candidate.is_usual; });
+    const auto is_usual = [](const Candidate& candidate) { return candidate.is_usual; };
+    if (std::any_of(found_.begin(), found_.end(), is_usual)) {
+      std::erase_if(found_, std::not_fn(is_usual));
+    }
   }
   if (found_.size() != 1) {
     return std::nullopt;
@@ -105,14 +120,13 @@ std::optional<Publication> UntimedPublications::take(std::int64_t source_timesta
   SourceClock& clock = clocks.of(publication.thread.process);
   clock.on_match(only.delay_ns);
   if (clock.is_confirmed()) {
-    std::int64_t& slowest = slowest_[publication.publisher];
-    slowest = std::max(slowest, only.delay_ns - clock.least_ns());
+    learn(publication.publisher, only.delay_ns - clock.least_ns());
   }
   return publication;
 }
 
 // If all publications are those of one process, its clock may have been set.
-void UntimedPublications::learn_miss(const Message& message, SourceClocks& clocks) {
+void UntimedPublications::learn_miss(const SourceStamp& message, SourceClocks& clocks) {
   ProcessId process = kNoProcess;
   const Sent* newest = nullptr;
   for (const auto& [thread, sent] : threads_) {
@@ -125,7 +139,7 @@ void UntimedPublications::learn_miss(const Message& message, SourceClocks& clock
       newest = &sent[begun - 1];
     }
   }
-  if (newest != nullptr) {
+  if (newest != nullptr && clocks.have_one_clock(process, message.taking_process)) {
     clocks.of(process).on_miss(message.source_timestamp - std::min(newest->end_ns, message.taken_ns),
                                message.source_timestamp - newest->begin_ns);
   }
@@ -133,8 +147,8 @@ void UntimedPublications::learn_miss(const Message& message, SourceClocks& clock
 
 std::optional<Publication> UntimedPublications::extract(std::uint64_t number) {
   for (auto& [thread, sent] : threads_) {
-    const auto found = std::find_if(sent.rbegin(), sent.rend(),
-                                    [&](const Sent& one) { return one.publication.number == number; });
+    const auto found =
+        std::find_if(sent.rbegin(), sent.rend(), [&](const Sent& one) { return one.publication.number == number; });
     if (found != sent.rend()) {
       const Publication publication = found->publication;
       sent.erase(std::next(found).base());

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -24,9 +25,24 @@ namespace tracing {
 class SourceClocks {
  public:
   SourceClock& of(ProcessId process) { return clocks_[process]; }
+  // Says whether the events of two processes have times of one clock. Without, those of all have.
+  void compare_by(std::function<bool(ProcessId, ProcessId)> have_one_clock) {
+    have_one_clock_ = std::move(have_one_clock);
+  }
+  bool have_one_clock(ProcessId process, ProcessId other) const {
+    return !have_one_clock_ || have_one_clock_(process, other);
+  }
 
  private:
   std::map<ProcessId, SourceClock> clocks_;
+  std::function<bool(ProcessId, ProcessId)> have_one_clock_;
+};
+
+// A message that was taken.
+struct SourceStamp {
+  std::int64_t source_timestamp = 0;
+  std::int64_t taken_ns = 0;
+  ProcessId taking_process = kNoProcess;
 };
 
 class UntimedPublications {
@@ -38,7 +54,7 @@ class UntimedPublications {
   // The thread goes on after the publication, which is its last one of the topic.
   void close(const Publication& publication, std::int64_t time_ns);
   // The publication of a message, which is then not here any more. Nullopt: none fits, or several do.
-  std::optional<Publication> take(std::int64_t source_timestamp, std::int64_t taken_ns, SourceClocks& clocks);
+  std::optional<Publication> take(const SourceStamp& message, SourceClocks& clocks);
   // The publication with this number, which is then not here any more.
   std::optional<Publication> extract(std::uint64_t number);
 
@@ -59,25 +75,23 @@ class UntimedPublications {
     std::int64_t delay_ns = 0;  // from its begin to the source timestamp
     bool is_usual = true;       // writes of its publisher take as long, or nothing is known about that
   };
-  struct Message {
-    std::int64_t source_timestamp = 0;
-    std::int64_t taken_ns = 0;
-  };
 
   static std::size_t begun_by(const OfThread& sent, std::int64_t time_ns);
   // A confirmed clock says which publication of a thread it is. Without, all that are near the time may be it.
-  void find_by_clock(OfThread& sent, const Message& message, const SourceClock& clock);
-  void find_near(OfThread& sent, const Message& message, const SourceClock& clock);
+  void find_by_clock(OfThread& sent, const SourceStamp& message, const SourceClock& clock);
+  void find_near(OfThread& sent, const SourceStamp& message, const SourceClock& clock);
   // Written in less time than all before.
-  void find_faster(OfThread& sent, const Message& message, const SourceClock& clock);
-  void add_candidate(OfThread& sent, std::size_t place, const Message& message, const SourceClock& clock);
-  void learn_miss(const Message& message, SourceClocks& clocks);
+  void find_faster(OfThread& sent, const SourceStamp& message, const SourceClock& clock);
+  void add_candidate(OfThread& sent, std::size_t place, const SourceStamp& message, const SourceClock& clock);
+  std::int64_t usual_ns(ObjectId publisher) const;
+  void learn(ObjectId publisher, std::int64_t after_least_ns);
+  void learn_miss(const SourceStamp& message, SourceClocks& clocks);
 
   std::size_t most_;
   std::uint64_t count_ = 0;
   ThreadMap<OfThread> threads_;
-  std::map<ObjectId, std::int64_t> slowest_;  // by publisher: the longest write after the least one
-  std::vector<Candidate> found_;              // kept for its memory
+  std::map<ObjectId, double> means_;  // by publisher: how much longer than the least one a write takes
+  std::vector<Candidate> found_;      // kept for its memory
 };
 
 }  // namespace tracing

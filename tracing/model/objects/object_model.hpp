@@ -45,7 +45,16 @@ class ObjectModel {
  public:
   // To be called before the events of new processes; takes a comparison. An object that a process does not have is
   // looked for in the process that had its id before (ProcessObject::earlier).
-  void learn(const ProcessTable& processes) { earlier_.learn(processes); }
+  void learn(const ProcessTable& processes) {
+    earlier_.learn(processes);
+    while (hosts_.size() < processes.processes().size()) {
+      hosts_.push_back(processes.processes()[hosts_.size()].host);
+    }
+  }
+  // Whether they run on one machine, as far as the trace tells.
+  bool are_on_one_host(ProcessId process, ProcessId other) const {
+    return process >= hosts_.size() || other >= hosts_.size() || hosts_[process] == hosts_[other];
+  }
 
   // Takes the initialisation events; other events are ignored.
   void on(const Origin&, const ros2::RclNodeInit&);
@@ -138,6 +147,7 @@ class ObjectModel {
   std::vector<ClientObject> clients_;
 
   EarlierProcesses earlier_;
+  std::vector<std::string> hosts_;  // by process
   CallbackTable callbacks_{earlier_};
 
   Index node_index_;

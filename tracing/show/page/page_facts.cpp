@@ -301,8 +301,8 @@ Json chains(const TracedSystem& system) {
   return list;
 }
 
-// [topic, messages whose publication is an estimate, publications that may have been taken or not] of recordings without
-// timestamps of publications.
+// [topic, messages whose publication is an estimate, publications that may have been taken or not] of recordings
+// without timestamps of publications.
 Json estimates(const TracedSystem& system) {
   Json list = Json::array();
   for (const TopicResult& topic : system.results.ros2.topics) {

@@ -108,6 +108,11 @@ std::string head(const ComparisonReport& report, bool color) {
   if (marked) {
     text += "           * events may be missing, so that the figures may be wrong\n";
   }
+  const bool estimated = std::any_of(comparison.changes.begin(), comparison.changes.end(),
+                                     [](const Change& change) { return change.estimated; });
+  if (estimated) {
+    text += "           ~ an estimate: a recording has no timestamps of publications\n";
+  }
   return text;
 }
 
@@ -140,8 +145,8 @@ std::string section(std::string title, const std::vector<const Change*>& all, co
     const auto& [subject, changes] = subjects[i];
     text += "  " + shortened(subject.second, options.width - 2) + "\n";
     for (const Change* change : changes) {
-      const std::string what =
-          fmt::format("{}, {}{}", change->quantity, statistic_name(change->statistic), change->doubtful ? " *" : "");
+      const std::string what = fmt::format("{}, {}{}{}", change->quantity, statistic_name(change->statistic),
+                                           change->estimated ? " ~" : "", change->doubtful ? " *" : "");
       text += fmt::format("    {:30} {:>8} -> {:8} ", what, format_duration(change->before_ns),
                           format_duration(change->after_ns)) +
               styled(fmt::format("{:>9}", signed_duration(change->shift.estimate)),

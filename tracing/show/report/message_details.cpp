@@ -14,7 +14,7 @@ namespace {
 
 std::string topic_remarks(const TopicResult& topic) {
   const std::pair<std::uint64_t, const char*> parts[] = {
-      {topic.received_only, "of those received were published outside the trace"},
+      {topic.received_only, "of those received have no publication in the trace"},
       {topic.estimated, "of those received are an estimate: their publication was found by its time"},
       {topic.unidentified, "of those received may be any of several publications, or of none in the trace"},
       {topic.undecided, "of those published may have been taken or not"},

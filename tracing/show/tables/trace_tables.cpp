@@ -47,7 +47,8 @@ Table verdict_table(const TracedSystem& system) {
 Table remark_table(const TracedSystem& system) {
   return {"remarks",
           "sentences about what is missing or doubtful",
-          {{"kind", kText, "`absent`, `overwritten`, `open` (a directory that was still being written), `recording` (what the version "
+          {{"kind", kText,
+            "`absent`, `overwritten`, `open` (a directory that was still being written), `recording` (what the version "
             "of ros2_tracing does not tell) or `warning`"},
            {"text", kText, ""}},
           [&system](const Emit& emit) {

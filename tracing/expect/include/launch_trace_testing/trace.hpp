@@ -69,8 +69,8 @@ struct Delivery {
   std::int64_t callback_end_ns = 0;
 };
 
-// What the version of ros2_tracing that has recorded a topic leaves open: before 8.0 publications have no timestamp, and
-// which one a message is was found by its time.
+// What the version of ros2_tracing that has recorded a topic leaves open: before 8.0 publications have no timestamp,
+// and which one a message is was found by its time.
 struct MessageDoubts {
   std::string topic;
   std::size_t estimated = 0;  // messages whose publication was found

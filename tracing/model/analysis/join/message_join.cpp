@@ -107,7 +107,7 @@ void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::RmwT
     count_unknown(origin);
   } else {
     const ObjectId topic = model_.subscriptions()[subscription.id].topic;
-    thread.taken = messages_.take(subscription.id, topic, event.source_timestamp, origin.time_ns);
+    thread.taken = messages_.take(subscription.id, topic, event.source_timestamp, origin.time_ns, origin.process);
     // Asked now: when it is clear that no callback runs, the subscription may be gone.
     thread.taken_for = thread.executed == 0 ? kNoObject : model_.subscription(origin.process, thread.executed);
   }

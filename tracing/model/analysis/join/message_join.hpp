@@ -36,7 +36,12 @@ class MessageJoin {
  public:
   // All must outlive this object.
   MessageJoin(const ObjectModel& model, const ExecutorWaits& waits, ExecutionSink& sink)
-      : model_(model), waits_(waits), sink_(sink) {}
+      : model_(model), waits_(waits), sink_(sink) {
+    messages_.compare_clocks_by(
+        [this](ProcessId process, ProcessId other) { return model_.are_on_one_host(process, other); });
+  }
+  MessageJoin(const MessageJoin&) = delete;  // its parts refer to it
+  MessageJoin& operator=(const MessageJoin&) = delete;
 
   void on(const Origin& origin, const ros2::RclInit& event) {
     begun_.insert(origin.process);

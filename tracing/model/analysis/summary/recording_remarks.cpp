@@ -18,7 +18,7 @@ std::vector<std::string> recording_remarks(const Ros2Results& results) {
   std::uint64_t estimated = 0;
   std::uint64_t unidentified = 0;
   std::uint64_t undecided = 0;
-  std::uint64_t unrecorded = 0;  
+  std::uint64_t unrecorded = 0;
   for (const TopicResult& topic : results.topics) {
     estimated += topic.estimated;
     unidentified += topic.unidentified;
@@ -26,9 +26,8 @@ std::vector<std::string> recording_remarks(const Ros2Results& results) {
     unrecorded += results.is_older ? topic.unrecorded : 0;
   }
   std::vector<std::string> remarks;
-  const std::string recorder = results.tracetools.empty()
-                                   ? std::string()
-                                   : fmt::format(" (tracetools {})", fmt::join(results.tracetools, ", "));
+  const std::string recorder =
+      results.tracetools.empty() ? std::string() : fmt::format(" (tracetools {})", fmt::join(results.tracetools, ", "));
   if (estimated + unidentified + undecided > 0) {
     remarks.push_back(fmt::format(
         "The trace has no timestamps of publications{}; ros2_tracing records them from 8.0 (ROS 2 Jazzy) on. Of {} the "
@@ -48,10 +47,10 @@ std::vector<std::string> recording_remarks(const Ros2Results& results) {
                     messages_text(unrecorded)));
   }
   if (results.unnamed_messages > 0) {
-    remarks.push_back(
-        fmt::format("{} have no publisher{}: before 8.0, ros2_tracing names it in rcl_publish alone, which the trace does "
-                    "not hold.",
-                    messages_text(results.unnamed_messages), recorder));
+    remarks.push_back(fmt::format(
+        "{} have no publisher{}: before 8.0, ros2_tracing names it in rcl_publish alone, which the trace does "
+        "not hold.",
+        messages_text(results.unnamed_messages), recorder));
   }
   if (results.lacks_middleware) {
     remarks.push_back(

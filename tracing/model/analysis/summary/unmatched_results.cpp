@@ -47,7 +47,8 @@ std::vector<UnmatchedResult> unmatched_results(const ObjectModel& model, const E
   add("callback_end", "no begin: it ran when the trace began, or the begin was lost",
       join.callbacks().ends_without_begin());
   add("rmw_publish", "the topic has no subscription in the trace", without_subscription);
-  add("rmw_publish", "no subscription took the message: not connected, ignored by those of its own process, or lost", untaken);
+  add("rmw_publish", "no subscription took the message: not connected, ignored by those of its own process, or lost",
+      untaken);
   add("rmw_publish", "it has no timestamp, as in ros2_tracing before 8.0: whether it was taken can't be told",
       undecided);
   add("rmw_publish", "it has no publisher, as in ros2_tracing before 8.0, and the trace has no rcl_publish",
