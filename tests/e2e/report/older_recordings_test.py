@@ -197,7 +197,7 @@ class OlderRecordings(unittest.TestCase):
                       run('test', file, '--trace', self.root / 'nothing', code=2))
         (self.root / 'empty').mkdir()
         output = run('test', file, '--trace', self.root / 'empty', code=1)
-        self.assertIn(f"error: the trace can't be read: no trace found in '{self.root}/empty'", output)
+        self.assertIn(f"error: the trace can't be read: '{self.root}/empty' is not a trace: ", output)
         self.assertIn('      = help: ', output)
         self.assertIn('--repeat does not go with --trace, which starts nothing',
                       run('test', file, '--trace', self.older, '--repeat', '2', code=2))
