@@ -175,6 +175,15 @@ TEST_F(UntimedPublicationsTest, LearnsThatTheClockWasSet) {
   EXPECT_EQ(found, 20 - SourceClock::kAgreeing);
 }
 
+TEST_F(UntimedPublicationsTest, TakesNoMessageOfSomebodyElseForAnOldPublication) {
+  confirm(0, kOneSecond);
+  publish(1, 50 * kOneSecond);  // the thread does nothing after it
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_EQ(take(60 * kOneSecond + i * 100'000'000, 60 * kOneSecond + i * 100'000'000 + 50'000), 0u);
+  }
+  EXPECT_EQ(clocks.of(0).least_ns(), kWrite) << "and nothing was learned from them";
+}
+
 TEST_F(UntimedPublicationsTest, LearnsNothingFromProcessesOfAnotherMachine) {
   clocks.compare_by([](ProcessId process, ProcessId other) { return process == other; });
   confirm(0, kOneSecond);

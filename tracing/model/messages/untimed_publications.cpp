@@ -9,6 +9,8 @@ namespace tracing {
 namespace {
 
 constexpr std::int64_t kTolerance = 2'000;        // ns: a write often takes so much less than all before it
+constexpr std::int64_t kLongest = 1'000'000'000;  // ns: no write takes longer
+constexpr std::int64_t kSoon = 10'000'000;        // ns: a message that is taken so soon is the newest one
 constexpr std::int64_t kMostInaccurate = 20'000;  // ns: of the distance from the epoch that the tracer has measured
 // How much longer than the least one a write usually takes at most, if there are others that it may be: nothing is
 // known of the publisher; else so much, and so many times its mean.
@@ -46,6 +48,9 @@ void UntimedPublications::add_candidate(OfThread& sent, std::size_t place, const
                                         const SourceClock& clock) {
   const std::int64_t delay_ns = message.source_timestamp - sent[place].begin_ns;
   const std::int64_t after_least_ns = delay_ns - (clock.is_confirmed() ? clock.least_ns() : clock.offset_ns());
+  if (after_least_ns > kLongest) {
+    return;
+  }
   found_.push_back({&sent, place, delay_ns, after_least_ns <= usual_ns(sent[place].publication.publisher)});
 }
 
@@ -139,7 +144,10 @@ void UntimedPublications::learn_miss(const SourceStamp& message, SourceClocks& c
       newest = &sent[begun - 1];
     }
   }
-  if (newest != nullptr && clocks.have_one_clock(process, message.taking_process)) {
+  if (newest == nullptr || !clocks.have_one_clock(process, message.taking_process)) {
+    return;
+  }
+  if (message.taken_ns - newest->begin_ns <= kSoon) {
     clocks.of(process).on_miss(message.source_timestamp - std::min(newest->end_ns, message.taken_ns),
                                message.source_timestamp - newest->begin_ns);
   }
