@@ -24,6 +24,7 @@
 #include "recording/recording.hpp"
 #include "registration/daemon_arrival.hpp"
 #include "registration/registration_watch.hpp"
+#include "stand_in/is_needed.hpp"
 #include "state/object_state.hpp"
 #include "state/state_dump_request.hpp"
 
@@ -136,8 +137,7 @@ bool can_load_later() {
   return !lttng_is_loaded() && access(provider_path().c_str(), R_OK) == 0;
 }
 
-// Runs when the library is loaded, before main and before the static objects of libraries that link it.
-[[gnu::constructor]] void open_provider() {
+void open_provider() {
   if (environment_says_yes("TRACETOOLS_RUNTIME_DISABLE")) {
     if (is_verbose()) {
       std::fputs("tracetools: tracing is disabled by TRACETOOLS_RUNTIME_DISABLE\n", stderr);
@@ -161,9 +161,33 @@ bool can_load_later() {
   read_deadlines();
 }
 
+#ifdef TRACETOOLS_STANDS_IN
+
+// What is preloaded is loaded by everything that the process executes, such as a shell, which must not get the threads
+// of LTTng for nothing. There this waits for the first event: a Python program loads rcl later.
+std::once_flag opened;
+
+[[gnu::constructor]] void open_where_needed() {
+  if (is_needed()) {
+    std::call_once(opened, &open_provider);
+  }
+}
+
+#else
+
+// Runs when the library is loaded, before main and before the static objects of libraries that link it.
+[[gnu::constructor]] void open_at_load() {
+  open_provider();
+}
+
+#endif
+
 }  // namespace
 
 bool is_traceable() noexcept {
+#ifdef TRACETOOLS_STANDS_IN
+  std::call_once(opened, &open_provider);
+#endif
   return traceable;
 }
 

@@ -1,5 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 /* libtracetools_provider.so: the probes. Written in C, because LTTng's probe macros are not C++. */
+#include <stdlib.h>
+
+/* Of the events of rcl_init. A library that stands in for that of another ROS 2 tells the version of the other one. */
+static const char* tracetools_version = TRACETOOLS_VERSION;
+#ifdef TRACETOOLS_STANDS_IN
+__attribute__((constructor)) static void read_version(void) {
+  const char* const version = getenv("TRACETOOLS_STANDS_IN_FOR_VERSION");
+  if (version != NULL) {
+    tracetools_version = version;
+  }
+}
+#endif
+
 #define LTTNG_UST_TRACEPOINT_CREATE_PROBES
 #include "provider/provider.h"
 

@@ -12,8 +12,13 @@
 
 #include "tracetools/events.h"
 
-/* Equals RMW_GID_STORAGE_SIZE, whose header this package must not include. */
+/* Bytes of a recorded gid. Of those of version 8.4 and later it is RMW_GID_STORAGE_SIZE, whose header this package must
+ * not include. */
+#if TRACETOOLS_INTERFACE < 804
+#define TRACETOOLS_GID_SIZE 24
+#else
 #define TRACETOOLS_GID_SIZE 16
+#endif
 
 /* clang-format off */
 
@@ -47,7 +52,7 @@
 #define TRACETOOLS_PROBE_FIELD_gid(name) lttng_ust_field_array(uint8_t, name, name##_arg, TRACETOOLS_GID_SIZE)
 #define TRACETOOLS_PROBE_FIELD_pointers(name) \
   lttng_ust_field_sequence_hex(const void *, name, name##_arg, size_t, num_##name##_arg)
-#define TRACETOOLS_PROBE_FIELD_version(name) lttng_ust_field_string(name, TRACETOOLS_VERSION)
+#define TRACETOOLS_PROBE_FIELD_version(name) lttng_ust_field_string(name, tracetools_version)
 #define TRACETOOLS_PROBE_FIELD_ignored(name)
 #define TRACETOOLS_PROBE_FIELD_nothing(name)
 

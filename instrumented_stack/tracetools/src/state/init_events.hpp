@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "provider/provider_fields.h"
 #include "state/object_state.hpp"
 #include "tracetools/events.h"
 #include "tracetools/events_ext.h"
@@ -126,6 +127,10 @@ TRACETOOLS_EXT_EVENT_TABLE(CHECK_EVENT, )
 template <typename Event>
 inline constexpr bool is_noted = Ends<Event>::value || is_transition<Event>;
 
+// Bytes of the gid that the middleware gives. Versions 5.1 to 8.3 record 24 bytes of it, although there are 16 since
+// then; the others are zero here.
+inline constexpr std::size_t kGivenGidSize = TRACETOOLS_INTERFACE < 501 ? 24 : 16;
+
 // A copy of an argument that outlives the call.
 template <typename Argument>
 struct Kept {
@@ -145,9 +150,9 @@ struct Kept<const char*> {
 };
 template <>
 struct Kept<const std::uint8_t*> {  // a gid
-  explicit Kept(const std::uint8_t* gid) { std::memcpy(value.data(), gid, value.size()); }
+  explicit Kept(const std::uint8_t* gid) { std::memcpy(value.data(), gid, kGivenGidSize); }
   const std::uint8_t* get() const { return value.data(); }
-  std::array<std::uint8_t, 16> value;
+  std::array<std::uint8_t, TRACETOOLS_GID_SIZE> value = {};
 };
 
 // Keeps a link between messages. A node may link several pairs, so no link replaces another.

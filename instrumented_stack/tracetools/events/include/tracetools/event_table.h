@@ -36,6 +36,17 @@
 // A "handle" is the address of the layer's own struct (rcl_node_t *, rmw_publisher_t *). A gid identifies a DDS
 // endpoint. Times and periods are nanoseconds. README.md of tracetools explains how to add an event.
 
+// TRACETOOLS_INTERFACE: the version of ROS 2's tracetools, as 100 * MAJOR + MINOR, from which on functions and fields are
+// as this table says. It is 8.4 but for the libraries that nodes of another ROS 2 preload (docs/tracetools.md).
+#ifndef TRACETOOLS_INTERFACE
+#define TRACETOOLS_INTERFACE 804
+#endif
+#if TRACETOOLS_INTERFACE < 801
+#define TRACETOOLS_RMW_PUBLISH_FIELDS (pointer, message)
+#else
+#define TRACETOOLS_RMW_PUBLISH_FIELDS (pointer, rmw_publisher_handle), (pointer, message), (int64, timestamp)
+#endif
+
 // The events of provider `ros2`. Names, fields, their order and types are those of tracetools of ros2_tracing 8.10.
 // Other tools rely on them.
 // clang-format off
@@ -53,8 +64,7 @@
   EVENT(given, rclcpp_publish, RclcppPublish, layers, (ignored, publisher_handle), (pointer, message)) \
   EVENT(given, rclcpp_intra_publish, RclcppIntraPublish, messages, (pointer, publisher_handle), (pointer, message)) \
   EVENT(given, rcl_publish, RclPublish, layers, (pointer, publisher_handle), (pointer, message)) \
-  EVENT(given, rmw_publish, RmwPublish, messages, \
-    (pointer, rmw_publisher_handle), (pointer, message), (int64, timestamp)) \
+  EVENT(given, rmw_publish, RmwPublish, messages, TRACETOOLS_RMW_PUBLISH_FIELDS) \
   \
   /* Subscriptions. */ \
   EVENT(given, rmw_subscription_init, RmwSubscriptionInit, init, (pointer, rmw_subscription_handle), (gid, gid)) \
