@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "actions/trace/trace_scope.hpp"
+#include "actions/trace/tracetools_choice.hpp"
 #include "tracing/record/account/counters/event_counters.hpp"
 #include "tracing/record/lttng/session_daemon.hpp"
 #include "tracing/record/plan/buffer_sizes.hpp"
@@ -53,12 +54,33 @@ void TraceScope::expect(const std::vector<ProcessSpec>& processes) {
   if (std::string warning = tracing::buffer_warning(config, traced, processors); !warning.empty()) {
     run_.warn(std::move(warning));
   }
+  for (const ProcessSpec& spec : processes) {
+    if (traces(spec) && records_programs()) {
+      tracetools_->look_at(spec);
+    }
+  }
+  if (std::string warning = tracetools_->ineffective(config, settings_of_tracetools()); !warning.empty()) {
+    run_.warn(std::move(warning));
+  }
   for (const std::string& pattern : choices_.nodes.value_or(std::vector<std::string>())) {
     if (std::none_of(processes.begin(), processes.end(),
                      [&](const ProcessSpec& spec) { return matches(pattern, spec); })) {
       run_.warn(fmt::format("nothing that is launched now is called '{}', which 'nodes' names", pattern));
     }
   }
+}
+
+std::vector<std::string> TraceScope::settings_of_tracetools() const {
+  std::vector<std::string> settings;
+  const auto add = [&settings](bool is_given, const char* name) {
+    if (is_given) {
+      settings.emplace_back(name);
+    }
+  };
+  add(run_.config().max_overhead != 0, "max-overhead");
+  add(choices_.callback_deadline != 0, "snapshot-on-late-callback");
+  add(choices_.message_deadline != 0, "snapshot-on-late-message");
+  return settings;
 }
 
 bool TraceScope::traces(const ProcessSpec& spec) const {
@@ -83,6 +105,14 @@ void TraceScope::prepare(ProcessSpec& spec) const {
     spec.environment.emplace("LTTNG_UST_REGISTER_TIMEOUT", "0");
   }
   spec.environment.emplace("TRACETOOLS_REGISTER_TIMEOUT", kLongestRegistration);
+  if (records_programs()) {
+    TracetoolsChoice::preload(tracetools_->look_at(spec), spec.environment);
+    // Of a process that was not there when the session began.
+    if (const std::string warning = tracetools_->ineffective(run_.config(), settings_of_tracetools());
+        tell_ && !warning.empty()) {
+      tell_(true, warning);
+    }
+  }
   if (!run_.preload().empty()) {
     std::string& variable = spec.environment["LD_PRELOAD"];
     variable = tracing::append_preload(variable, run_.preload());

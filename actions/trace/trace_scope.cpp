@@ -7,6 +7,7 @@
 
 #include <utility>
 
+#include "actions/trace/tracetools_choice.hpp"
 #include "base/diagnostics/diagnostic.hpp"
 #include "tracing/record/plan/trace_error.hpp"
 
@@ -30,7 +31,8 @@ TraceScope::TraceScope(TraceRequest request, std::unique_ptr<tracing::Tracer> tr
                        SourceRange origin)
     : origin_(std::move(origin)),
       choices_(std::move(request.choices)),
-      run_(std::move(request.config), std::move(tracer), std::move(prefix), choices_) {
+      run_(std::move(request.config), std::move(tracer), std::move(prefix), choices_),
+      tracetools_(std::make_unique<TracetoolsChoice>(choices_.tracetools, run_.prefix())) {
   if (choices_.snapshot_on_signal != 0) {
     // The first of several traces starts threads. If the signal is not blocked in them, it ends the launcher.
     sigset_t signal;
@@ -65,6 +67,7 @@ void TraceScope::in_background(EventLoop& loop, std::string context, std::functi
 }
 
 void TraceScope::begin(EventLoop& loop, Tell tell, Completion done) {
+  tell_ = tell;
   if (choices_.snapshot_on_signal != 0) {
     signals_ = loop.on_signal({choices_.snapshot_on_signal}, [this](EventLoop::Signal signal) {
       run_.request_snapshot(fmt::format("SIG{}", ::sigabbrev_np(signal.number)));
@@ -78,7 +81,13 @@ void TraceScope::begin(EventLoop& loop, Tell tell, Completion done) {
     }
   };
   in_background(
-      loop, "tracing setup failed: ", [this, told, observe] { run_.start(told, observe); },
+      loop, "tracing setup failed: ",
+      [this, told, observe, refused = tracetools_->refused()] {
+        if (refused) {
+          throw tracing::TraceError(*refused, "use tracetools=\"auto\", or trace=\"false\" for the process");
+        }
+        run_.start(told, observe);
+      },
       [this, &loop, told, done = std::move(done)](std::exception_ptr error) {
         if (!error && !run_.config().events_ust.empty()) {
           look_around_ = loop.after(kNodesHaveRegistered, [this, &loop, told] {
@@ -108,6 +117,7 @@ void TraceScope::record(const LaunchRecord& record) {
 void TraceScope::end(EventLoop& loop, Tell tell, Completion done) {
   signals_.reset();
   look_around_.reset();
+  run_.config().tracetools = tracetools_->uses();
   in_background(
       loop, "", [this, told = on_loop(loop, tell)] { run_.finish(told); }, std::move(done));
 }

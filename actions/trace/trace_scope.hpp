@@ -15,6 +15,8 @@
 
 namespace launch {
 
+class TracetoolsChoice;
+
 class TraceScope : public RunScope {
  public:
   // `prefix`: see tracing::TracedRun.
@@ -43,10 +45,15 @@ class TraceScope : public RunScope {
   // An error of the session becomes one at the place of the <trace>, behind `context`.
   void in_background(EventLoop& loop, std::string context, std::function<void()> work, Completion finished);
   bool traces(const ProcessSpec& spec) const;
+  bool records_programs() const { return !run_.config().all_events_ust().empty(); }
+  // The settings that only our tracetools carries out.
+  std::vector<std::string> settings_of_tracetools() const;
 
   SourceRange origin_;
   TraceChoices choices_;
   tracing::TracedRun run_;
+  const std::unique_ptr<TracetoolsChoice> tracetools_;  // changes with each process that is prepared
+  Tell tell_;                                           // empty until the session begins
   SnapshotObserver snapshot_observer_;
   EventLoop::SourcePtr signals_;
   EventLoop::SourcePtr look_around_;

@@ -70,6 +70,13 @@ SettingPlace snapshot_signal(TraceRequest& request) {
       }};
 }
 
+SettingPlace tracetools_mode(TraceRequest& request) {
+  return SettingChoice{
+      {"auto", "own", "theirs"}, static_cast<std::size_t>(request.choices.tracetools), [&request](std::size_t word) {
+        request.choices.tracetools = static_cast<TracetoolsMode>(word);
+      }};
+}
+
 // Reads "2%" as 0.02.
 double perform_percentage(const Template& text, Scope& scope) {
   const std::string given = text.perform(scope);
@@ -171,6 +178,11 @@ std::vector<Setting<TraceRequest>> make_trace_settings() {
                               "record these nodes and processes only, by name; * matches any text"),
        .perform = [](const Fields& fields, Scope& scope,
                      TraceRequest& request) { request.choices.nodes = perform_names(fields, "nodes", scope); }},
+      {.attribute = extension("tracetools", Type::kText, "auto",
+                              "of processes of another ROS 2: auto gives them ours where every call fits, own demands it, "
+                              "theirs leaves them their own"),
+       .place = tracetools_mode,
+       .shown = "tracetools"},
       {.attribute = {"subbuffer-size-ust", Type::kInteger, false, fmt::format("{}", defaults.ust.subbuffer_size),
                      "bytes"},
        .place = at(&tracing::ChannelBuffers::subbuffer_size),

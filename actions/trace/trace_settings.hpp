@@ -13,10 +13,15 @@
 
 namespace launch {
 
+// Of processes of another ROS 2. kAuto: ours where every call means the same, else theirs. kOwn: a process that cannot have ours is an error. kTheirs:
+// nothing is preloaded.
+enum class TracetoolsMode { kAuto, kOwn, kTheirs };
+
 // The attributes of <trace> that concern the launcher rather than the tracer.
 struct TraceChoices : tracing::RunChoices {
   // Patterns of the nodes and processes to record; all are recorded when this is not given.
   std::optional<std::vector<std::string>> nodes = {};
+  TracetoolsMode tracetools = TracetoolsMode::kAuto;
   bool auto_buffers = false;                // userspace buffers sized from the number of processes and processors
   std::vector<NamedNode> chain_nodes = {};  // those that the chains pass
 };

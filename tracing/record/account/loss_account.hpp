@@ -11,6 +11,7 @@
 #include "tracing/record/account/absence.hpp"
 #include "tracing/record/account/event_cost.hpp"
 #include "tracing/record/account/event_cuts.hpp"
+#include "tracing/record/plan/trace_config.hpp"
 
 namespace tracing {
 
@@ -131,6 +132,7 @@ struct LossAccount {
   bool stuck = false;                   // LTTng had data left and wrote nothing any more
   std::vector<std::string> notes = {};  // on the end of the session; nothing that the trace lacks
   std::vector<Absence> absences = {};
+  std::vector<TracetoolsUse> tracetools = {};  // of processes of another ROS 2
   std::string damage = {};              // a sentence on data that is missing and was not counted, or ""
   std::string directory = {};           // of the recording or of the snapshots; "" if it is not on this machine
   bool of_snapshots = false;            // the session kept the newest events only, so its losses mean nothing

@@ -168,6 +168,20 @@ nlohmann::ordered_json process_as_json(const ProcessAccount& process, const std:
   return json;
 }
 
+nlohmann::ordered_json tracetools_as_json(const TracetoolsUse& use) {
+  nlohmann::ordered_json json = {{"process", use.process}, {"uses", use.is_own ? "own" : "theirs"}};
+  if (!use.theirs.empty()) {
+    json["theirs"] = use.theirs;
+  }
+  if (!use.version.empty()) {
+    json["version"] = use.version;
+  }
+  if (!use.reason.empty()) {
+    json["reason"] = use.reason;
+  }
+  return json;
+}
+
 const char* name_of(LossAttribution attribution) {
   return attribution == LossAttribution::kExact      ? "exact"
          : attribution == LossAttribution::kEstimate ? "estimate"
@@ -239,6 +253,9 @@ std::string verdict_as_json(const LossAccount& account, const std::string& sessi
                             {"time_ns", cut.time},
                             {"rate", cut.rate},
                             {"processor_share", cut.share}});
+  }
+  for (const TracetoolsUse& use : account.tracetools) {
+    json["tracetools"].push_back(tracetools_as_json(use));
   }
   json["processes"] = nlohmann::ordered_json::array();
   for (const ProcessAccount& process : account.processes) {

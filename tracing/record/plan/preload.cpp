@@ -66,11 +66,8 @@ std::vector<std::string> linker_directories() {
       }
     }
   }
-  for (std::string& directory : read_linker_configuration(kLinkerConfiguration)) {
+  for (std::string& directory : standard_library_folders()) {
     directories.push_back(std::move(directory));
-  }
-  for (const char* standard : {"/lib64", "/usr/lib64", "/lib", "/usr/lib"}) {
-    directories.emplace_back(standard);
   }
   return directories;
 }
@@ -116,6 +113,12 @@ std::vector<std::string> read_linker_configuration(const std::string& file) {
   std::vector<std::string> directories;
   append_configuration(file, 0, directories);
   return directories;
+}
+
+std::vector<std::string> standard_library_folders() {
+  std::vector<std::string> folders = read_linker_configuration(kLinkerConfiguration);
+  folders.insert(folders.end(), {"/lib64", "/usr/lib64", "/lib", "/usr/lib"});
+  return folders;
 }
 
 std::string find_shared_library(const std::string& file_name) {

@@ -15,6 +15,9 @@ std::string find_shared_library(const std::string& file_name);
 // The directories that an ld.so.conf(5) file names, `include` lines followed. A file that can't be read names none.
 std::vector<std::string> read_linker_configuration(const std::string& file);
 
+// Those of /etc/ld.so.conf and the standard ones, in this order: where the dynamic linker looks at last.
+std::vector<std::string> standard_library_folders();
+
 struct PreloadPlan {
   std::vector<std::string> libraries;  // paths, in the order of preloading
   std::vector<std::string> warnings;   // a library that is not installed, two profilers at once

@@ -50,6 +50,15 @@ enum class BufferOwner { kUser, kProcess };
 // What a power cut takes at most, if the buffers are not full before: 5 s (docs/performance.md has the cost).
 inline constexpr std::uint32_t kSwitchTimer = 5'000'000;  // µs
 
+// The tracetools of a process that was built with another ROS 2.
+struct TracetoolsUse {
+  std::string process;   // the label of the launch
+  bool is_own = false;   // ours stands in for theirs
+  std::string theirs;    // the path of their library; "" if it is part of the program
+  std::string version;   // of theirs; "" if it is unknown
+  std::string reason;    // why theirs had to stay
+};
+
 // Events are given as the text of an event rule (event_rule.hpp), in the simplest case the name.
 struct TraceConfig {
   std::string session_name;  // final: any time stamp already appended
@@ -85,6 +94,7 @@ struct TraceConfig {
   double max_overhead = 0;
   std::vector<std::string> drop_order;
   std::string event_counters;  // directory in which processes count their events (event_counters.hpp), or empty
+  std::vector<TracetoolsUse> tracetools;  // known when the session ends
   bool dual_session = false;   // the snapshot half of a dual session: always a snapshot session
   bool dual_runtime = false;   // the runtime half of a dual session: never a snapshot session
 

@@ -271,6 +271,7 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
     losses.cost = try_event_cost(config.context_fields_ust);
   }
   timer.finished("cost of events");
+  losses.tracetools = config.tracetools;
   if (readable) {
     write(losses, name, session->path);
   }
