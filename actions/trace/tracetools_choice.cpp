@@ -133,8 +133,8 @@ std::string TracetoolsChoice::ineffective(const tracing::TraceConfig& config,
   for (const auto& [reason, processes] : by_reason) {
     groups.push_back(fmt::format("{} ({})", fmt::join(processes, ", "), reason));
   }
-  return fmt::format("without effect on processes that keep the tracetools of their ROS 2: {}; these are {}",
-                     fmt::join(lost, ", "), fmt::join(groups, ", "));
+  return fmt::format("these processes keep the tracetools of their ROS 2: {}; without effect on them: {}",
+                     fmt::join(groups, ", "), fmt::join(lost, ", "));
 }
 
 std::optional<std::string> TracetoolsChoice::refused() const {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -84,11 +85,13 @@ std::string unknown_version(const TracetoolsVersion& version) {
 
 // The program that executes a script, by its first line; "" if it is none.
 std::string interpreter_of(const std::string& program) {
-  const auto text = launch::read_small_file(program);
-  if (!text || !text->starts_with("#!")) {
+  char begin[256] = {};  // the kernel reads no more either
+  std::ifstream(program).read(begin, sizeof begin - 1);
+  const std::string_view text = begin;
+  if (!text.starts_with("#!")) {
     return {};
   }
-  std::istringstream words(text->substr(2, text->find('\n')));
+  std::istringstream words(std::string(text.substr(2, text.find('\n') - 2)));
   std::string word;
   words >> word;
   if (fs::path(word).filename() == "env") {
@@ -97,9 +100,12 @@ std::string interpreter_of(const std::string& program) {
   return word;
 }
 
-// Python loads the libraries of ROS 2 later, which no file tells.
-bool is_python(const std::string& interpreter) {
-  return fs::path(interpreter).filename().string().starts_with("python");
+// A node in Python. It loads the libraries of its ROS 2 later, which no file tells. Other scripts may use none of them.
+bool is_python_node(const fs::path& program) {
+  const fs::path folder = program.parent_path();  // PREFIX/lib/PACKAGE
+  std::error_code failed;
+  return fs::path(interpreter_of(program.string())).filename().string().starts_with("python") &&
+         fs::exists(folder.parent_path().parent_path() / "share" / folder.filename() / "package.xml", failed);
 }
 
 std::string library_in_path(const LibrarySearch::Variables& environment) {
@@ -163,7 +169,7 @@ TracetoolsFinding TracetoolsCheck::find(const std::string& program, const Librar
   const ElfFile* const file = search_.file(program);
   std::string theirs;
   if (file == nullptr) {
-    theirs = is_python(interpreter_of(program)) ? library_in_path(environment) : "";
+    theirs = is_python_node(program) ? library_in_path(environment) : "";
   } else if (file->is_foreign) {
     return {};  // its libraries cannot be read
   } else if (file->is_dynamic) {

@@ -46,7 +46,7 @@ class TracetoolsCheck {
   // `prefix`: of this installation.
   explicit TracetoolsCheck(std::string prefix) : prefix_(std::move(prefix)) {}
 
-  // `program`: the path of a program, or of a script. Reads some files, and a program or a library only once: it should
+  // `program`: the path of a program, or of a node in Python. Reads some files, and a program or a library only once: it should
   // not change in between.
   const TracetoolsFinding& check(const std::string& program, const LibrarySearch::Variables& environment);
 
