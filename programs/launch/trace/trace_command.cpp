@@ -97,7 +97,7 @@ void start(const TraceOptions& options, Tracer& tracer) {
 
 void print_account(const TraceOptions& options, const LossAccount& losses) {
   if (!losses.directory.empty()) {
-    print_line("trace written to: " + losses.directory);
+    print_line(losses.wrote_nothing ? "no trace was written" : "trace written to: " + losses.directory);
   }
   print_line(fmt::format("trace is {}: {}", describe_completeness(losses), describe_losses(losses)));
   if (const std::string cost = describe_cost(losses); !cost.empty()) {
@@ -123,7 +123,9 @@ void finish(const TraceOptions& options, Tracer& tracer, const std::function<boo
   print_line("stopping & destroying tracing session");
   const LossAccount losses = tracer.finish(config, give_up);
   if (losses.of_snapshots) {
-    print_line(losses.directory.empty() ? "the session has ended" : "snapshots are in: " + losses.directory);
+    print_line(losses.directory.empty() ? "the session has ended"
+               : losses.wrote_nothing   ? "no trace was written: no snapshot was taken"
+                                        : "snapshots are in: " + losses.directory);
     return;
   }
   print_account(options, losses);

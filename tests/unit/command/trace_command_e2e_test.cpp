@@ -192,6 +192,12 @@ TEST_F(TraceCommandE2e, NoVerbWaitsForAStoppedDaemonAndTheEndOfASessionContinues
                           ") was stopped; it was continued, so that the session could end\n");
 }
 
+TEST_F(TraceCommandE2e, ASessionWithoutASnapshotNamesNoFolder) {
+  EXPECT_EQ(run_command({TRACE_COMMAND, "start", "run", "--snapshot-mode"}).exit_code, 0);
+  EXPECT_EQ(run_command({TRACE_COMMAND, "stop", "run"}).out,
+            "stopping & destroying tracing session\nno trace was written: no snapshot was taken\n");
+}
+
 TEST_F(TraceCommandE2e, SnapshotIsRecordedByItsVerb) {
   EXPECT_EQ(run_command({TRACE_COMMAND, "start", "run", "--snapshot-mode"}).exit_code, 0);
   TracedApp app(10, 10);

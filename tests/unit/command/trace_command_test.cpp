@@ -142,6 +142,20 @@ TEST(TraceCommand, SaysWhereTheTraceIs) {
             "trace is complete: no events lost\n");
 }
 
+TEST(TraceCommand, NamesNoFolderThatIsNotThere) {
+  FakeTracer tracer;
+  tracer.losses.directory = "/traces/run";
+  tracer.losses.wrote_nothing = true;
+  EXPECT_EQ(run({"stop", "run"}, tracer).out,
+            "stopping & destroying tracing session\n"
+            "no trace was written\n"
+            "trace is complete: no events lost\n");
+  tracer.losses.of_snapshots = true;
+  EXPECT_EQ(run({"stop", "run"}, tracer).out,
+            "stopping & destroying tracing session\n"
+            "no trace was written: no snapshot was taken\n");
+}
+
 TEST(TraceCommand, SaysNothingOfLossesOfSnapshotSessions) {
   FakeTracer tracer;
   tracer.losses.directory = "/traces/run";

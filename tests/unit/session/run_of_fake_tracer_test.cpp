@@ -96,6 +96,14 @@ TEST_F(TracedRunOfAFakeTracer, FailsForLossesAfterItHasToldThem) {
   EXPECT_THAT(told_[1], HasSubstr("warning: trace is incomplete: "));
 }
 
+TEST_F(TracedRunOfAFakeTracer, ATraceThatIsNotThereIsNotNamed) {
+  fake_->losses.wrote_nothing = true;
+  start();
+  told_.clear();
+  finish();
+  EXPECT_THAT(told_, ElementsAre("warning: no trace was written: nothing was recorded"));
+}
+
 TEST_F(TracedRunOfAFakeTracer, ASessionWithoutASnapshotNamesNoTrace) {
   config_.dual_session = true;
   start();

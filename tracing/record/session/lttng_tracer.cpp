@@ -237,6 +237,7 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
     failure = error;  // what has been written is judged all the same
   }
   timer.finished("destroy");
+  losses.wrote_nothing = !losses.directory.empty() && !std::filesystem::exists(losses.directory, unreadable);
   losses.notes = daemons.notes();
   EventWatch::clean_up(name);  // of a launcher that was killed
   const bool readable = local && !session->snapshot;

@@ -280,18 +280,12 @@ bool TracedRun::has_no_snapshot() const {
   return true;
 }
 
-bool TracedRun::has_no_trace() const {
-  std::error_code failed;
-  return !config_.over_network() && !std::filesystem::exists(config_.trace_directory(), failed);
-}
-
 void TracedRun::tell_result(const Tell& tell) const {
   if (has_no_snapshot()) {
     tell(false, "no trace was written: no snapshot was taken");
     return;
   }
-  if (has_no_trace()) {
-    // LTTng makes the folder with the first process that registers.
+  if (losses_.wrote_nothing) {
     tell(true, fmt::format("no trace was written: {}",
                            losses_.absences.empty() ? "nothing was recorded" : describe_losses(losses_)));
     return;

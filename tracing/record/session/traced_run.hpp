@@ -105,7 +105,6 @@ class TracedRun {
   void summarize();
   void make_report();
   bool has_no_snapshot() const;
-  bool has_no_trace() const;
   void tell_result(const Tell& tell) const;
 
   TraceConfig config_;
