@@ -228,6 +228,38 @@ TEST_P(OfEachDistribution, WhatIsLateMakesASnapshot) {
   EXPECT_THAT(late, UnorderedElementsAre("ros2_deadline:message", "ros2_deadline:callback"));
 }
 
+TEST_F(OtherRos2, NodesOfAllDistributionsAreInOneTrace) {
+  constexpr std::size_t kOfEach = 4;
+  std::string actions = "<trace session-name=\"run\"/>\n";
+  for (const Distribution& distribution : kDistributions) {
+    for (std::size_t i = 0; i < kOfEach; ++i) {
+      actions += node(prefix_of(distribution.name), "20 100", distribution.name);
+    }
+  }
+  const CommandResult result = run_command({LAUNCH_PROGRAM, write(actions)});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  const json told = verdict();
+  EXPECT_EQ(told["complete"], true) << told["absent"];
+  ASSERT_THAT(told["processes"], SizeIs(kOfEach * kDistributions.size()));
+  for (const json& process : told["processes"]) {
+    EXPECT_EQ(process["missed_events"], 0) << "it has waited for the session daemon";
+    EXPECT_EQ(process["callbacks"], 40);
+  }
+  std::map<std::string, std::size_t> of_version;
+  std::map<std::size_t, std::size_t> sizes;
+  for (const RecordedEvent& event : trace("run").events) {
+    if (event.name == "ros2:rcl_init") {
+      ++of_version[event.text("version")];
+    } else if (event.name == "ros2:rmw_publisher_init") {
+      ++sizes[event.arrays.at("gid").size()];
+    }
+  }
+  for (const Distribution& distribution : kDistributions) {
+    EXPECT_EQ(of_version[distribution.version], kOfEach);
+  }
+  EXPECT_THAT(sizes, ElementsAre(testing::Pair(16, 2 * kOfEach), testing::Pair(24, 3 * kOfEach)));
+}
+
 TEST_F(OtherRos2, ANodeInPythonGetsOursWhenItLoadsTheLibraries) {
   const CommandResult result = run_command({LAUNCH_PROGRAM, write("<trace session-name=\"run\"/>\n" +
                                                                   node(prefix_of("jazzy"), "200 100", "py", "python_talker"))});

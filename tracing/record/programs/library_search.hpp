@@ -20,7 +20,8 @@ class LibrarySearch {
   // up in the folders that ld.so.conf names, in their order, instead of in its cache.
   std::string library_of(const std::string& program, const std::string& name, const Variables& environment);
 
-  // Files that were read are kept: most libraries of two nodes are the same. Null if it is none of ELF.
+  // Files that were read are kept, and mapped: do not keep this for long, or a file that is written anew ends the process
+  // (SIGBUS). Null if it is none of ELF.
   const ElfFile* file(const std::string& path);
 
  private:

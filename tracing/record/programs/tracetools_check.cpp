@@ -166,14 +166,15 @@ const TracetoolsFinding& TracetoolsCheck::check(const std::string& program,
 }
 
 TracetoolsFinding TracetoolsCheck::find(const std::string& program, const LibrarySearch::Variables& environment) {
-  const ElfFile* const file = search_.file(program);
+  LibrarySearch search;
+  const ElfFile* const file = search.file(program);
   std::string theirs;
   if (file == nullptr) {
     theirs = is_python_node(program) ? library_in_path(environment) : "";
   } else if (file->is_foreign) {
     return {};  // its libraries cannot be read
   } else if (file->is_dynamic) {
-    theirs = search_.library_of(program, kLibrary, environment);
+    theirs = search.library_of(program, kLibrary, environment);
   }
   if (theirs.empty()) {
     return file != nullptr && file->defines(kTheirFunction) && !file->defines(kOurFunction)
@@ -188,10 +189,10 @@ TracetoolsFinding TracetoolsCheck::find(const std::string& program, const Librar
              : finding;
 }
 
-TracetoolsFinding TracetoolsCheck::compare(const std::string& theirs) {
+TracetoolsFinding TracetoolsCheck::compare(const std::string& theirs) const {
   TracetoolsFinding finding;
-  const ElfFile* const file = search_.file(theirs);
-  if (file == nullptr) {
+  const std::optional<ElfFile> file = ElfFile::read(theirs);
+  if (!file) {
     return finding;
   }
   if (file->defines(kOurFunction)) {
@@ -209,8 +210,8 @@ TracetoolsFinding TracetoolsCheck::compare(const std::string& theirs) {
     return stays(finding, unknown_version(*version));
   }
   finding.library = fmt::format("{}/lib/tracetools/stand_ins/{}/{}", prefix_, folder, kLibrary);
-  const ElfFile* const ours = search_.file(finding.library);
-  if (ours == nullptr) {
+  const std::optional<ElfFile> ours = ElfFile::read(finding.library);
+  if (!ours) {
     return stays(finding, fmt::format("{} is not installed", finding.library));
   }
   if (ours->machine != file->machine) {

@@ -46,16 +46,15 @@ class TracetoolsCheck {
   // `prefix`: of this installation.
   explicit TracetoolsCheck(std::string prefix) : prefix_(std::move(prefix)) {}
 
-  // `program`: the path of a program, or of a node in Python. Reads some files, and a program or a library only once: it should
-  // not change in between.
+  // `program`: the path of a program, or of a node in Python. Reads some tens of files, and keeps what it has found for the
+  // next process of the same program.
   const TracetoolsFinding& check(const std::string& program, const LibrarySearch::Variables& environment);
 
  private:
   TracetoolsFinding find(const std::string& program, const LibrarySearch::Variables& environment);
-  TracetoolsFinding compare(const std::string& theirs);
+  TracetoolsFinding compare(const std::string& theirs) const;
 
   std::string prefix_;
-  LibrarySearch search_;
   std::map<std::string, TracetoolsFinding> of_program_;  // by its path and LD_LIBRARY_PATH
   std::map<std::string, TracetoolsFinding> of_library_;
 };
