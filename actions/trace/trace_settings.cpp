@@ -178,9 +178,10 @@ std::vector<Setting<TraceRequest>> make_trace_settings() {
                               "record these nodes and processes only, by name; * matches any text"),
        .perform = [](const Fields& fields, Scope& scope,
                      TraceRequest& request) { request.choices.nodes = perform_names(fields, "nodes", scope); }},
-      {.attribute = extension("tracetools", Type::kText, "auto",
-                              "of processes of another ROS 2: auto gives them ours where every call fits, own demands it, "
-                              "theirs leaves them their own"),
+      {.attribute =
+           extension("tracetools", Type::kText, "auto",
+                     "of processes of another ROS 2: auto gives them ours where every call fits, own demands it, "
+                     "theirs leaves them their own"),
        .place = tracetools_mode,
        .shown = "tracetools"},
       {.attribute = {"subbuffer-size-ust", Type::kInteger, false, fmt::format("{}", defaults.ust.subbuffer_size),

@@ -13,8 +13,8 @@
 
 namespace launch {
 
-// Of processes of another ROS 2. kAuto: ours where every call means the same, else theirs. kOwn: a process that cannot have ours is an error. kTheirs:
-// nothing is preloaded.
+// Of processes of another ROS 2. kAuto: ours where every call means the same, else theirs. kOwn: a process that cannot
+// have ours is an error. kTheirs: nothing is preloaded.
 enum class TracetoolsMode { kAuto, kOwn, kTheirs };
 
 // The attributes of <trace> that concern the launcher rather than the tracer.

@@ -107,8 +107,8 @@ std::string TracetoolsChoice::ineffective(const tracing::TraceConfig& config,
     if (finding.kind != TracetoolsFinding::Kind::kTheirs) {
       continue;
     }
-    const auto same =
-        std::find_if(by_reason.begin(), by_reason.end(), [&](const auto& each) { return each.first == finding.reason; });
+    const auto same = std::find_if(by_reason.begin(), by_reason.end(),
+                                   [&](const auto& each) { return each.first == finding.reason; });
     if (same == by_reason.end()) {
       by_reason.push_back({finding.reason, {process}});
     } else {
@@ -121,8 +121,9 @@ std::string TracetoolsChoice::ineffective(const tracing::TraceConfig& config,
   std::vector<std::string> lost = settings;
   for (const std::string& rule : config.all_events_ust()) {
     for (const std::string& pattern : tracing::event_patterns({rule})) {
-      if (is_recorded_by_ours_alone(pattern) && config.further_events_ust.end() ==
-          std::find(config.further_events_ust.begin(), config.further_events_ust.end(), pattern)) {
+      if (is_recorded_by_ours_alone(pattern) &&
+          config.further_events_ust.end() ==
+              std::find(config.further_events_ust.begin(), config.further_events_ust.end(), pattern)) {
         lost.push_back(fmt::format("events-ust '{}'", pattern));
       }
     }

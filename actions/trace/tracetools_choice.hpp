@@ -25,8 +25,8 @@ class TracetoolsChoice {
   // Adds to the environment of the process what a library that stands in needs.
   static void preload(const tracing::TracetoolsFinding& finding, Environment& environment);
 
-  // A sentence on processes that keep theirs, of those that look_at() has met since the last call: which settings of the
-  // trace have no effect on them, and why. "" if there are none.
+  // A sentence on processes that keep theirs, of those that look_at() has met since the last call: which settings of
+  // the trace have no effect on them, and why. "" if there are none.
   std::string ineffective(const tracing::TraceConfig& config, const std::vector<std::string>& settings);
   // The first process that keeps theirs and must not, with the reason, as a sentence.
   std::optional<std::string> refused() const;

@@ -60,8 +60,9 @@ class OtherRos2 : public testing::Test {
 
   static std::string node(const fs::path& prefix, const std::string& arguments, const std::string& name = "talker",
                           const std::string& program = "talker") {
-    return "<executable name=\"" + name + "\" output=\"screen\" cmd=\"" + (prefix / "lib/demo" / program).string() + " " +
-           arguments + "\"><env name=\"LD_LIBRARY_PATH\" value=\"" + (prefix / "lib").string() + "\"/></executable>\n";
+    return "<executable name=\"" + name + "\" output=\"screen\" cmd=\"" + (prefix / "lib/demo" / program).string() +
+           " " + arguments + "\"><env name=\"LD_LIBRARY_PATH\" value=\"" + (prefix / "lib").string() +
+           "\"/></executable>\n";
   }
 
   json verdict(const std::string& session = "run") const {
@@ -124,8 +125,7 @@ std::vector<std::string> names_of(const std::map<std::string, std::uint64_t>& nu
 }
 
 TEST_P(OfEachDistribution, ASessionThatBeginsLaterHasNamesAndTheFieldsOfTheDistribution) {
-  RunningCommand launch(
-      {.argv = {LAUNCH_PROGRAM, write("<trace session-name=\"run\"/>\n" + node("1000000 1000"))}});
+  RunningCommand launch({.argv = {LAUNCH_PROGRAM, write("<trace session-name=\"run\"/>\n" + node("1000000 1000"))}});
   ASSERT_TRUE(launch.wait_for_output("cycle 100.")) << launch.out() << launch.err();
   record_late(launch);
   expect_end(launch);
@@ -140,8 +140,8 @@ TEST_P(OfEachDistribution, ASessionThatBeginsLaterHasNamesAndTheFieldsOfTheDistr
     text += callback.contains("topic") ? " " + callback["topic"].get<std::string>() : "";
     callbacks.push_back(text + " " + callback["symbol"].get<std::string>());
   }
-  EXPECT_THAT(callbacks,
-              AllOf(Contains("/talker timer Talker::talk()"), Contains("/talker subscription /orders Talker::order()")));
+  EXPECT_THAT(callbacks, AllOf(Contains("/talker timer Talker::talk()"),
+                               Contains("/talker subscription /orders Talker::order()")));
 
   const RecordedTrace late = trace("late");
   std::map<std::string, RecordedEvent> events = first_of_each(late);
@@ -154,7 +154,8 @@ TEST_P(OfEachDistribution, ASessionThatBeginsLaterHasNamesAndTheFieldsOfTheDistr
   }
   EXPECT_EQ(events["ros2:rmw_publisher_init"].arrays["gid"], gid);
   if (expected.tells_publisher) {
-    EXPECT_THAT(names_of(events["ros2:rmw_publish"].numbers), ElementsAre("message", "rmw_publisher_handle", "timestamp"));
+    EXPECT_THAT(names_of(events["ros2:rmw_publish"].numbers),
+                ElementsAre("message", "rmw_publisher_handle", "timestamp"));
     EXPECT_EQ(events["ros2:rmw_publish"].number("rmw_publisher_handle"), 0x21u);
   } else {
     EXPECT_THAT(names_of(events["ros2:rmw_publish"].numbers), ElementsAre("message"));
@@ -261,8 +262,9 @@ TEST_F(OtherRos2, NodesOfAllDistributionsAreInOneTrace) {
 }
 
 TEST_F(OtherRos2, ANodeInPythonGetsOursWhenItLoadsTheLibraries) {
-  const CommandResult result = run_command({LAUNCH_PROGRAM, write("<trace session-name=\"run\"/>\n" +
-                                                                  node(prefix_of("jazzy"), "200 100", "py", "python_talker"))});
+  const CommandResult result =
+      run_command({LAUNCH_PROGRAM, write("<trace session-name=\"run\"/>\n" +
+                                         node(prefix_of("jazzy"), "200 100", "py", "python_talker"))});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   const json told = verdict();
   EXPECT_EQ(told["tracetools"][0]["uses"], "own");
@@ -276,11 +278,11 @@ TEST_F(OtherRos2, WhatANodeExecutesGetsNeitherThreadsNorCounts) {
   // The shell is the program; the node is what it executes at last.
   const std::string command = (prefix / "lib/demo/talker").string();
   const CommandResult result = run_command(
-      {LAUNCH_PROGRAM,
-       write("<trace session-name=\"run\"/>\n<executable name=\"sh\" output=\"screen\" cmd=\"sh -c 'grep -c liblttng-ust.so "
-             "/proc/self/maps; grep -c stand_ins/8.1/libtracetools.so /proc/self/maps; exec " +
-             command + " 100 100' " + command + "\"><env name=\"LD_LIBRARY_PATH\" value=\"" + (prefix / "lib").string() +
-             "\"/></executable>")});
+      {LAUNCH_PROGRAM, write("<trace session-name=\"run\"/>\n<executable name=\"sh\" output=\"screen\" cmd=\"sh -c "
+                             "'grep -c liblttng-ust.so "
+                             "/proc/self/maps; grep -c stand_ins/8.1/libtracetools.so /proc/self/maps; exec " +
+                             command + " 100 100' " + command + "\"><env name=\"LD_LIBRARY_PATH\" value=\"" +
+                             (prefix / "lib").string() + "\"/></executable>")});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   EXPECT_THAT(result.out, ContainsRegex("\\] 0\n.*\\] [1-9]")) << "preloaded, and asleep";
   ASSERT_THAT(verdict()["processes"], SizeIs(1));
@@ -289,24 +291,27 @@ TEST_F(OtherRos2, WhatANodeExecutesGetsNeitherThreadsNorCounts) {
 
 TEST_F(OtherRos2, TheirsIsSaidOnceWithAllThatHasNoEffect) {
   RunningCommand launch(
-      {.argv = {LAUNCH_PROGRAM,
-                write("<trace session-name=\"run\" tracetools=\"theirs\" events-ust=\"ros2:* ros2_ext:rcl_node_fini\" "
-                      "max-overhead=\"50%\" snapshot-on-late-callback=\"20\" snapshot-on-late-message=\"60000\"/>\n" +
-                      node(prefix_of("iron"), "300 100", "talker") + node(prefix_of("jazzy"), "300 100", "listener"))}});
+      {.argv = {
+           LAUNCH_PROGRAM,
+           write("<trace session-name=\"run\" tracetools=\"theirs\" events-ust=\"ros2:* ros2_ext:rcl_node_fini\" "
+                 "max-overhead=\"50%\" snapshot-on-late-callback=\"20\" snapshot-on-late-message=\"60000\"/>\n" +
+                 node(prefix_of("iron"), "300 100", "talker") + node(prefix_of("jazzy"), "300 100", "listener"))}});
   const CommandResult result = launch.wait();
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   const std::string warning =
       "[WARNING] [launch.trace]: these processes keep the tracetools of their ROS 2: talker, listener "
       "(tracetools=\"theirs\"); without effect on them: max-overhead, snapshot-on-late-callback, "
-      "snapshot-on-late-message, events-ust 'ros2_ext:rcl_node_fini', counts of events and of losses, recorded_after_s, "
+      "snapshot-on-late-message, events-ust 'ros2_ext:rcl_node_fini', counts of events and of losses, "
+      "recorded_after_s, "
       "a longer wait for the session daemon, names in sessions that begin later\n";
   EXPECT_THAT(result.out, HasSubstr(warning));
   EXPECT_EQ(result.out.find("keep the tracetools"), result.out.rfind("keep the tracetools"));
 }
 
 TEST_F(OtherRos2, TheirsRecordsWhatTheirsRecords) {
-  const CommandResult result = run_command({LAUNCH_PROGRAM, write("<trace session-name=\"run\" tracetools=\"theirs\"/>\n" +
-                                                                  node(prefix_of("iron"), "100 100"))});
+  const CommandResult result =
+      run_command({LAUNCH_PROGRAM, write("<trace session-name=\"run\" tracetools=\"theirs\"/>\n" +
+                                         node(prefix_of("iron"), "100 100"))});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   const json told = verdict();
   ASSERT_THAT(told["processes"], SizeIs(1));
@@ -323,8 +328,9 @@ TEST_F(OtherRos2, TheirsRecordsWhatTheirsRecords) {
 
 TEST_F(OtherRos2, ALibraryThatDoesNotFitStays) {
   const std::string actions = "<trace session-name=\"run\" TRACETOOLS max-overhead=\"50%\"/>\n" +
-                              node(prefix_of("forked"), "100 100", "camera") + "<executable name=\"arm\" cmd=\"" OTHER_ROS2
-                              "/static_node 100 100\"/>" + node(prefix_of("iron"), "100 100");
+                              node(prefix_of("forked"), "100 100", "camera") +
+                              "<executable name=\"arm\" cmd=\"" OTHER_ROS2 "/static_node 100 100\"/>" +
+                              node(prefix_of("iron"), "100 100");
   const auto with = [&](const std::string& attribute) {
     std::string text = actions;
     return text.replace(text.find("TRACETOOLS"), 10, attribute);
@@ -345,8 +351,9 @@ TEST_F(OtherRos2, ALibraryThatDoesNotFitStays) {
 
   const CommandResult refused = run_command({LAUNCH_PROGRAM, write(with("tracetools=\"own\" append-trace=\"true\""))});
   EXPECT_EQ(refused.exit_code, 1);
-  EXPECT_THAT(refused.err, HasSubstr("tracing setup failed: tracetools=\"own\" cannot be had for camera: its tracetools has "
-                                     "ros_trace_dds_write, which ours lacks"));
+  EXPECT_THAT(refused.err,
+              HasSubstr("tracing setup failed: tracetools=\"own\" cannot be had for camera: its tracetools has "
+                        "ros_trace_dds_write, which ours lacks"));
   EXPECT_THAT(refused.out, Not(HasSubstr("process started")));
 }
 

@@ -22,11 +22,11 @@ void ros_trace_dds_write(const void* message) {}
 
 /* The others are weak, and take the place of no function that is defined below. */
 #if THEIR_VERSION >= 501
-#define DEFINE_THEIR_FUNCTION(name, parameters) \
+#define DEFINE_THEIR_FUNCTION(name, parameters)             \
   __attribute__((weak)) void ros_trace_##name parameters {} \
-  bool ros_trace_enabled_##name(void) { \
-    return true; \
-  } \
+  bool ros_trace_enabled_##name(void) {                     \
+    return true;                                            \
+  }                                                         \
   void ros_trace_do_##name parameters {}
 #else
 #define DEFINE_THEIR_FUNCTION(name, parameters) \

@@ -135,6 +135,13 @@ TEST_F(Verdict, IsCompleteWithoutLossesAndWrittenAsJson) {
                   .time = 77,
                   .rate = 300'000,
                   .share = 0.03}};
+  losses.tracetools = {
+      {.process = "talker",
+       .is_own = true,
+       .theirs = "/opt/ros/lib/libtracetools.so",
+       .version = "8.2.3",
+       .reason = ""},
+      {.process = "arm", .is_own = false, .theirs = "", .version = "", .reason = "it is linked statically"}};
   tracing::explain_losses(losses, {stream("0", {{1000, 2000, 32000, 0}})});
   std::filesystem::create_directories(directory);
   tracing::write_verdict(losses, "run", directory);
@@ -181,6 +188,19 @@ TEST_F(Verdict, IsCompleteWithoutLossesAndWrittenAsJson) {
       "time_ns": 77,
       "rate": 300000,
       "processor_share": 0.03
+    }
+  ],
+  "tracetools": [
+    {
+      "process": "talker",
+      "uses": "own",
+      "theirs": "/opt/ros/lib/libtracetools.so",
+      "version": "8.2.3"
+    },
+    {
+      "process": "arm",
+      "uses": "theirs",
+      "reason": "it is linked statically"
     }
   ],
   "processes": [

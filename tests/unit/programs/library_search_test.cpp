@@ -51,7 +51,8 @@ const std::string kOther = OTHER_ROS2;
 TEST(LibrarySearch, TheEnvironmentTellsWhereALibraryOfALibraryIs) {
   const std::string program = kOther + "/jazzy/lib/demo/talker";
   EXPECT_THAT(found(program, kOther + "/jazzy/lib"), EndsWith("/other_ros2/jazzy/lib/libtracetools.so"));
-  EXPECT_THAT(found(program, "/nowhere:" + kOther + "/iron/lib:" + kOther + "/jazzy/lib"), EndsWith("/iron/lib/libtracetools.so"));
+  EXPECT_THAT(found(program, "/nowhere:" + kOther + "/iron/lib:" + kOther + "/jazzy/lib"),
+              EndsWith("/iron/lib/libtracetools.so"));
   EXPECT_THAT(found(program, ""), IsEmpty()) << "its library is not found, so nothing needs the other one";
 }
 

@@ -94,7 +94,8 @@ class ChangedPrefix : public testing::Test {
   }
 
   void set_version(const std::string& version) const {
-    test_support::write_file(prefix_ / "share/tracetools/package.xml", "<package><version>" + version + "</version></package>");
+    test_support::write_file(prefix_ / "share/tracetools/package.xml",
+                             "<package><version>" + version + "</version></package>");
   }
 
   std::string reason() const {

@@ -143,7 +143,8 @@ TEST_F(Recording, GoesOnWhileSessionsComeAndGo) {
     std::istringstream stream(text.out);
     for (std::string line; std::getline(stream, line);) {
       const std::string name = line.substr(line.find("ros2:") + 5, line.find(": {") - line.find("ros2:") - 5);
-      std::string& last = last_of_thread[line.substr(0, line.find(" }, {", line.find("vtid = "))).substr(line.find("vtid = "))];
+      std::string& last =
+          last_of_thread[line.substr(0, line.find(" }, {", line.find("vtid = "))).substr(line.find("vtid = "))];
       const auto place = std::find(way.begin(), way.end(), last);
       if (place != way.end()) {
         EXPECT_EQ(name, place + 1 == way.end() ? way.front() : *(place + 1)) << line;

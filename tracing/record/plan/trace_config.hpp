@@ -52,11 +52,11 @@ inline constexpr std::uint32_t kSwitchTimer = 5'000'000;  // µs
 
 // The tracetools of a process that was built with another ROS 2.
 struct TracetoolsUse {
-  std::string process;   // the label of the launch
-  bool is_own = false;   // ours stands in for theirs
-  std::string theirs;    // the path of their library; "" if it is part of the program
-  std::string version;   // of theirs; "" if it is unknown
-  std::string reason;    // why theirs had to stay
+  std::string process;  // the label of the launch
+  bool is_own = false;  // ours stands in for theirs
+  std::string theirs;   // the path of their library; "" if it is part of the program
+  std::string version;  // of theirs; "" if it is unknown
+  std::string reason;   // why theirs had to stay
 };
 
 // Events are given as the text of an event rule (event_rule.hpp), in the simplest case the name.
@@ -95,8 +95,8 @@ struct TraceConfig {
   std::vector<std::string> drop_order;
   std::string event_counters;  // directory in which processes count their events (event_counters.hpp), or empty
   std::vector<TracetoolsUse> tracetools;  // known when the session ends
-  bool dual_session = false;   // the snapshot half of a dual session: always a snapshot session
-  bool dual_runtime = false;   // the runtime half of a dual session: never a snapshot session
+  bool dual_session = false;              // the snapshot half of a dual session: always a snapshot session
+  bool dual_runtime = false;              // the runtime half of a dual session: never a snapshot session
 
   bool records_snapshots() const { return !dual_runtime && (snapshot_mode || dual_session); }
   std::uint32_t switch_timer() const { return switch_timer_ust.value_or(records_snapshots() ? 0 : kSwitchTimer); }

@@ -15,13 +15,13 @@ class LibrarySearch {
  public:
   using Variables = std::map<std::string, std::string>;
 
-  // The path of the library of this name that a start of the program in this environment would load; "" if it needs none,
-  // or there is none. Libraries that the program opens itself (dlopen) do not count. Libraries of the system are looked
-  // up in the folders that ld.so.conf names, in their order, instead of in its cache.
+  // The path of the library of this name that a start of the program in this environment would load; "" if it needs
+  // none, or there is none. Libraries that the program opens itself (dlopen) do not count. Libraries of the system are
+  // looked up in the folders that ld.so.conf names, in their order, instead of in its cache.
   std::string library_of(const std::string& program, const std::string& name, const Variables& environment);
 
-  // Files that were read are kept, and mapped: do not keep this for long, or a file that is written anew ends the process
-  // (SIGBUS). Null if it is none of ELF.
+  // Files that were read are kept, and mapped: do not keep this for long, or a file that is written anew ends the
+  // process (SIGBUS). Null if it is none of ELF.
   const ElfFile* file(const std::string& path);
 
  private:

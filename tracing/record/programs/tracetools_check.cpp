@@ -162,7 +162,8 @@ const TracetoolsFinding& TracetoolsCheck::check(const std::string& program,
   const auto variable = environment.find("LD_LIBRARY_PATH");
   const std::string key = program + '\n' + (variable == environment.end() ? "" : variable->second);
   const auto known = of_program_.find(key);
-  return known != of_program_.end() ? known->second : of_program_.emplace(key, find(program, environment)).first->second;
+  return known != of_program_.end() ? known->second
+                                    : of_program_.emplace(key, find(program, environment)).first->second;
 }
 
 TracetoolsFinding TracetoolsCheck::find(const std::string& program, const LibrarySearch::Variables& environment) {
@@ -231,8 +232,8 @@ TracetoolsFinding TracetoolsCheck::compare(const std::string& theirs) const {
   }
   if (file->contains(kParameterOfAnyVersion) &&
       file->contains(kParameterSince8) != (version->major >= kMajorOfParameter)) {
-    return stays(finding, fmt::format("rmw_publish of its tracetools has not the parameters of version {}",
-                                      version->text));
+    return stays(finding,
+                 fmt::format("rmw_publish of its tracetools has not the parameters of version {}", version->text));
   }
   finding.kind = Kind::kStandIn;
   return finding;

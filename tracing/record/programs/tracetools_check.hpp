@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether our tracetools can stand in for the one that a program of another ROS 2 would load: whether every call that such
-// a program may make means the same to ours (docs/tracetools.md, "Versions of the interface").
+// Whether our tracetools can stand in for the one that a program of another ROS 2 would load: whether every call that
+// such a program may make means the same to ours (docs/tracetools.md, "Versions of the interface").
 #pragma once
 
 #include <map>
@@ -22,8 +22,8 @@ struct TracetoolsVersion {
 // From a package.xml: the text in its element <version>.
 std::optional<TracetoolsVersion> version_of_package(const std::string& package_xml);
 
-// The folder of the library that stands in for a version: "5.1" has the functions of 5.1 and of what follows. "" if there
-// is none.
+// The folder of the library that stands in for a version: "5.1" has the functions of 5.1 and of what follows. "" if
+// there is none.
 std::string stand_in_for(const TracetoolsVersion& version);
 
 // What a program has of tracetools, and what can be done.
@@ -46,8 +46,8 @@ class TracetoolsCheck {
   // `prefix`: of this installation.
   explicit TracetoolsCheck(std::string prefix) : prefix_(std::move(prefix)) {}
 
-  // `program`: the path of a program, or of a node in Python. Reads some tens of files, and keeps what it has found for the
-  // next process of the same program.
+  // `program`: the path of a program, or of a node in Python. Reads some tens of files, and keeps what it has found for
+  // the next process of the same program.
   const TracetoolsFinding& check(const std::string& program, const LibrarySearch::Variables& environment);
 
  private:

@@ -15,7 +15,6 @@ __attribute__((constructor)) static void read_version(void) {
 
 #define LTTNG_UST_TRACEPOINT_CREATE_PROBES
 #include "provider/provider.h"
-
 #include "provider/provider_deadline.h"
 #include "provider/provider_ext.h"
 #include "provider/provider_session.h"

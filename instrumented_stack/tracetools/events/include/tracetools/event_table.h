@@ -36,8 +36,8 @@
 // A "handle" is the address of the layer's own struct (rcl_node_t *, rmw_publisher_t *). A gid identifies a DDS
 // endpoint. Times and periods are nanoseconds. README.md of tracetools explains how to add an event.
 
-// TRACETOOLS_INTERFACE: the version of ROS 2's tracetools, as 100 * MAJOR + MINOR, from which on functions and fields are
-// as this table says. It is 8.4 but for the libraries that nodes of another ROS 2 preload (docs/tracetools.md).
+// TRACETOOLS_INTERFACE: the version of ROS 2's tracetools, as 100 * MAJOR + MINOR, from which on functions and fields
+// are as this table says. It is 8.4 but for the libraries that nodes of another ROS 2 preload (docs/tracetools.md).
 #ifndef TRACETOOLS_INTERFACE
 #define TRACETOOLS_INTERFACE 804
 #endif
