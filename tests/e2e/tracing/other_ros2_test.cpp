@@ -261,6 +261,29 @@ TEST_F(OtherRos2, NodesOfAllDistributionsAreInOneTrace) {
   EXPECT_THAT(sizes, ElementsAre(testing::Pair(16, 2 * kOfEach), testing::Pair(24, 3 * kOfEach)));
 }
 
+TEST_F(OtherRos2, ADistributionThatWasBuiltWithoutLttngIsRecorded) {
+  const CommandResult result =
+      run_command({LAUNCH_PROGRAM, write("<trace session-name=\"run\"/>\n" + node(prefix_of("silent"), "100 100"))});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  const json told = verdict();
+  EXPECT_EQ(told["complete"], true);
+  ASSERT_THAT(told["processes"], SizeIs(1));
+  EXPECT_EQ(told["processes"][0]["callbacks"], 200);
+}
+
+TEST_F(OtherRos2, WhatIsLaunchedLaterIsSaidWhenItStarts) {
+  RunningCommand launch(
+      {.argv = {LAUNCH_PROGRAM, write("<trace session-name=\"run\" tracetools=\"own\"/>\n<timer period=\"0.1\">\n" +
+                                      node(prefix_of("forked"), "1 1", "camera") + "</timer>\n" +
+                                      node(prefix_of("iron"), "3000 100"))}});
+  const CommandResult result = launch.wait();
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, HasSubstr("[WARNING] [launch.trace]: these processes keep the tracetools of their ROS 2: camera "
+                                    "(its tracetools has ros_trace_dds_write, which ours lacks); without effect on them: "
+                                    "counts of events"));
+  EXPECT_EQ(result.out.find("keep the tracetools"), result.out.rfind("keep the tracetools"));
+}
+
 TEST_F(OtherRos2, ANodeInPythonGetsOursWhenItLoadsTheLibraries) {
   const CommandResult result =
       run_command({LAUNCH_PROGRAM, write("<trace session-name=\"run\"/>\n" +

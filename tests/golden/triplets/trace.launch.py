@@ -13,7 +13,8 @@ def generate_launch_description():
             events_ust=['ros2:*', 'dds:* except dds:b'], events_kernel=['sched_switch'], syscalls=['open'],
             context_fields=['vpid'], subbuffer_size_ust=65536, subbuffer_size_kernel=262144, subbuffer_count_ust=4,
             fail_on_loss=True, report=True),
-        Trace(session_name='black_box', snapshot_mode=True, base_path='/traces', events_python=['planner:*', 'costs level ERR']),
+        Trace(session_name='black_box', snapshot_mode=True, base_path='/traces', events_python=['planner:*', 'costs level ERR'],
+              tracetools='theirs'),
         Trace(session_name='channels', base_path='/traces', events_ust=['ros2:rcl_init'], channels=[
             {'name': 'callbacks', 'events_ust': ['ros2:callback_*'], 'context_fields': ['vtid'],
              'subbuffer_size': 65536, 'overwrite': True}], chains=[

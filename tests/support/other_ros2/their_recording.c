@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  * The functions of their tracetools that record. */
 #include "their_interface.h"
+
+#ifndef THEIR_SILENCE
 #include "their_provider.h"
 
 void ros_trace_rcl_init(const void* context) {
@@ -19,4 +21,6 @@ void ros_trace_rmw_publish(const void* rmw_publisher, const void* message, int64
 void ros_trace_rmw_publish(const void* message) {
   lttng_ust_tracepoint(ros2, rmw_publish, message);
 }
+#endif
+
 #endif

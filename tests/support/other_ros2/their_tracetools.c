@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0
- * libtracetools.so of another ROS 2: all functions of its version, of which three record. */
+ * libtracetools.so of another ROS 2: all functions of its version, of which three record unless it is silent. */
 #include "their_interface.h"
 
+#ifndef THEIR_SILENCE /* built without LTTng */
 #define LTTNG_UST_TRACEPOINT_CREATE_PROBES
 #define LTTNG_UST_TRACEPOINT_DEFINE
 #include "their_provider.h"
+#endif
 
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 

@@ -161,6 +161,8 @@ TEST(Trace, MalformedEventsAreErrorsAtTheirPlaceBeforeAnythingStarts) {
               HasSubstr(":2:39: error: unknown log level 'LOUD' in event 'a:b level LOUD'"));
   EXPECT_THAT(plan_actions(R"xml(<trace session-name="run" buffers-ust="gid"/>)xml").error,
               HasSubstr(":2:40: error: buffers-ust is expected to be uid or pid, got 'gid'"));
+  EXPECT_THAT(plan_actions(R"xml(<trace session-name="run" tracetools="their"/>)xml").error,
+              HasSubstr(":2:39: error: tracetools is expected to be auto or own or theirs, got 'their'"));
 }
 
 std::string preload_of(const launch::ProcessSpec& spec) {
