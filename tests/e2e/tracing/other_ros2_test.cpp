@@ -278,9 +278,10 @@ TEST_F(OtherRos2, WhatIsLaunchedLaterIsSaidWhenItStarts) {
                                       node(prefix_of("iron"), "3000 100"))}});
   const CommandResult result = launch.wait();
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
-  EXPECT_THAT(result.out, HasSubstr("[WARNING] [launch.trace]: these processes keep the tracetools of their ROS 2: camera "
-                                    "(its tracetools has ros_trace_dds_write, which ours lacks); without effect on them: "
-                                    "counts of events"));
+  EXPECT_THAT(result.out,
+              HasSubstr("[WARNING] [launch.trace]: these processes keep the tracetools of their ROS 2: camera "
+                        "(its tracetools has ros_trace_dds_write, which ours lacks); without effect on them: "
+                        "counts of events"));
   EXPECT_EQ(result.out.find("keep the tracetools"), result.out.rfind("keep the tracetools"));
 }
 

@@ -41,7 +41,7 @@ constexpr std::pair<int, int> kOldest = kStandIns[0].from;
 constexpr std::pair<int, int> kNewest = std::end(kStandIns)[-1].to;
 
 // LTTng keeps the parameters of an event as a text. From 8.0 on this is a part of those of rmw_publish.
-constexpr const char* kParameterOfAnyVersion = "const void *, context_handle_arg";
+constexpr const char* kParameterOfAnyVersion = "context_handle_arg";
 constexpr const char* kParameterSince8 = "int64_t, timestamp_arg";
 constexpr int kMajorOfParameter = 8;
 
