@@ -83,12 +83,12 @@ std::vector<RecordedProcess> processes_of(const testing::Trace& trace) {
       of_process.insert(event.procname());
     }
     if (event.name() == "ros2:rcl_node_init") {
-      const std::string name = event.text("node_name");
-      const std::string name_space = event.text("namespace");
+      const std::string& name = event.text("node_name");
+      const std::string& name_space = event.text("namespace");
       of_process.insert(name);
       of_process.insert((name_space.ends_with('/') ? name_space : name_space + "/") + name);
     } else if (event.name() == "launch:exec") {
-      const std::string label = event.text("process");  // "talker-2"
+      const std::string& label = event.text("process");  // "talker-2"
       std::set<std::string>& of_started = names[event.number("pid")];
       of_started.insert(label);
       of_started.insert(label.substr(0, label.rfind('-')));
@@ -340,6 +340,7 @@ std::vector<Failure> judge_all(ReadTraceJudge& judge, const std::vector<Expectat
 
 class TraceJudge::Parts {
  public:
+  explicit Parts(std::vector<std::filesystem::path> in) : directories(std::move(in)) {}
   std::vector<std::filesystem::path> directories;
   std::optional<ReadTraceJudge> judge;  // when the traces have been read
 };
