@@ -170,13 +170,17 @@ Verdict expect_delivered(const Trace& trace, const Route& route, Count count, Bo
                               estimate_text(doubts))};
   }
   const std::string expected = fmt::format("{}, each after {}", messages, bounds_text(latency));
-  return verdict_on_samples(expected, samples, latency, [&](const std::vector<Sample>& worst) {
+  Verdict verdict = verdict_on_samples(expected, samples, latency, [&](const std::vector<Sample>& worst) {
     std::vector<const Delivery*> rows;
     for (const Sample& sample : worst) {
       rows.push_back(&trace.deliveries()[sample.item]);
     }
     return delivery_table(trace, rows);
   });
+  if (doubts.estimated > 0) {
+    verdict.text += "\nestimates, as publications have no timestamps";
+  }
+  return verdict;
 }
 
 Verdict expect_all_delivered(const Trace& trace, const Route& route, std::size_t most_missing,
