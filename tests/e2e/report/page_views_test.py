@@ -259,5 +259,30 @@ class PartOfAPage(page_case.PageTest):
         self.wait_for_canvas('.time canvas')
 
 
+# Recorded without timestamps of publications.
+class OlderRecording(page_case.PageTest):
+    EVENTS = ('older',)
+
+    def test_it_marks_estimates(self):
+        self.assertIn('The trace has no timestamps of publications', self.text('#view .facts'))
+        self.show('topics')
+        rows = {row.split('\t')[0]: row for row in self.texts('tbody tr')}
+        self.assertEqual(rows['/points ~'].split('\t')[1:6], ['1', '1', '100', '98', '2'])
+        self.assertEqual(rows['/scan ~'].split('\t')[7:], ['200 µs'] * 5)
+        self.assertIn('~: an estimate.', self.text('#view .note'))
+        self.show('chains')
+        self.assertIn('(an estimate)', self.text('#view'))
+
+
+# Nor with source timestamps of what was taken.
+class UnknownMessages(page_case.PageTest):
+    EVENTS = ('older', 'without_source_timestamps')
+
+    def test_it_says_of_none_that_it_was_not_taken(self):
+        self.show('topics')
+        rows = {row.split('\t')[0]: row for row in self.texts('tbody tr')}
+        self.assertEqual(rows['/scan ~'].split('\t')[1:6], ['1', '1', '100', '0', '0'])
+
+
 if __name__ == '__main__':
     unittest.main()
