@@ -169,6 +169,7 @@ std::once_flag opened;
 
 [[gnu::constructor]] void open_where_needed() {
   if (is_needed()) {
+    keep_from_others();
     std::call_once(opened, &open_provider);
   }
 }

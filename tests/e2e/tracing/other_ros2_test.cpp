@@ -313,6 +313,16 @@ TEST_F(OtherRos2, WhatANodeExecutesGetsNeitherThreadsNorCounts) {
   EXPECT_EQ(verdict()["processes"][0]["callbacks"], 200);
 }
 
+TEST_F(OtherRos2, WhatANodeExecutesMayBeOfAnotherRos2) {
+  const CommandResult result =
+      run_command({LAUNCH_PROGRAM, write("<trace session-name=\"run\"/>\n<set_env name=\"LD_PRELOAD\" "
+                                         "value=\"libdl.so.2\"/>\n" +
+                                         node(prefix_of("iron"), "10 10") + "<unset_env name=\"LD_PRELOAD\"/>\n" +
+                                         node(prefix_of("humble"), "10 10"))});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("] LD_PRELOAD: libdl.so.2\n"), HasSubstr("] LD_PRELOAD: none\n")));
+}
+
 TEST_F(OtherRos2, TheirsIsSaidOnceWithAllThatHasNoEffect) {
   RunningCommand launch(
       {.argv = {

@@ -131,6 +131,8 @@ int spin_their_node(int argc, char** argv) {
   const long pause_us = std::atol(argv[2]);
   const bool late = argc > 3 && std::strcmp(argv[3], "late") == 0;
   create_objects();
+  const char* const preload = std::getenv("LD_PRELOAD");
+  std::printf("LD_PRELOAD: %s\n", preload == nullptr ? "none" : preload);
   std::puts("ready");
   std::fflush(stdout);
   const std::uint8_t* const client = make_gid(51);

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stand_in/is_needed.hpp"
 
+#include <dlfcn.h>
 #include <link.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <cstring>
+#include <string>
 
 namespace tracetools {
 namespace {
@@ -40,6 +44,30 @@ bool needs_tracetools(const dl_phdr_info& object) {
 bool is_needed() noexcept {
   return dl_iterate_phdr([](dl_phdr_info* object, std::size_t, void*) { return needs_tracetools(*object) ? 1 : 0; },
                          nullptr) != 0;
+}
+
+void keep_from_others() {
+  Dl_info self;
+  const char* const variable = std::getenv("LD_PRELOAD");
+  if (variable == nullptr || dladdr(reinterpret_cast<const void*>(&is_needed), &self) == 0) {
+    return;
+  }
+  constexpr const char* kSeparators = ": ";
+  const std::string libraries = variable;
+  std::string others;
+  for (std::size_t begin = 0; begin < libraries.size();) {
+    const std::size_t end = std::min(libraries.find_first_of(kSeparators, begin), libraries.size());
+    const std::string library = libraries.substr(begin, end - begin);
+    if (!library.empty() && library != self.dli_fname) {
+      others += (others.empty() ? "" : ":") + library;
+    }
+    begin = end + 1;
+  }
+  if (others.empty()) {
+    unsetenv("LD_PRELOAD");
+  } else {
+    setenv("LD_PRELOAD", others.c_str(), 1);
+  }
 }
 
 }  // namespace tracetools

@@ -7,4 +7,8 @@ namespace tracetools {
 // for it may be in a program that has no use for it.
 bool is_needed() noexcept;
 
+// Takes this library out of LD_PRELOAD, for what the process executes: that may be of another ROS 2, whose calls have
+// other parameters. Call it before there are threads.
+void keep_from_others();
+
 }  // namespace tracetools
