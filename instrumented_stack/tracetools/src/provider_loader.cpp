@@ -24,7 +24,7 @@
 #include "recording/recording.hpp"
 #include "registration/daemon_arrival.hpp"
 #include "registration/registration_watch.hpp"
-#include "stand_in/is_needed.hpp"
+#include "stand_in/preloaded.hpp"
 #include "state/object_state.hpp"
 #include "state/state_dump_request.hpp"
 

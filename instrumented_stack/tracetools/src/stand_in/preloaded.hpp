@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Of a library that stands in, and is in each process that a command executes.
 namespace tracetools {
 
 // Whether the program, or a library that it has loaded, was linked with libtracetools.so. A library that is preloaded

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stand_in/is_needed.hpp"
+#include "stand_in/preloaded.hpp"
 
 #include <dlfcn.h>
 #include <link.h>
