@@ -226,9 +226,9 @@ std::vector<MachineCheck> check_nodes(const Machine& machine) {
     by_domain[node.domain()].push_back(node);
   }
   const std::vector<Node>& most =
-      std::max_element(by_domain.begin(), by_domain.end(),
-                       [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); })
-          ->second;
+      std::max_element(by_domain.begin(), by_domain.end(), [](const auto& a, const auto& b) {
+        return a.second.size() < b.second.size();
+      })->second;
   return {check_middleware(nodes), check_domains(nodes), check_range(most), check_networks(most), check_users(most)};
 }
 
