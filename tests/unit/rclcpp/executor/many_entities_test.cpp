@@ -17,7 +17,7 @@ using std_msgs::msg::UInt64;
 namespace {
 
 // Fast DDS compares each endpoint with all others of the process, which takes half an hour under QEMU.
-const size_t kNodes = test_support::vfork_shares_memory() ? 100 : 10;
+const size_t kNodes = test_support::vfork_shares_memory() ? 100 : 21;
 constexpr size_t kTopicsPerNode = 10;
 
 // Counts the waits in which it takes part.
