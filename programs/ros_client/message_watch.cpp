@@ -103,7 +103,6 @@ class MessageCounter final : public Operation {
     }
     publishers_ = publishers;
     seen_.publishers = publishers;
-    seen_.types.clear();
     for (const auto& publisher : node_.get_publishers_info_by_topic(request_.topic)) {
       if (const std::string type = publisher.topic_type();
           std::find(seen_.types.begin(), seen_.types.end(), type) == seen_.types.end()) {

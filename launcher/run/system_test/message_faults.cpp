@@ -80,8 +80,9 @@ void preload_layer(Environment& environment) {
   if (::access(layer.c_str(), R_OK) != 0) {
     return;
   }
-  std::string& preloaded = environment["LD_PRELOAD"];
-  preloaded += (preloaded.empty() ? "" : ":") + layer;
+  if (std::string& preloaded = environment["LD_PRELOAD"]; preloaded.find(layer) == std::string::npos) {
+    preloaded += (preloaded.empty() ? "" : ":") + layer;  // once, however often the process is started
+  }
   environment["ROS_DISABLE_LOANED_MESSAGES"] = "1";
 }
 

@@ -361,4 +361,25 @@ def generate_launch_description():
   EXPECT_THAT(result.out, HasSubstr("cancelled"));
 }
 
+TEST_F(PythonLaunch, AFileKnowsTheLogDirectoryOfItsLaunch) {
+  const CommandResult result = launch({write("t.launch.py", R"py(
+import launch.logging.handlers
+from launch import LaunchDescription
+from launch.actions import LogInfo
+from launch.logging import launch_config
+from launch.substitutions.for_loop_var import ForLoopIndex
+
+
+def generate_launch_description():
+    assert issubclass(launch.logging.handlers.WatchedFileHandler, launch.logging.FileHandler)
+    return LaunchDescription([LogInfo(msg='it is ' + launch_config.log_dir)])
+)py")});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  constexpr std::string_view kFound = "All log files can be found below ";
+  const std::size_t begin = result.out.find(kFound) + kFound.size();
+  const std::string directory = result.out.substr(begin, result.out.find('\n', begin) - begin);
+  EXPECT_TRUE(fs::is_directory(directory)) << directory;
+  EXPECT_THAT(result.out, HasSubstr("it is " + directory + "\n"));
+}
+
 }  // namespace

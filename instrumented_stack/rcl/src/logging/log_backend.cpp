@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "logging/log_file.hpp"
-#include "rcl/error_handling.h"
 #include "rcl_logging_interface/rcl_logging_interface.h"
+#include "rcutils/error_handling.h"
 
 namespace rcl {
 
@@ -70,8 +70,7 @@ class LogLibrary final : public ExternalLog {
 }  // namespace
 
 std::unique_ptr<ExternalLog> open_external_log(const std::string& file_name_prefix, const std::string& config_file,
-                                               int level, bool& failed) try {
-  failed = false;
+                                               int level) {
   const char* const variable = std::getenv("RCL_LOGGING_IMPLEMENTATION");
   const std::string name = variable == nullptr ? "" : variable;
   if (name == "rcl_logging_noop") {
@@ -81,11 +80,6 @@ std::unique_ptr<ExternalLog> open_external_log(const std::string& file_name_pref
     return std::make_unique<LogFile>(file_name_prefix);
   }
   return std::make_unique<LogLibrary>(name, file_name_prefix, config_file, level);
-} catch (const std::runtime_error& error) {
-  failed = true;
-  rcutils_reset_error();
-  RCL_SET_ERROR_MSG(error.what());
-  return nullptr;
 }
 
 }  // namespace rcl

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
 
 #include "arguments/arguments_impl.hpp"
 #include "logging/log_backend.hpp"
@@ -67,10 +68,12 @@ rcl_ret_t rcl_logging_configure_with_output_handler(const rcl_arguments_t* globa
   to_rosout = arguments.rosout_logs;
   external_log().set(nullptr);
   if (arguments.external_logs) {
-    bool failed = false;
-    external_log().set(rcl::open_external_log(arguments.log_file_name, arguments.log_config_file,
-                                              rcutils_logging_get_default_logger_level(), failed));
-    if (failed) {
+    try {
+      external_log().set(rcl::open_external_log(arguments.log_file_name, arguments.log_config_file,
+                                                rcutils_logging_get_default_logger_level()));
+    } catch (const std::runtime_error& error) {
+      rcutils_reset_error();  // the backend's own, which stands in this one
+      RCL_SET_ERROR_MSG(error.what());
       return RCL_RET_ERROR;
     }
   }

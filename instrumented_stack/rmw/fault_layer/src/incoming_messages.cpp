@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "incoming_messages.hpp"
 
-#include <cstdio>
 #include <cstring>
 #include <utility>
 
@@ -63,7 +62,7 @@ rmw_ret_t IncomingMessages::take(const Access& access, void* info, bool& taken) 
     }
     message.bytes = access.bytes();
     if (message.bytes.empty()) {
-      tell_once_that_it_cannot_be_copied();
+      not_serialized_.tell(name_.c_str());
       return hand_out(message.info);
     }
     for (const std::uint64_t seed : fate.corruptions) {
@@ -105,16 +104,6 @@ void IncomingMessages::put(const Message& message) {
   const std::lock_guard lock(callback_mutex_);
   if (callback_ != nullptr) {
     callback_(user_data_, 1);
-  }
-}
-
-void IncomingMessages::tell_once_that_it_cannot_be_copied() {
-  const std::lock_guard lock(mutex_);
-  if (!std::exchange(is_told_, true)) {
-    std::fprintf(stderr,
-                 "[rmw] a fault of '%s' is not applied: it needs the bytes of a message, which this ROS 2 does not "
-                 "give here\n",
-                 name_.c_str());
   }
 }
 

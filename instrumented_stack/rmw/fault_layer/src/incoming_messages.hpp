@@ -50,7 +50,6 @@ class IncomingMessages {
   };
 
   void put(const Message& message);
-  void tell_once_that_it_cannot_be_copied();
 
   std::unique_ptr<rmw_fastrtps::MessageFaults> faults_;
   std::size_t size_of_info_;
@@ -58,7 +57,7 @@ class IncomingMessages {
   rmw_guard_condition_t* guard_condition_;
   mutable std::mutex mutex_;
   std::deque<Message> waiting_;
-  bool is_told_ = false;
+  NotSerialized not_serialized_;
   std::mutex callback_mutex_;  // held while it is called
   rmw_event_callback_t callback_ = nullptr;
   const void* user_data_ = nullptr;

@@ -95,6 +95,16 @@ bool deserialize(const Bytes& bytes, const rosidl_message_type_support_t* type, 
   return false;  // changed bytes may ask for more than there is
 }
 
+void NotSerialized::tell(const char* name) {
+  if (!is_told_.exchange(true)) {
+    std::fprintf(
+        stderr,
+        "[rmw] a fault of '%s' is not applied: it needs the bytes of a message, which this middleware does not "
+        "give\n",
+        name);
+  }
+}
+
 rmw_serialized_message_t view(const Bytes& bytes) {
   return {const_cast<std::uint8_t*>(bytes.data()), bytes.size(), bytes.size(), own_allocator()};
 }

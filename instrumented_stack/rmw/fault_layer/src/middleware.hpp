@@ -2,6 +2,7 @@
 // The middleware of the process below this layer.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -36,6 +37,16 @@ inline constexpr std::size_t kMostOfMessageInfo = 256;
 // Empty if the middleware cannot do it.
 Bytes serialize(const void* message, const rosidl_message_type_support_t* type);
 bool deserialize(const Bytes& bytes, const rosidl_message_type_support_t* type, void* message);
+
+// Says once, on stderr, that a fault is not applied because the middleware does not serialize. Thread safe.
+class NotSerialized {
+ public:
+  // `name` is that of the topic or service.
+  void tell(const char* name);
+
+ private:
+  std::atomic<bool> is_told_{false};
+};
 
 // A message of the bytes, which must outlive it.
 rmw_serialized_message_t view(const Bytes& bytes);

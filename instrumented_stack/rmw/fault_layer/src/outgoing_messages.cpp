@@ -27,7 +27,8 @@ rmw_ret_t OutgoingMessages::publish(const std::function<rmw_ret_t()>& send_as_it
   if (is_changed) {
     bytes = serialized();
     if (bytes.empty()) {
-      return RMW_RET_ERROR;
+      not_serialized_.tell(publisher_->topic_name);
+      return send_as_it_is();
     }
     for (const std::uint64_t seed : fate.corruptions) {
       rmw_fastrtps::corrupt(bytes.data(), bytes.size(), seed);

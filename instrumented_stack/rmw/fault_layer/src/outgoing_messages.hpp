@@ -33,6 +33,7 @@ class OutgoingMessages {
   const rmw_publisher_t* publisher_;
   const rosidl_message_type_support_t* type_;
   std::unique_ptr<rmw_fastrtps::MessageFaults> faults_;
+  NotSerialized not_serialized_;
 };
 
 }  // namespace rmw_fault_layer

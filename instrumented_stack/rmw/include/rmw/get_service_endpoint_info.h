@@ -8,8 +8,9 @@
 extern "C" {
 #endif
 
-// Takes the full name of the service. With `no_mangle`, types are those of DDS. `info` must be zero initialized. An end
-// of which only one endpoint has been discovered so far is left out.
+// Takes the full name of the service. With `no_mangle`, types are those of DDS. `info` must be zero initialized.
+// Discovery takes time: an end of which only one endpoint is known is left out, and of a node with several ends of one
+// service the endpoints are told apart only when all are known.
 rmw_ret_t rmw_get_clients_info_by_service(const rmw_node_t* node, rcutils_allocator_t* allocator,
                                           const char* service_name, bool no_mangle,
                                           rmw_service_endpoint_info_array_t* info);

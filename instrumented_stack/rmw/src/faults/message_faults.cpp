@@ -132,6 +132,10 @@ std::unique_ptr<MessageFaults> MessageFaults::of(Side side, const std::string& t
   return faults.empty() ? nullptr : std::make_unique<MessageFaults>(std::move(faults));
 }
 
+bool MessageFaults::leave_out(rmw_message_faults::Kind kind) {
+  return std::erase_if(faults_, [kind](const Fault* fault) { return fault->kind == kind; }) != 0;
+}
+
 MessageFate MessageFaults::next() {
   using rmw_message_faults::Kind;
   MessageFate fate;

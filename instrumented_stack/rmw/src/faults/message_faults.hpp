@@ -41,6 +41,10 @@ class MessageFaults {
   // Counts a message and says what happens to it. Any thread.
   MessageFate next();
 
+  // Forgets the faults of a kind that the endpoint cannot have; they hit nothing. Returns whether there were some.
+  bool leave_out(rmw_message_faults::Kind kind);
+  bool empty() const { return faults_.empty(); }
+
   explicit MessageFaults(std::vector<rmw_message_faults::Fault*> faults) : faults_(std::move(faults)) {}
 
  private:

@@ -31,7 +31,7 @@ bool are_of_one_node(const Owned& first, const Owned& second) {
 }
 
 // A participant numbers its endpoints in the order of their creation. So the first reader of a node belongs to its
-// first writer, if it has several clients of one service.
+// first writer, if it has several clients of one service. That does not hold while some of them are not discovered yet.
 std::vector<Owned> in_order(std::vector<Owned> endpoints) {
   std::sort(endpoints.begin(), endpoints.end(),
             [](const Owned& first, const Owned& second) { return first.gid < second.gid; });
