@@ -160,6 +160,7 @@ Json describe(const LaunchFacts& facts, bool ending) {
                {"command", facts.command},
                {"directory", facts.directory},
                {"started", facts.started},
+               {"running_for", seconds(std::chrono::steady_clock::now() - facts.started_at)},
                {"log_directory", facts.log_directory},
                {"log_file", facts.log_file}};
   if (!facts.isolation.empty()) {

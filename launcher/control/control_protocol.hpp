@@ -2,6 +2,7 @@
 // The lines of a control socket (docs/control.md): one JSON object a line, both ways.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -26,8 +27,10 @@ struct LaunchFacts {
   std::vector<std::string> files;    // launch files
   std::string directory;             // in which it was started
   std::string log_directory;
-  std::string log_file;     // its path
-  double started = 0;       // seconds since 1970
+  std::string log_file;  // its path
+  double started = 0;    // seconds since 1970
+  // When it was started, by a clock that nobody sets.
+  std::chrono::steady_clock::time_point started_at = std::chrono::steady_clock::now();
   std::string isolation{};  // "namespaces", "ROS_DOMAIN_ID=29", or empty
 };
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -149,8 +150,11 @@ bool PsReader::number(double value) {
   if (part() == Part::kLaunch) {
     if (key_ == "pid") {
       launch.pid = static_cast<pid_t>(value);
-    } else if (key_ == "started") {
-      launch.started = value;
+    } else if (key_ == "running_for") {
+      launch.running_for = value;
+    } else if (key_ == "started" && launch.running_for == 0) {  // all that launches of version 0.1 tell
+      const std::chrono::duration<double> now = std::chrono::system_clock::now().time_since_epoch();
+      launch.running_for = now.count() - value;
     }
   } else if (part() == Part::kProcess) {
     ListedProcess& process = launch.processes.back();

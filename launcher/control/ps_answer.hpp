@@ -32,7 +32,7 @@ struct ListedLaunch {
   pid_t pid = -1;
   std::string state;
   std::string isolation;            // "" if it is not isolated
-  double started = 0;               // seconds since 1970
+  double running_for = 0;           // seconds
   std::vector<std::string> files;   // those of the command line
   std::vector<std::string> places;  // the files that have asked for processes
   std::vector<ListedProcess> processes;

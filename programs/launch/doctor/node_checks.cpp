@@ -213,6 +213,29 @@ MachineCheck check_users(const std::vector<Node>& nodes) {
                "run them as one user, or set FASTDDS_BUILTIN_TRANSPORTS=UDPv4");
 }
 
+// A check of nodes that may hear each other. Where one domain fails, the others are not shown.
+MachineCheck check_each_domain(const std::vector<Node>& nodes, MachineCheck (*check_domain)(const std::vector<Node>&)) {
+  std::map<std::string, std::vector<Node>> domains;
+  for (const Node& node : nodes) {
+    domains[node.domain()].push_back(node);
+  }
+  if (domains.size() == 1) {
+    return check_domain(nodes);
+  }
+  std::vector<std::string> right;
+  std::vector<std::string> wrong;
+  MachineCheck all;
+  for (const auto& [domain, members] : domains) {
+    MachineCheck one = check_domain(members);
+    (one.ok ? right : wrong).push_back(fmt::format("domain {}: {}", domain, one.found));
+    if (all.name.empty() || (all.ok && !one.ok)) {
+      all = std::move(one);
+    }
+  }
+  all.found = fmt::format("{}", fmt::join(wrong.empty() ? right : wrong, "; "));
+  return all;
+}
+
 }  // namespace
 
 std::vector<MachineCheck> check_nodes(const Machine& machine) {
@@ -220,16 +243,8 @@ std::vector<MachineCheck> check_nodes(const Machine& machine) {
   if (nodes.empty()) {
     return {check("middleware", true, "no node of this machine can be seen", "")};
   }
-  // What is said below holds only for nodes that may hear each other.
-  std::map<std::string, std::vector<Node>> by_domain;
-  for (const Node& node : nodes) {
-    by_domain[node.domain()].push_back(node);
-  }
-  const std::vector<Node>& most =
-      std::max_element(by_domain.begin(), by_domain.end(), [](const auto& a, const auto& b) {
-        return a.second.size() < b.second.size();
-      })->second;
-  return {check_middleware(nodes), check_domains(nodes), check_range(most), check_networks(most), check_users(most)};
+  return {check_middleware(nodes), check_domains(nodes), check_each_domain(nodes, check_range),
+          check_each_domain(nodes, check_networks), check_each_domain(nodes, check_users)};
 }
 
 }  // namespace launch

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -77,16 +76,14 @@ std::string table(const ListedLaunch& launch, const std::vector<std::optional<Pr
 }
 
 std::string heading(const ListedLaunch& launch, const std::string& user) {
-  const double age =
-      std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count() - launch.started;
   std::vector<std::string> files;
   for (const std::string& file : launch.files) {
     files.push_back(std::filesystem::path(file).filename().string());
   }
   const std::size_t count = launch.processes.size();
   return fmt::format("launch {}{}{}: {}, {} for {}, {} process{}{}{}\n", launch.pid, user.empty() ? "" : " of ", user,
-                     fmt::join(files, ", "), launch.state, duration_text(age), count, count == 1 ? "" : "es",
-                     launch.isolation.empty() ? "" : ", isolated by ", launch.isolation);
+                     fmt::join(files, ", "), launch.state, duration_text(launch.running_for), count,
+                     count == 1 ? "" : "es", launch.isolation.empty() ? "" : ", isolated by ", launch.isolation);
 }
 
 // The launch that `wanted` names, or all.

@@ -207,8 +207,20 @@ class Doctor(unittest.TestCase):
         self.assertEqual(self.warnings(), {
             'domains': ('0: listener_node (13), map_node (14); 4: talker_node (12). They do not hear each other',
                         'give the nodes that belong together the same ROS_DOMAIN_ID'),
-            'discovery': ('ROS_AUTOMATIC_DISCOVERY_RANGE=OFF: map_node (14); any other node of this machine: listener_node (13). '
+            'discovery': ('domain 0: ROS_AUTOMATIC_DISCOVERY_RANGE=OFF: map_node (14); any other node of this machine: listener_node (13). '
                           'Whoever has OFF finds nobody', 'give all nodes the same range, SUBNET or LOCALHOST')})
+
+    def test_each_domain_is_looked_at(self):
+        for pid in (12, 13, 14):
+            self.add_node(pid, 'camera', ROS_DOMAIN_ID='4')
+        self.add_node(15, 'talker')
+        self.assertEqual(self.checks()['users']['found'],
+                         'domain 0: user 1000: talker_node (15); domain 4: user 1000: camera_node (12), camera_node (13), '
+                         'camera_node (14)')
+        self.add_node(16, 'listener', user=0)
+        self.assertEqual(self.warnings()['users'], (
+            'domain 0: user 0: listener_node (16); user 1000: talker_node (15). They cannot open each other\'s shared memory, so '
+            'messages are lost', 'run them as one user, or set FASTDDS_BUILTIN_TRANSPORTS=UDPv4'))
 
     def test_nodes_of_two_users_and_in_a_container(self):
         self.add_node(12, 'talker')

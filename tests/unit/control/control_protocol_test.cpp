@@ -117,6 +117,11 @@ TEST(ControlProtocol, ListsProcesses) {
       {"name": "talker-1", "names": ["talker", "/ta\ufffdlker"], "state": "running", "pid": 1000001, "running_for": 1.5,
        "restarts": 0, "place": {"file": "/a \"b\".xml", "line": 2, "column": 3}},
       {"name": "later", "names": [], "state": "waiting", "place": null}])"));
+  // Whatever becomes of the clock: `started` is of no use for that.
+  const auto before = std::chrono::steady_clock::now() - std::chrono::seconds(90);
+  json = nlohmann::json::parse(ps_line({.started = 1, .started_at = before}, false, processes, supervisor));
+  EXPECT_GE(json["launch"]["running_for"], 90);
+  EXPECT_LT(json["launch"]["running_for"], 10000);
   supervisor.shutdown();
   loop.advance(std::chrono::seconds(1));
   json = list();

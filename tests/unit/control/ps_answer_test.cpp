@@ -25,7 +25,7 @@ std::string why_refused(std::string_view line) {
 TEST(PsAnswer, HasWhatTheLaunchSaysOfItselfAndItsProcesses) {
   const ListedLaunch launch = read_ps_answer(
       R"({"version":1,"ok":true,"launch":{"pid":7,"state":"running","files":["/a.launch.xml","-"],"command":["x"],)"
-      R"("started":12.5,"isolation":"namespaces"},"processes":[)"
+      R"("started":12.5,"running_for":90.5,"isolation":"namespaces"},"processes":[)"
       R"({"name":"talker-1","names":["talker","/talker"],"state":"running","pid":8,"running_for":1.5,"restarts":2,)"
       R"("last_end":{"signal":"SIGSEGV","ran_for":0.5},"place":{"file":"/a.launch.xml","line":3,"column":5}},)"
       R"({"name":"b-2","names":[],"state":"ended","restarts":0,"last_end":{"exit_code":4,"ran_for":1},)"
@@ -34,7 +34,7 @@ TEST(PsAnswer, HasWhatTheLaunchSaysOfItselfAndItsProcesses) {
   EXPECT_EQ(launch.pid, 7);
   EXPECT_EQ(launch.state, "running");
   EXPECT_THAT(launch.files, ElementsAre("/a.launch.xml", "-"));
-  EXPECT_EQ(launch.started, 12.5);
+  EXPECT_EQ(launch.running_for, 90.5);
   EXPECT_EQ(launch.isolation, "namespaces");
   ASSERT_EQ(launch.processes.size(), 3U);
 

@@ -92,7 +92,7 @@ function showAbout(launch) {
   document.title = `${files} - launches`;
   const count = table.rows.size;
   setText(byId('facts'), [
-    `launch ${launch.pid}`, `${launch.state} for ${durationText(Date.now() / 1000 - launch.started)}`,
+    `launch ${launch.pid}`, `${launch.state} for ${durationText(launch.running_for ?? Date.now() / 1000 - launch.started)}`,
     `${count} process${count === 1 ? '' : 'es'}`, `${total.cpu.toFixed(0)} % CPU`, memoryText(total.memory), launch.directory,
   ].filter(Boolean).join(', '));
   byId('shutdown').disabled = launch.state === 'ending';
