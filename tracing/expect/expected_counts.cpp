@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 
+#include "base/text/names.hpp"
 #include "launch_trace_testing/expectations.hpp"
 #include "tracing/decode/reader/event_pattern.hpp"
 #include "tracing/expect/event_table.hpp"
@@ -91,6 +93,32 @@ Verdict verdict_on_each(const Trace& trace, const EventQuery& all, const std::st
                              event_table(trace, failed, fields))};
 }
 
+// The field that a condition looks at and none of the events of this name has. Such a condition never holds. nullopt if
+// there is no such field, or no event of this name: who knows then what fields it would have?
+std::optional<std::string> field_of_no_event(const Trace& trace, const EventQuery& query) {
+  std::set<std::string> known;
+  const EventClass* last = nullptr;
+  for (const Event& event : trace) {
+    if (&event.event_class() != last && tracing::matches_pattern(query.name(), event.name())) {
+      last = &event.event_class();
+      known.insert(last->fields.begin(), last->fields.end());
+      known.insert(last->contexts.begin(), last->contexts.end());
+    }
+  }
+  if (last == nullptr) {
+    return std::nullopt;
+  }
+  known.insert({"procname", "vpid", "vtid", "cpu_id"});
+  for (const std::string& path : fields_of(query)) {
+    const std::string field = path.substr(0, path.find_first_of(".["));
+    if (!known.contains(field)) {
+      const std::string nearest = launch::nearest_name(field, {known.begin(), known.end()});
+      return fmt::format("'{}'{}", field, nearest.empty() ? "" : fmt::format("; is '{}' meant?", nearest));
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Verdict expect_count(const Trace& trace, const EventQuery& query, Count count) {
@@ -102,6 +130,9 @@ Verdict expect_count(const Trace& trace, const EventQuery& query, Count count) {
   if (found.empty()) {
     if (!verdict.holds) {
       verdict.text += nearest_text(trace, query);
+    } else if (const std::optional<std::string> field = field_of_no_event(trace, query)) {
+      return {false, fmt::format("expected: {} {}\n     saw: no event '{}' has a field {}", count_text(count),
+                                 query.describe(), query.name(), *field)};
     }
     return verdict;
   }

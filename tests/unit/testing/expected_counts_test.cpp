@@ -67,6 +67,20 @@ TEST(ExpectedCount, ShowsWhatShouldNotBeThere) {
   +0.027030000  pong[72]  ros2:rmw_take  taken=0 rmw_subscription_handle=0x209 message=0x303 source_timestamp=0)");
 }
 
+// A condition that cannot hold would make every "no such event" true.
+TEST(ExpectedCount, FailsForAFieldThatNoEventHas) {
+  EXPECT_EQ(failure(expect_count(ping_pong_trace(), event("ros2:rmw_take").with("nope", 3), exactly(0))),
+            R"(expected: no 'ros2:rmw_take' with nope = 3
+     saw: no event 'ros2:rmw_take' has a field 'nope')");
+  EXPECT_EQ(failure(expect_count(ping_pong_trace(), event("ros2:*take").where("takne == 3 && vpid == 5"), at_most(2))),
+            R"(expected: at most 2 'ros2:*take' where takne == 3 && vpid == 5
+     saw: no event 'ros2:*take' has a field 'takne'; is 'taken' meant?)");
+  // What holds for none, by fields that are there; and events of which the trace knows nothing.
+  EXPECT_TRUE(expect_count(ping_pong_trace(), event("ros2:rmw_take").where("taken == 7"), exactly(0)).holds);
+  EXPECT_TRUE(expect_count(ping_pong_trace(), event("ros2:rmw_take").where("procname == 'x'"), exactly(0)).holds);
+  EXPECT_TRUE(expect_count(ping_pong_trace(), event("my:event").where("nope == 3"), exactly(0)).holds);
+}
+
 TEST(ExpectedCount, LeavesOutTheMiddleOfALongTable) {
   const Verdict verdict = expect_count(example_trace(10), event("ros2:callback_end"), at_most(5));
   EXPECT_FALSE(verdict.holds);
