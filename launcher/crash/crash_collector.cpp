@@ -48,7 +48,7 @@ void CrashCollector::on_process_event(const ProcessEvent& event) {
     runs_.erase(event.id);
     runs_.emplace(event.id, Run{started->pid, event.label, event.spec});
   } else if (const auto* const exited = std::get_if<ProcessExited>(&event.what)) {
-    if (!exited->expected && !event.spec.allowed_exits.contains(exited->exit.code)) {
+    if (has_failed(event.spec, *exited)) {
       collect(event, *exited);
     }
     output_.erase(event.id);

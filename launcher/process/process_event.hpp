@@ -12,6 +12,7 @@
 #include <variant>
 
 #include "base/diagnostics/source.hpp"
+#include "base/processes/ending_signals.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/output/output_router.hpp"
 #include "launcher/process/process_runner.hpp"
@@ -91,6 +92,12 @@ struct ProcessEvent {
                ProcessWaitsForTerminal, HealthChanged, StartLimitReached, ProcessDone>
       what;
 };
+
+// Whether the process has ended as it should not: by itself, or by a crash while it was being ended. Ends that its spec
+// allows are right.
+inline bool has_failed(const ProcessSpec& spec, const ProcessExited& exited) {
+  return (!exited.expected || tells_of_a_crash(-exited.exit.code)) && !spec.allowed_exits.contains(exited.exit.code);
+}
 
 using ProcessOutputObserver = std::function<void(const ProcessSpec& spec, ProcessId id, const std::string& label,
                                                  OutputStream stream, std::string_view line)>;

@@ -10,6 +10,7 @@
 
 #include <cerrno>
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <optional>
@@ -103,6 +104,7 @@ std::unique_ptr<TestDisks> make_disks(const TestRun& run, const Environment& env
 void run_launch(const TestRun& run, Guardian& guardian, TestResult& result) {
   const DomainLease domain;
   const Environment environment = own_surroundings(run, domain.id());
+  std::filesystem::create_directories(environment.at("ROS_HOME"));
   ::setenv("ROS_DOMAIN_ID", std::to_string(domain.id()).c_str(), 1);
   const LogDirectory log_directory = LogDirectory::create(LogDirectory::choose(environment));
 

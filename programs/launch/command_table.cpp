@@ -87,7 +87,7 @@ Command asking(Command command) {
 
 constexpr const char* kLaunchStatus =
     "0 after a run in which nothing has failed, 1 after an error of the launch, 2 after a wrong command line, 3 "
-    "if a process has failed that nobody had asked to end, or a component could not be loaded; 128+N if a "
+    "if a process has failed, or a component could not be loaded; 128+N if a "
     "second signal N has cut the end short. If a process with \"required\" ended the system, the status is that "
     "of the process, or 128+N if signal N ended it.";
 constexpr const char* kCheckStatus =

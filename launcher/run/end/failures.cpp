@@ -18,7 +18,7 @@ std::string place(const SourceRange& where) {
 
 void Failures::on_process_event(const ProcessEvent& event) {
   if (const auto* const exited = std::get_if<ProcessExited>(&event.what)) {
-    if (!exited->expected && !event.spec.allowed_exits.contains(exited->exit.code)) {
+    if (has_failed(event.spec, *exited)) {
       add(event, describe(exited->exit));
     }
   } else if (const auto* const failed = std::get_if<ProcessStartFailed>(&event.what)) {

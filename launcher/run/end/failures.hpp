@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What has failed in a launch: processes that ended badly although nobody had asked them to end, that could not be
-// started, or that were unhealthy; components that could not be loaded. A process counts also if it was started again.
+// What has failed in a launch: processes that ended badly although nobody had asked them to end, that crashed while
+// they were being ended, that could not be started, or that were unhealthy; components that could not be loaded. A
+// process counts also if it was started again.
 #pragma once
 
 #include <cstddef>

@@ -4,7 +4,7 @@
 // - 1 after an error of the launch itself, or if a process could not be ended;
 // - the exit code of the `required` process that has ended the launch, 128+N when signal N ended it;
 // - 128+N when a second signal N has cut the end short;
-// - 3 when a process has failed that nobody had asked to end, or a component could not be loaded (failures.hpp);
+// - 3 when a process has failed, or a component could not be loaded (failures.hpp);
 // - else 0, also after a signal.
 #pragma once
 

@@ -12,15 +12,6 @@
 
 namespace launch {
 
-namespace {
-
-bool is_crash(int code) {
-  constexpr int kCrashes[] = {SIGSEGV, SIGABRT, SIGBUS, SIGILL, SIGFPE, SIGSYS, SIGTRAP};
-  return std::find(std::begin(kCrashes), std::end(kCrashes), -code) != std::end(kCrashes);
-}
-
-}  // namespace
-
 void ImpliedCheck::on_process(const ProcessEvent& event) {
   if (const auto* const failed = std::get_if<ProcessStartFailed>(&event.what)) {
     if (!is_left_out(event)) {
@@ -33,7 +24,7 @@ void ImpliedCheck::on_process(const ProcessEvent& event) {
     }
     const bool is_expected = exited->expected && kill == Kill::kNone;
     const bool by_itself = !is_expected && exited->exit.code != 0 && !exited->will_respawn;
-    if ((by_itself || is_crash(exited->exit.code)) && !is_left_out(event)) {
+    if ((by_itself || tells_of_a_crash(-exited->exit.code)) && !is_left_out(event)) {
       fail(event, fmt::format("{} has exited with {}", event.label, exit_text(exited->exit.code)),
            is_expected ? std::string()
                        : fmt::format("if that is right: <exit process=\"{}\" code=\"{}\"/>", event.spec.name,

@@ -45,6 +45,18 @@ TEST_F(FailuresTest, AreNoProcessesThatWereAskedToEnd) {
   EXPECT_THAT(messages_, IsEmpty());
 }
 
+TEST_F(FailuresTest, AreCrashesOnTheWayToTheEnd) {
+  runner_.script("a", {{.exit_code_on_signal = -SIGSEGV}});
+  runner_.script("b", {{.exit_code_on_signal = -SIGABRT}});
+  runner_.script("c", {{.exit_code_on_signal = -SIGTERM}});
+  EXPECT_EQ(run(R"xml(<executable cmd="a"/><executable cmd="b" allowed-exit-codes="SIGABRT"/><executable cmd="c"/>
+<timer period="1.0"><shutdown/></timer>)xml"),
+            3);
+  EXPECT_THAT(messages_, ElementsAre("[launch] 1 process has failed:",
+                                     "[launch]   a-1: SIGSEGV after 1.00 s, with 0.00 s of processor time and 0.0 MiB "
+                                     "(/test/system.launch.xml:2:2)"));
+}
+
 TEST_F(FailuresTest, AreNoEndsThatTheFileAllows) {
   runner_.script("a", {{.exits_after = 1s, .exit_code = 2}});
   runner_.script("b", {{.exits_after = 1s, .exit_code = -SIGTERM}});
