@@ -100,8 +100,8 @@ PerformFault clock_fault(const Fields& fields, ClockFault::Kind kind) {
     const auto [rate, by] = perform_clock(fields, kind, scope);
     return FaultRanges{
         fmt::format("{} clock {} {}..{} {}..{}", clock, static_cast<int>(kind), rate.from, rate.to, by.from, by.to),
-        rate.is_random() || by.is_random(), [kind, rate = rate, by = by](const FaultDraw& draw) {
-          return ClockFault{kind, draw.number("rate", rate), draw.number("by", by)};
+        rate.is_random() || by.is_random(), [kind, rates = rate, jumps_by = by](const FaultDraw& draw) {
+          return ClockFault{kind, draw.number("rate", rates), draw.number("by", jumps_by)};
         }};
   };
 }

@@ -118,7 +118,7 @@ void CrashCollector::find_late(const std::vector<std::string>& reasons, const st
     std::int64_t& told = last_missed_[pid];
     if (time > told) {
       told = time;
-      loop_.post([this, pid = pid, reasons, snapshot] { collect_late(pid, reasons, snapshot); });
+      loop_.post([this, late = pid, reasons, snapshot] { collect_late(late, reasons, snapshot); });
     }
   }
 }

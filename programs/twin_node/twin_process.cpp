@@ -82,7 +82,7 @@ void TwinProcess::add_groups() {
   // What each node has of its own, such as the services of parameters.
   for (const auto& [index, node] : nodes_) {
     const auto group = std::find_if(system_.groups.begin(), system_.groups.end(),
-                                    [node = index](const auto& other) { return other.node == node; });
+                                    [wanted = index](const auto& other) { return other.node == wanted; });
     (group == system_.groups.end() ? executors_.begin()->second : executors_.at(group->executor))->add_node(node);
   }
 }

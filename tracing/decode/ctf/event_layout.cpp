@@ -145,31 +145,31 @@ StreamLayout::StreamLayout(const TraceClass& trace, const StreamDeclaration& str
 }
 
 void StreamLayout::find_usual_events() {
-  constexpr std::uint32_t kByte = 8;   // bits
-  constexpr std::uint32_t kWord = 64;  // bits
+  constexpr std::uint32_t kByteBits = 8;   // bits
+  constexpr std::uint32_t kWordBits = 64;  // bits
   const HeaderLayout::Number& id = header_.first_id;
   const HeaderLayout::Form& form = header_.short_form;
-  const auto is_in_word = [](std::uint32_t bit, std::uint32_t size) { return size > 0 && bit + size <= kWord; };
-  const auto mask = [](std::uint32_t size) { return ~std::uint64_t{0} >> (kWord - size); };
+  const auto is_in_word = [](std::uint32_t bit, std::uint32_t size) { return size > 0 && bit + size <= kWordBits; };
+  const auto mask = [](std::uint32_t size) { return ~std::uint64_t{0} >> (kWordBits - size); };
   usual_header_.is_known = !header_.is_big_endian && std::endian::native == std::endian::little &&
-                           header_.alignment == kByte && is_in_word(id.bit, id.size) &&
-                           is_in_word(form.time.bit % kByte, form.time.size) && form.id.size == 0 &&
-                           form.end % kByte == 0;
+                           header_.alignment == kByteBits && is_in_word(id.bit, id.size) &&
+                           is_in_word(form.time.bit % kByteBits, form.time.size) && form.id.size == 0 &&
+                           form.end % kByteBits == 0;
   if (!usual_header_.is_known) {
     return;
   }
   usual_header_.id_shift = id.bit;
   usual_header_.id_mask = mask(id.size);
-  usual_header_.time_byte = form.time.bit / kByte;
-  usual_header_.time_shift = form.time.bit % kByte;
+  usual_header_.time_byte = form.time.bit / kByteBits;
+  usual_header_.time_shift = form.time.bit % kByteBits;
   usual_header_.time_mask = mask(form.time.size);
   usual_events_.resize(dense_.size());
   for (std::uint64_t number = 0; number < dense_.size(); ++number) {
     const bool is_of_long_form = header_.has_long_form && number >= header_.long_first && number <= header_.long_last;
     const EventLayout* const layout = dense_[number].get();
     if (layout != nullptr && layout->fixed_size && !is_of_long_form) {
-      usual_events_[number] = {layout, form.end / kByte, form.end / kByte + *layout->fixed_size, layout->context_offset,
-                               layout->payload_offset};
+      usual_events_[number] = {layout, form.end / kByteBits, form.end / kByteBits + *layout->fixed_size,
+                               layout->context_offset, layout->payload_offset};
     }
   }
 }

@@ -140,7 +140,7 @@ void add_uncounted_events(std::vector<ProcessAccount>& processes, const Recorded
   for (const auto& [pid, process] : recorded) {
     // The last of the programs that the process has been.
     const auto found = std::find_if(processes.rbegin(), processes.rend(),
-                                    [pid = pid](const ProcessAccount& known) { return known.pid == pid; });
+                                    [wanted = pid](const ProcessAccount& known) { return known.pid == wanted; });
     const bool is_known = found != processes.rend();
     const bool counts = is_known && found->counts;
     std::uint64_t uncounted = 0;
@@ -185,7 +185,7 @@ void attribute_losses(LossAccount& account, const std::vector<EventCounts>& coun
   for (const auto& [pid, lost] : losses) {
     sum += lost.value_or(0);
     const bool counted = std::any_of(account.processes.begin(), account.processes.end(),
-                                     [pid = pid](const ProcessAccount& process) { return process.pid == pid; });
+                                     [wanted = pid](const ProcessAccount& process) { return process.pid == wanted; });
     if (!counted && lost.value_or(1) != 0) {
       account.processes.push_back({.name = "", .pid = pid, .counts = false});
     }

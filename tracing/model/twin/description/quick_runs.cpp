@@ -47,7 +47,7 @@ QuickRuns::QuickRuns(const System& system) : of_(system.callbacks.size()) {
       const Callback& callback = system.callbacks[input];
       is_simple = is_simple && memberships[input] == 1 &&
                   std::all_of(callback.outputs.begin(), callback.outputs.end(),
-                              [&inputs = inputs](const Output& output) { return output.inputs == inputs; });
+                              [&all = inputs](const Output& output) { return output.inputs == all; });
     }
   }
   joins_ = std::vector<Join>(sets.size());
