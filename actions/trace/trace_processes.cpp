@@ -5,7 +5,9 @@
 #include <sys/sysinfo.h>
 
 #include <algorithm>
+#include <iterator>
 
+#include "actions/trace/python_nodes.hpp"
 #include "actions/trace/trace_scope.hpp"
 #include "actions/trace/tracetools_choice.hpp"
 #include "tracing/record/account/counters/event_counters.hpp"
@@ -62,6 +64,14 @@ void TraceScope::expect(const std::vector<ProcessSpec>& processes) {
   if (std::string warning = tracetools_->ineffective(config, settings_of_tracetools()); !warning.empty()) {
     run_.warn(std::move(warning));
   }
+  if (choices_.python_nodes) {
+    std::vector<ProcessSpec> recorded;
+    std::copy_if(processes.begin(), processes.end(), std::back_inserter(recorded),
+                 [this](const ProcessSpec& spec) { return traces(spec) && records_programs(); });
+    if (std::string warning = python_nodes_without_events(recorded, run_.prefix()); !warning.empty()) {
+      run_.warn(std::move(warning));
+    }
+  }
   for (const std::string& pattern : choices_.nodes.value_or(std::vector<std::string>())) {
     if (std::none_of(processes.begin(), processes.end(),
                      [&](const ProcessSpec& spec) { return matches(pattern, spec); })) {
@@ -112,6 +122,9 @@ void TraceScope::prepare(ProcessSpec& spec) const {
         tell_ && !warning.empty()) {
       tell_(true, warning);
     }
+  }
+  if (choices_.python_nodes && records_programs()) {
+    give_python_nodes_events(run_.prefix(), spec.environment);
   }
   if (!run_.preload().empty()) {
     std::string& variable = spec.environment["LD_PRELOAD"];

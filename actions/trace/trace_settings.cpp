@@ -184,6 +184,11 @@ std::vector<Setting<TraceRequest>> make_trace_settings() {
                      "theirs leaves them their own"),
        .place = tracetools_mode,
        .shown = "tracetools"},
+      {.attribute =
+           extension("python-nodes", Type::kBoolean, "false",
+                     "give callbacks of Python nodes, those of rclpy, the events that callbacks of rclcpp have"),
+       .place = of_choices(&TraceChoices::python_nodes),
+       .shown = "python-nodes"},
       {.attribute = {"subbuffer-size-ust", Type::kInteger, false, fmt::format("{}", defaults.ust.subbuffer_size),
                      "bytes"},
        .place = at(&tracing::ChannelBuffers::subbuffer_size),

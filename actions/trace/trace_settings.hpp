@@ -22,6 +22,7 @@ struct TraceChoices : tracing::RunChoices {
   // Patterns of the nodes and processes to record; all are recorded when this is not given.
   std::optional<std::vector<std::string>> nodes = {};
   TracetoolsMode tracetools = TracetoolsMode::kAuto;
+  bool python_nodes = false;                // callbacks of rclpy have events
   bool auto_buffers = false;                // userspace buffers sized from the number of processes and processors
   std::vector<NamedNode> chain_nodes = {};  // those that the chains pass
 };
