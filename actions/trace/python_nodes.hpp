@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// <trace python-nodes="true">: events of the callbacks of rclpy, by a module that each Python program loads at its start.
+// <trace python-nodes="true">: events of the callbacks of rclpy, by a module that each Python program loads at its
+// start.
 #pragma once
 
 #include <string>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The module _launch_rclpy_events: calls the tracetools that the process has loaded. It loads none. It keeps to Python's
-// stable interface, so that one file serves every Python from 3.10 on. All functions need Python's lock, as usual.
+// The module _launch_rclpy_events: calls the tracetools that the process has loaded. It loads none. It keeps to
+// Python's stable interface, so that one file serves every Python from 3.10 on. All functions need Python's lock, as
+// usual.
 #define Py_LIMITED_API 0x030A0000
 #include <Python.h>
 #include <dlfcn.h>
@@ -58,10 +59,10 @@ static PyObject* call_with_pointers(Pointers function, PyObject* arguments) {
   Py_RETURN_NONE;
 }
 
-#define TWO_POINTERS(name)                                     \
+#define TWO_POINTERS(name)                                       \
   static PyObject* name(PyObject* module, PyObject* arguments) { \
-    (void)module;                                              \
-    return call_with_pointers(tracetools.name, arguments);     \
+    (void)module;                                                \
+    return call_with_pointers(tracetools.name, arguments);       \
   }
 TWO_POINTERS(subscription_init)
 TWO_POINTERS(subscription_callback_added)
@@ -118,8 +119,8 @@ static PyMethodDef functions[] = {
     {"callback_end", callback_end, METH_O, "(callback)"},
     {NULL, NULL, 0, NULL}};
 
-static struct PyModuleDef definition = {PyModuleDef_HEAD_INIT, "_launch_rclpy_events", NULL, -1, functions,
-                                        NULL,                  NULL,                   NULL, NULL};
+static struct PyModuleDef definition = {
+    PyModuleDef_HEAD_INIT, "_launch_rclpy_events", NULL, -1, functions, NULL, NULL, NULL, NULL};
 
 PyMODINIT_FUNC PyInit__launch_rclpy_events(void) {
   return PyModule_Create(&definition);

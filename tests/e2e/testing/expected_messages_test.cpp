@@ -97,4 +97,18 @@ TEST_F(ExpectedMessages, MessagesThatDoNotComeFailWithTheReason) {
   EXPECT_THAT(result.out, HasSubstr("      = expected: at least 100 in a second\n"));
 }
 
+// Both sides read what the other one writes: Humble has longer identities of endpoints.
+TEST_F(ExpectedMessages, NodesThatAnnounceThemselvesAsHumbleDoesAreSeen) {
+  const CommandResult result = run({write("a.launch.xml", R"xml(
+  <node pkg="demo_nodes" exec="pong"><env name="ROS_DISTRO" value="humble"/></node>
+  <node pkg="demo_nodes" exec="ping"><param name="count" value="0"/></node>
+  <test name="t" timeout="30">
+    <graph node="/pong"/>
+    <graph node="/ping"/>
+    <graph service="/pong/list_parameters"/>
+    <message topic="/pong" type="std_msgs/msg/Int64" min="3"/>
+  </test>)xml")});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+}
+
 }  // namespace

@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <iterator>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -30,6 +32,23 @@ rmw_qos_profile_t channel_profile() {
   return profile;
 }
 
+GidLength first_gid_length() {
+  const char* const distribution = std::getenv("ROS_DISTRO");
+  return distribution != nullptr && std::string_view(distribution) == "humble" ? GidLength::kOfHumble
+                                                                               : GidLength::kOfToday;
+}
+
+// Frees itself.
+struct SerializedMessage : rmw_serialized_message_t {
+  SerializedMessage() : rmw_serialized_message_t(rmw_get_zero_initialized_serialized_message()) {
+    const rcutils_allocator_t heap = rcutils_get_default_allocator();
+    (void)rmw_serialized_message_init(this, 0, &heap);
+  }
+  SerializedMessage(const SerializedMessage&) = delete;
+  SerializedMessage& operator=(const SerializedMessage&) = delete;
+  ~SerializedMessage() { (void)rmw_serialized_message_fini(this); }
+};
+
 std::optional<rmw_time_t> time_until(std::optional<UnansweredParticipants::TimePoint> time) {
   if (!time) {
     return std::nullopt;
@@ -43,7 +62,8 @@ std::optional<rmw_time_t> time_until(std::optional<UnansweredParticipants::TimeP
 GraphChannel::GraphChannel(rmw_context_t& context, Participant& participant, GraphCache& graph)
     : participant_(participant),
       graph_(graph),
-      introduction_(std::in_place, Clock::now(), [creator = gettid()] { return is_busy(creator); }) {
+      introduction_(std::in_place, Clock::now(), [creator = gettid()] { return is_busy(creator); }),
+      gid_length_(first_gid_length()) {
   const auto& type_support = *rosidl_typesupport_cpp::get_message_type_support_handle<GraphCache::EntitiesInfo>();
   // Only the last state of a participant counts. But a burst of states of many participants must not push out any of
   // them.
@@ -162,7 +182,22 @@ void GraphChannel::publish() {
     }
     info.swap(unpublished_);
   }
-  if (info && rmw_publish(publisher_, &*info, nullptr) != RMW_RET_OK) {
+  if (!info) {
+    return;
+  }
+  published_ = std::move(*info);
+  has_published_ = true;
+  rmw_ret_t result = RMW_RET_OK;
+  if (gid_length_ == GidLength::kOfToday) {
+    result = rmw_publish(publisher_, &published_, nullptr);
+  } else {
+    std::vector<std::uint8_t> bytes = write_entities(published_, gid_length_);
+    rmw_serialized_message_t message = rmw_get_zero_initialized_serialized_message();
+    message.buffer = bytes.data();
+    message.buffer_length = message.buffer_capacity = bytes.size();
+    result = rmw_publish_serialized_message(publisher_, &message, nullptr);
+  }
+  if (result != RMW_RET_OK) {
     rcutils_log(nullptr, RCUTILS_LOG_SEVERITY_ERROR, "rmw_fastrtps", "other processes do not see all nodes: %s",
                 rmw_get_error_string().str);
     rmw_reset_error();
@@ -170,12 +205,26 @@ void GraphChannel::publish() {
 }
 
 void GraphChannel::take() {
-  GraphCache::EntitiesInfo info;
+  SerializedMessage message;
   bool taken = true;
-  while (taken && rmw_take(subscription_, &info, &taken, nullptr) == RMW_RET_OK) {
-    if (taken) {
-      graph_.update_nodes(info);
+  while (taken && rmw_take_serialized_message(subscription_, &message, &taken, nullptr) == RMW_RET_OK) {
+    if (const auto read = taken ? read_entities({message.buffer, message.buffer_length}) : std::nullopt) {
+      graph_.update_nodes(read->info);
+      write_as(read->length);
     }
+  }
+}
+
+// Whoever has learned to write as Humble does goes on: nodes of today that read it only miss the names of nodes.
+void GraphChannel::write_as(GidLength length) {
+  if (length == GidLength::kOfToday || gid_length_ == length) {
+    return;
+  }
+  gid_length_ = length;
+  const std::lock_guard lock(mutex_);
+  if (has_published_ && !unpublished_) {
+    unpublished_ = published_;
+    changed_.trigger();
   }
 }
 

@@ -4,12 +4,16 @@
 // Its publisher and subscription have no rcl counterpart. A thread of its own publishes, and takes the messages that
 // arrive. Each wake-up for a message ends with one take that finds nothing. The thread also introduces the participant,
 // and announces it again to participants that may have missed it.
+//
+// It reads the messages of Humble, too (graph/entities_layout.hpp). It writes as Humble does if $ROS_DISTRO says so,
+// and as soon as it has heard a participant that does: Humble can't read anything else.
 #pragma once
 
 #include <mutex>
 #include <optional>
 
 #include "context/introduction.hpp"
+#include "graph/entities_layout.hpp"
 #include "graph/graph_cache.hpp"
 #include "participant/participant.hpp"
 #include "process/end_of_process.hpp"
@@ -42,6 +46,7 @@ class GraphChannel {
   void introduce_if_due();
   void publish();
   void take();
+  void write_as(GidLength length);
 
   Participant& participant_;
   GraphCache& graph_;
@@ -54,6 +59,9 @@ class GraphChannel {
   mutable std::mutex mutex_;                  // of the rest
   std::optional<Introduction> introduction_;  // while the participant is not introduced
   std::optional<GraphCache::EntitiesInfo> unpublished_;
+  GraphCache::EntitiesInfo published_;  // only for the thread, as the next ones
+  bool has_published_ = false;
+  GidLength gid_length_;
   bool ended_ = false;
   rcutils::JoinedThread thread_;
   std::optional<EndedWithProcess> ended_with_process_;
