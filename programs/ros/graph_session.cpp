@@ -21,7 +21,6 @@ namespace {
 constexpr std::chrono::milliseconds kShortestLook{300};
 constexpr std::chrono::milliseconds kQuiet{200};
 constexpr int kQuietOfLateness = 5;
-constexpr std::chrono::seconds kLongestLook{3};
 // Each participant tells its nodes on this topic of DDS.
 constexpr const char* kTopicOfParticipants = "ros_discovery_info";
 // Matches are no changes of the graph, and a signal may come just before a wait.

@@ -18,6 +18,9 @@ namespace launch {
 using SessionClock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
+// So long a command looks for what it has not found.
+inline constexpr Seconds kLongestLook{3};
+
 // One at a time. All functions are called on one thread.
 class GraphSession {
  public:

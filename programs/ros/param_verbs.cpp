@@ -174,8 +174,15 @@ class ParamGet final : public ParameterVerb {
   int of_all_nodes(GraphSession& session, const std::string& parameter) const {
     session.discover(look_time());
     bool found = false;
-    std::vector<std::string> nodes = nodes_with_service(session, "/get_parameters", "rcl_interfaces/srv/GetParameters");
-    std::erase_if(nodes, [](const std::string& node) { return is_hidden(node); });
+    std::vector<std::string> nodes;
+    // On a busy machine the services of a node may come long after the node.
+    session.wait_until(
+        [&] {
+          nodes = nodes_with_service(session, "/get_parameters", "rcl_interfaces/srv/GetParameters");
+          std::erase_if(nodes, [](const std::string& node) { return is_hidden(node); });
+          return !nodes.empty();
+        },
+        look_time().value_or(kLongestLook));
     const int exit_code = for_each_that_answers(nodes, [&](const std::string& node) {
       const std::vector<ParameterReading> values = parameter_values(session, node, {parameter});
       if (!values.empty() && values.front().type != 0) {

@@ -55,7 +55,8 @@ TEST_P(EntitiesLayout, IsReadInTheOtherByteOrder) {
   const std::size_t gid = static_cast<std::size_t>(GetParam());
   // The count, two texts of four bytes each behind their lengths, two counts.
   for (const std::size_t at : {gid, gid + 4, gid + 12, gid + 20, gid + 24}) {
-    std::reverse(bytes.begin() + 4 + static_cast<std::ptrdiff_t>(at), bytes.begin() + 8 + static_cast<std::ptrdiff_t>(at));
+    std::reverse(bytes.begin() + 4 + static_cast<std::ptrdiff_t>(at),
+                 bytes.begin() + 8 + static_cast<std::ptrdiff_t>(at));
   }
   const auto read = read_entities(bytes);
   ASSERT_TRUE(read);
