@@ -57,7 +57,10 @@ class Reader {
       return false;
     }
     gids.resize(count);
-    return std::all_of(gids.begin(), gids.end(), [this](auto& gid) { return read_gid(gid); });
+    for (auto& gid : gids) {
+      (void)read_gid(gid);  // there are enough bytes
+    }
+    return true;
   }
   // But for the bytes that fill the last word.
   bool is_at_end() const { return left() < kWord; }
