@@ -182,7 +182,7 @@ class ParamGet final : public ParameterVerb {
           std::erase_if(nodes, [](const std::string& node) { return is_hidden(node); });
           return !nodes.empty();
         },
-        look_time().value_or(kLongestLook));
+        look_time() ? Seconds(0) : kLongestLook);
     const int exit_code = for_each_that_answers(nodes, [&](const std::string& node) {
       const std::vector<ParameterReading> values = parameter_values(session, node, {parameter});
       if (!values.empty() && values.front().type != 0) {

@@ -62,8 +62,8 @@ std::optional<rmw_time_t> time_until(std::optional<UnansweredParticipants::TimeP
 GraphChannel::GraphChannel(rmw_context_t& context, Participant& participant, GraphCache& graph)
     : participant_(participant),
       graph_(graph),
-      introduction_(std::in_place, Clock::now(), [creator = gettid()] { return is_busy(creator); }),
-      gid_length_(first_gid_length()) {
+      gid_length_(first_gid_length()),
+      introduction_(std::in_place, Clock::now(), [creator = gettid()] { return is_busy(creator); }) {
   const auto& type_support = *rosidl_typesupport_cpp::get_message_type_support_handle<GraphCache::EntitiesInfo>();
   // Only the last state of a participant counts. But a burst of states of many participants must not push out any of
   // them.
@@ -185,13 +185,12 @@ void GraphChannel::publish() {
   if (!info) {
     return;
   }
-  published_ = std::move(*info);
-  has_published_ = true;
+  published_ = std::move(info);
   rmw_ret_t result = RMW_RET_OK;
   if (gid_length_ == GidLength::kOfToday) {
-    result = rmw_publish(publisher_, &published_, nullptr);
+    result = rmw_publish(publisher_, &*published_, nullptr);
   } else {
-    std::vector<std::uint8_t> bytes = write_entities(published_, gid_length_);
+    std::vector<std::uint8_t> bytes = write_entities(*published_, gid_length_);
     rmw_serialized_message_t message = rmw_get_zero_initialized_serialized_message();
     message.buffer = bytes.data();
     message.buffer_length = message.buffer_capacity = bytes.size();
@@ -222,7 +221,7 @@ void GraphChannel::write_as(GidLength length) {
   }
   gid_length_ = length;
   const std::lock_guard lock(mutex_);
-  if (has_published_ && !unpublished_) {
+  if (published_ && !unpublished_) {
     unpublished_ = published_;
     changed_.trigger();
   }

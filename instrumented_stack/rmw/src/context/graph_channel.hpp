@@ -56,12 +56,13 @@ class GraphChannel {
   rmw_guard_condition_t* stop_ = nullptr;
   GuardCondition changed_;  // there is something to publish
 
+  // Of the thread.
+  std::optional<GraphCache::EntitiesInfo> published_;  // the last state
+  GidLength gid_length_;
+
   mutable std::mutex mutex_;                  // of the rest
   std::optional<Introduction> introduction_;  // while the participant is not introduced
   std::optional<GraphCache::EntitiesInfo> unpublished_;
-  GraphCache::EntitiesInfo published_;  // only for the thread, as the next ones
-  bool has_published_ = false;
-  GidLength gid_length_;
   bool ended_ = false;
   rcutils::JoinedThread thread_;
   std::optional<EndedWithProcess> ended_with_process_;
