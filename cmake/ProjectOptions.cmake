@@ -28,6 +28,11 @@ if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-fpch-preprocess>)
 endif()
 
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 12)
+  # GCC 11 takes a call of std::array::size() for a use of the elements.
+  add_compile_options(-Wno-maybe-uninitialized)
+endif()
+
 if(SANITIZE)
   # Sanitized code must be whole: third-party calls into it otherwise give false reports.
   # GCC's analysis of uninitialised variables and of bounds is wrong in sanitized code of the standard library. GCC 12 warns

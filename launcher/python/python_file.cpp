@@ -62,6 +62,9 @@ void PythonPlaces::fail(const python::Error& error) {
     }
   }
   std::string help = error.help;
+  if (const auto limits = guest_limits(); limits && std::string_view(error.what()).starts_with("MemoryError")) {
+    help = fmt::format("Python has {} MB here; --python-memory gives it more", limits->memory >> 20U);
+  }
   if (!error.traceback.empty()) {
     help += (help.empty() ? "" : "\n") + error.traceback;
   }
@@ -310,8 +313,16 @@ SubstitutionPtr PythonFile::make_part(const python::Part& part, const SourceRang
                     Finding::kUnknownName);
 }
 
-PythonHost::PythonHost(PythonFile& file, LaunchContext& context)
-    : file_(file), scope_(context.scope()), context_(&context) {}
+PythonHost::PythonHost(PythonFile& file, Scope& scope) : file_(file), scope_(scope), call_(file.places().path()) {
+  if (std::optional<GuestRefusal> refusal = guest_refusal(file.places().path())) {
+    throw LaunchError(std::move(refusal->reason), file.places().range({file.places().path(), refusal->line, 0, 0}),
+                      std::move(refusal->help), Finding::kPython);
+  }
+}
+
+PythonHost::PythonHost(PythonFile& file, LaunchContext& context) : PythonHost(file, context.scope()) {
+  context_ = &context;
+}
 
 std::string PythonHost::perform(const python::Text& text) {
   return file_.make_template(text, file_.places().range({})).perform(scope_);

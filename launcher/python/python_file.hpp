@@ -11,6 +11,7 @@
 #include "launcher/frontend/entity.hpp"
 #include "launcher/language/action.hpp"
 #include "launcher/language/registry.hpp"
+#include "launcher/python/interpreter/python_guest.hpp"
 #include "launcher/python/interpreter/python_runtime.hpp"
 #include "launcher/substitution/scope.hpp"
 #include "launcher/substitution/substitution.hpp"
@@ -22,6 +23,9 @@ namespace launch {
 class PythonPlaces {
  public:
   explicit PythonPlaces(std::shared_ptr<const SourceFile> file) : file_(std::move(file)) {}
+
+  // Of the launch file.
+  const std::string& path() const { return file_->path(); }
 
   // The place, or the beginning of the launch file when it is unknown.
   SourceRange range(const python::Place& place);
@@ -70,7 +74,8 @@ class PythonFile : public std::enable_shared_from_this<PythonFile> {
 class PythonHost : public python::Host {
  public:
   // For loading a file or performing a substitution. Calls that need a visit throw.
-  PythonHost(PythonFile& file, Scope& scope) : file_(file), scope_(scope) {}
+  // Throws LaunchError when the guest that runs Python was ended by this file before.
+  PythonHost(PythonFile& file, Scope& scope);
   PythonHost(PythonFile& file, LaunchContext& context);
 
   Variables& configurations() override { return scope_.configurations; }
@@ -89,6 +94,7 @@ class PythonHost : public python::Host {
 
   PythonFile& file_;
   Scope& scope_;
+  GuestCall call_;
   LaunchContext* context_ = nullptr;
 };
 

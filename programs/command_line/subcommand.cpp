@@ -17,6 +17,17 @@ Subcommand::Subcommand(const std::string& name, const std::string& description)
 
 Subcommand::~Subcommand() = default;
 
+void add_python_limits(CLI::App& app, PythonLimits& limits) {
+  app.add_option("--python-seconds", limits.seconds,
+                 "how long Python of a launch file may run at once where it is only looked at, 60 by default")
+      ->type_name("N")
+      ->check(CLI::Range(1U, 86400U));
+  app.add_option("--python-memory", limits.memory,
+                 "how much memory it may take there: bytes, or with K, M or G; 2G by default")
+      ->type_name("SIZE")
+      ->transform(CLI::AsSizeValue(false));
+}
+
 void Subcommand::take_target(LaunchTarget& target, bool optional) {
   target_ = &target;
   optional_target_ = optional;
@@ -44,6 +55,10 @@ void Subcommand::take_words(const std::string& name, std::vector<std::string>& w
 
 void Subcommand::take_flag(const std::string& name, bool& value, const std::string& help) {
   app_->add_flag(name, value, help);
+}
+
+void Subcommand::take_python_limits(PythonLimits& limits) {
+  add_python_limits(*app_, limits);
 }
 
 std::optional<int> Subcommand::parse(std::vector<std::string> words) {

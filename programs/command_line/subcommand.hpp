@@ -2,6 +2,7 @@
 // The command line of the commands that look at launch files without running them: check, graph, schema.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,6 +24,15 @@ struct LaunchTarget {
   std::vector<std::pair<std::string, std::string>> arguments;
 };
 
+// What a command that only looks at launch files lets Python take for one call (run_python_in_a_guest()).
+struct PythonLimits {
+  unsigned seconds = 60;
+  std::uint64_t memory = 2ULL << 30U;  // bytes
+};
+
+// The options --python-seconds and --python-memory.
+void add_python_limits(CLI::App& app, PythonLimits& limits);
+
 // The variables that it fills must live until it has parsed.
 class Subcommand {
  public:
@@ -42,6 +52,7 @@ class Subcommand {
   // Takes the words that are no options.
   void take_words(const std::string& name, std::vector<std::string>& words, bool required, const std::string& help);
   void take_flag(const std::string& name, bool& value, const std::string& help);
+  void take_python_limits(PythonLimits& limits);
 
   // Parses the words after the name of the command. Returns the exit code when there is nothing more to do: after
   // --help, and after an error, which it has printed.

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "launcher/python/interpreter/python_guest.hpp"
 #include "programs/launch/commands.hpp"
 
 namespace {
@@ -22,5 +23,7 @@ void open_standard_descriptors() {
 
 int main(int argc, char** argv) {
   open_standard_descriptors();
-  return launch::run_command_of({argv + 1, argv + argc});
+  const int exit_code = launch::run_command_of({argv + 1, argv + argc});
+  launch::end_of_guest();
+  return exit_code;
 }

@@ -6,10 +6,12 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "base/environment/own_prefix.hpp"
+#include "launcher/python/interpreter/python_guest.hpp"
 
 namespace launch {
 
@@ -70,6 +72,7 @@ void show_python_tracebacks() {
 
 python::Runtime& python_runtime() {
   static python::Runtime* const runtime = load_module();
+  become_guest([](int descriptor) { runtime->report_deaths(descriptor); });
   if (shows_tracebacks()) {
     runtime->show_tracebacks();
   }
@@ -77,7 +80,12 @@ python::Runtime& python_runtime() {
 }
 
 std::string evaluate_python(const std::string& expression, const std::string& modules) {
-  return python_runtime().evaluate(expression, modules);
+  python::Runtime& runtime = python_runtime();
+  if (const std::optional<GuestRefusal> refusal = guest_refusal(expression)) {
+    throw std::runtime_error(refusal->reason);
+  }
+  const GuestCall call(expression);
+  return runtime.evaluate(expression, modules);
 }
 
 }  // namespace launch

@@ -160,6 +160,9 @@ class Runtime {
   virtual ~Runtime() = default;
   // From now on errors carry Python's traceback. To make one takes longer than all else of an error.
   virtual void show_tracebacks() = 0;
+  // From now on what ends this process while Python runs (a signal that kills, os._exit()) first writes into the
+  // descriptor where Python is.
+  virtual void report_deaths(int descriptor) = 0;
   // str() of the value of an expression (evaluate_python() in python_module.hpp). Throws std::runtime_error.
   virtual std::string evaluate(const std::string& expression, const std::string& modules) = 0;
   // Runs a launch file. `text` is its content. Throws Error.

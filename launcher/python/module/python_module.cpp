@@ -126,6 +126,14 @@ std::string evaluate(const std::string& expression, const std::string& modules) 
 class CPython : public launch::python::Runtime {
  public:
   void show_tracebacks() override { launch::python::shows_tracebacks() = true; }
+
+  void report_deaths(int descriptor) override {
+    start();
+    const py::gil_scoped_acquire lock;
+    find_packages();
+    py::module_::import("launch._deaths").attr("report")(descriptor);
+  }
+
   std::string evaluate(const std::string& expression, const std::string& modules) override {
     start();
     const py::gil_scoped_acquire lock;

@@ -19,6 +19,7 @@ class ScriptRuntime : public python::Runtime {
   explicit ScriptRuntime(const ScriptOrder& order) : link_(order) {}
 
   void show_tracebacks() override { shows_tracebacks_ = true; }
+  void report_deaths(int) override {}  // Python is the program of the user
   std::string evaluate(const std::string& expression, const std::string& modules) override;
   std::vector<python::Entity> load(const std::string& path, const std::string& text, python::Host& host) override;
   std::optional<std::vector<python::Entity>> make_action(const python::Element& element, python::Host& host) override;

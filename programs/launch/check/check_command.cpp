@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "base/environment/own_environment.hpp"
 #include "base/environment/own_prefix.hpp"
 #include "launcher/invocation/find_launch_file.hpp"
+#include "launcher/python/interpreter/python_guest.hpp"
 #include "launcher/substitution/package_index.hpp"
 #include "programs/command_line/result_output.hpp"
 #include "programs/command_line/subcommand.hpp"
@@ -147,9 +149,12 @@ int check_command(const std::vector<std::string>& words) {
                      "leave out the findings with this id; may be given several times (launch explain lists the ids)");
   std::vector<std::string> enabled;
   command.take_texts("--enable", enabled, "also look for the findings with this id, which are off otherwise: LF0209");
+  PythonLimits python;
+  command.take_python_limits(python);
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;
   }
+  run_python_in_a_guest({std::chrono::seconds(python.seconds), python.memory});
   std::vector<Diagnostic> found;
   try {
     choice.apply(found);

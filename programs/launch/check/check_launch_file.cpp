@@ -14,6 +14,7 @@
 #include "launcher/invocation/find_launch_file.hpp"
 #include "launcher/language/argument_use.hpp"
 #include "launcher/language/introspection.hpp"
+#include "launcher/process/output/output_router.hpp"
 #include "launcher/substitution/unrun_commands.hpp"
 #include "launcher/visit/launch_plan.hpp"
 #include "programs/launch/check/finders.hpp"
@@ -30,6 +31,7 @@ class Checker {
   std::vector<Diagnostic> run(const std::string& path) {
     try {
       LaunchContext context(registry_, environment_, own_prefix(), [](auto, auto, auto) {});
+      context.scope().log_directory = LogDirectory::choose(environment_);
       context.scope().warn = [this](const SourceRange& where, const std::string& text) {
         warn(Finding::kRemark, text, where);
       };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <iterator>
 #include <memory>
@@ -10,6 +11,7 @@
 #include "base/environment/own_prefix.hpp"
 #include "launcher/invocation/find_launch_file.hpp"
 #include "launcher/language/introspection.hpp"
+#include "launcher/python/interpreter/python_guest.hpp"
 #include "launcher/substitution/package_index.hpp"
 #include "programs/launch/command_functions.hpp"
 
@@ -80,6 +82,7 @@ class Completer {
 
   // "name:=", and after that the choices of the argument.
   Words arguments_of(const Words& target, const std::string& current) {
+    run_python_in_a_guest({std::chrono::seconds(5)});
     const auto description = load_launch_files(find_launch_files(target, scope_), registry_, scope_);
     Words words;
     for (const ArgumentInfo& info : find_arguments(*description, registry_, scope_).arguments) {

@@ -2,6 +2,7 @@
 // `launch graph`: draws what a launch file would run.
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -11,6 +12,8 @@
 #include "base/environment/own_environment.hpp"
 #include "base/environment/own_prefix.hpp"
 #include "launcher/invocation/find_launch_file.hpp"
+#include "launcher/process/output/output_router.hpp"
+#include "launcher/python/interpreter/python_guest.hpp"
 #include "launcher/visit/launch_plan.hpp"
 #include "programs/command_line/result_output.hpp"
 #include "programs/command_line/subcommand.hpp"
@@ -59,6 +62,8 @@ int graph_command(const std::vector<std::string>& words) {
   command.take_text("--from-trace", trace.directory, "draw the nodes and topics of this trace");
   command.take_flag("--live", live, "draw the nodes and topics of what runs now: records a short trace of it");
   command.take_text("--seconds", seconds, "how long --live records (default: 1)");
+  PythonLimits python;
+  command.take_python_limits(python);
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;
   }
@@ -82,9 +87,11 @@ int graph_command(const std::vector<std::string>& words) {
     fmt::print(stderr, "{}", usage_error("launch graph", "no launch file given"));
     return kWrongCommandLine;
   }
+  run_python_in_a_guest({std::chrono::seconds(python.seconds), python.memory});
   ResultOutput result("launch graph");
   const Registry registry = builtin_actions();
   LaunchContext context(registry, own_environment(), own_prefix(), [](auto, auto, auto) {});
+  context.scope().log_directory = LogDirectory::choose(own_environment());
   for (const auto& [name, value] : target.arguments) {
     context.scope().configurations.insert_or_assign(name, value);
   }

@@ -99,6 +99,7 @@ std::variant<CommandLine, ExitNow> parse_command_line(const std::vector<std::str
   app.add_option("--crash-dir", command.crash_directory,
                  "make a directory in DIR for each crash: core, backtrace, last output, command")
       ->type_name("DIR");
+  add_python_limits(app, command.python);
   app.add_flag("-n,--noninteractive", noninteractive, "accepted for compatibility; signals are always passed on");
   app.add_option("--launch-prefix", command.launch_prefix, "command line put in front of every process, such as gdb");
   app.add_option("--launch-prefix-filter", command.launch_prefix_filter,

@@ -8,6 +8,8 @@
 #include <variant>
 #include <vector>
 
+#include "programs/command_line/subcommand.hpp"
+
 namespace launch {
 
 enum class CommandMode { kRun, kShowArguments, kPrint, kDryRunText, kDryRunJson, kDryRunShell };
@@ -37,6 +39,7 @@ struct CommandLine {
   std::string crash_directory;
   std::string launch_prefix;
   std::string launch_prefix_filter;
+  PythonLimits python;  // where the file is only looked at
 };
 
 // The exit code when there is nothing to run: after --help, --version or a wrong command line. The text is already

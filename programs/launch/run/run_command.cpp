@@ -36,6 +36,7 @@
 #include "launcher/process/output/old_logs.hpp"
 #include "launcher/process/process_messages.hpp"
 #include "launcher/process/service_manager.hpp"
+#include "launcher/python/interpreter/python_guest.hpp"
 #include "launcher/python/interpreter/python_module.hpp"
 #include "launcher/python/script/script_runtime.hpp"
 #include "launcher/ros/ros_client_process.hpp"
@@ -299,6 +300,9 @@ int run_command(const CommandLine& command, Environment environment,
   std::optional<Guardian> guardian;
   std::optional<ServiceAddress> service_manager;
   std::optional<ScriptOrder> script;
+  if (command.mode != CommandMode::kRun) {
+    run_python_in_a_guest({std::chrono::seconds(command.python.seconds), command.python.memory});
+  }
   if (command.mode == CommandMode::kRun) {
     service_manager = ServiceAddress::take(environment);
     try {
