@@ -2,6 +2,8 @@
 // <log message="…" level="…"/>, <log_info message="…"/> and the other levels: print a message.
 #include <fmt/format.h>
 
+#include <map>
+
 #include "actions/row_action.hpp"
 
 namespace launch {
@@ -34,6 +36,13 @@ void perform_level(const Fields& fields, Scope& scope, LogEntry& message) {
       return;
     }
     known.push_back(known_name);
+  }
+  // Names of Python's logging that ROS 2 knows besides. NOTSET is below every level that is shown.
+  static const std::map<std::string, LogLevel> others = {
+      {"warn", LogLevel::kWarning}, {"fatal", LogLevel::kCritical}, {"notset", LogLevel::kDebug}};
+  if (const auto other = others.find(name); other != others.end()) {
+    message.level = other->second;
+    return;
   }
   throw LaunchError(fmt::format("invalid log level '{}', expected debug, info, warning, error or critical", name),
                     fields.text("level").where(), did_you_mean(name, known));

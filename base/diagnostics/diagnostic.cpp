@@ -27,6 +27,7 @@ struct Cell {
 constexpr std::size_t kTabWidth = 4;
 constexpr std::size_t kMaximumWidth = 100;       // columns of source text shown
 constexpr std::size_t kContextBeforeCaret = 40;  // columns kept before the caret when a line is cut
+constexpr std::size_t kLookedAt = 1024;          // bytes before and after the caret: more than is shown of a line
 constexpr std::string_view kEllipsis = "...";
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD, for bytes that are not UTF-8
 
@@ -81,6 +82,13 @@ struct Excerpt {
 };
 
 Excerpt excerpt_of(std::string_view line, std::size_t begin, std::size_t end) {
+  std::size_t start = begin > kLookedAt ? begin - kLookedAt : 0;
+  while (start > 0 && is_continuation_byte(line[start])) {
+    --start;
+  }
+  line = line.substr(start, begin - start + kLookedAt);
+  begin -= start;
+  end = std::min(end - start, line.size());
   const std::vector<Cell> cells = cells_of(line);
   const auto first_at = [&](std::size_t offset) {
     return static_cast<std::size_t>(

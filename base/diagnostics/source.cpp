@@ -10,13 +10,11 @@
 #include <system_error>
 #include <utility>
 
+#include "base/text/utf8.hpp"
+
 namespace launch {
 
 namespace {
-
-bool is_continuation_byte(char byte) {
-  return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
-}
 
 // The path from the working directory if it is below it.
 std::string_view shown_path(std::string_view path) {
@@ -30,6 +28,13 @@ std::string place(const SourceRange& range, std::string_view path) {
   return fmt::format("{}:{}:{}", path, position.line, position.column);
 }
 
+constexpr std::size_t kBlock = 4096;
+
+std::uint32_t count_characters(std::string_view text) {
+  return static_cast<std::uint32_t>(
+      std::count_if(text.begin(), text.end(), [](char byte) { return !is_continuation_byte(byte); }));
+}
+
 }  // namespace
 
 SourceFile::SourceFile(std::string path, std::string text, SourceRange included_from)
@@ -41,15 +46,24 @@ SourceFile::SourceFile(std::string path, std::string text, SourceRange included_
   for (std::size_t end = text_.find('\n'); end != std::string::npos; end = text_.find('\n', end + 1)) {
     line_starts_.push_back(static_cast<std::uint32_t>(end + 1));
   }
+  std::uint32_t characters = 0;
+  for (std::size_t begin = 0; begin <= text_.size(); begin += kBlock) {
+    block_characters_.push_back(characters);
+    characters += count_characters(std::string_view(text_).substr(begin, kBlock));
+  }
+}
+
+std::uint32_t SourceFile::characters_before(std::size_t offset) const {
+  const std::size_t block = offset / kBlock;
+  return block_characters_[block] + count_characters(std::string_view(text_).substr(block * kBlock, offset % kBlock));
 }
 
 SourceFile::Position SourceFile::position(std::size_t offset) const {
   offset = std::min(offset, text_.size());
   const auto next = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);
   const std::uint32_t start = *std::prev(next);
-  const auto characters = std::count_if(text_.begin() + start, text_.begin() + static_cast<std::ptrdiff_t>(offset),
-                                        [](char byte) { return !is_continuation_byte(byte); });
-  return {static_cast<std::uint32_t>(next - line_starts_.begin()), static_cast<std::uint32_t>(characters) + 1};
+  return {static_cast<std::uint32_t>(next - line_starts_.begin()),
+          characters_before(offset) - characters_before(start) + 1};
 }
 
 std::string_view SourceFile::line(std::uint32_t number) const {

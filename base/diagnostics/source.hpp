@@ -51,7 +51,11 @@ class SourceFile {
   std::string path_;
   std::string text_;
   SourceRange included_from_;
+  // The characters before this byte of the text.
+  std::uint32_t characters_before(std::size_t offset) const;
+
   std::vector<std::uint32_t> line_starts_;
+  std::vector<std::uint32_t> block_characters_;  // before each block of 4,096 bytes: a line may be as long as the file
 };
 
 // "file:line:column" of the start of a range, for a person: a file below the working directory is named from there.

@@ -17,6 +17,11 @@ struct CodePoint {
 // The first character of a text that isn't empty.
 CodePoint decode_utf8(std::string_view text);
 
+// Whether it is a byte within a character, not its first one.
+constexpr bool is_continuation_byte(char byte) {
+  return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
+}
+
 void append_utf8(std::string& text, char32_t character);
 
 bool is_utf8(std::string_view bytes);

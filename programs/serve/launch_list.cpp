@@ -5,10 +5,8 @@
 
 namespace launch::serve {
 
-using Json = ControlClient::Json;
-
-Json launch_list(const Environment& environment) {
-  Json list = Json::array();
+ControlClient::Json launch_list(const Environment& environment) {
+  ControlClient::Json list = ControlClient::Json::array();
   for (FoundLaunch& found : find_launches(environment)) {
     ControlClient client(std::move(found));
     try {

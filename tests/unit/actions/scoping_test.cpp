@@ -139,8 +139,12 @@ TEST(Timers, PeriodMustBeANumberThatIsNotNegative) {
 
 TEST(Logs, LevelsAreChecked) {
   EXPECT_THAT(plan_actions(R"xml(<log level="Warning" message="w"/>)xml").messages, ElementsAre("[launch.user] w"));
-  EXPECT_THAT(plan_actions(R"xml(<log level="warn" message="w"/>)xml").error,
-              testing::HasSubstr("invalid log level 'warn', expected debug, info, warning, error or critical"));
+  for (const std::string level : {"warn", "WARN", "fatal", "NOTSET"}) {
+    EXPECT_THAT(plan_actions("<log level=\"" + level + R"xml(" message="w"/>)xml").messages,
+                ElementsAre("[launch.user] w"));
+  }
+  EXPECT_THAT(plan_actions(R"xml(<log level="warned" message="w"/>)xml").error,
+              testing::HasSubstr("invalid log level 'warned', expected debug, info, warning, error or critical"));
 }
 
 TEST(Loading, EveryErrorOfAFileIsReported) {

@@ -65,8 +65,8 @@ RunTimes::RunTimes(const Recording& recording) : callbacks_(recording.timeline.c
 }
 
 bool RunTimes::differ(const Of& callback) {
-  constexpr std::size_t kEnoughRuns = 5;
-  return callback.sending.size() >= kEnoughRuns && callback.silent.size() >= kEnoughRuns;
+  constexpr std::size_t kEnoughOfEach = 5;
+  return callback.sending.size() >= kEnoughOfEach && callback.silent.size() >= kEnoughOfEach;
 }
 
 Distribution RunTimes::sending(std::size_t callback) const {
