@@ -7,13 +7,42 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
+#include <map>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "base/diagnostics/diagnostic.hpp"
 #include "base/files/unique_fd.hpp"
 
 namespace launch {
+
+namespace {
+
+std::map<std::string, std::string>& unsaved_texts() {
+  static auto* const texts = new std::map<std::string, std::string>;
+  return *texts;
+}
+
+// Null for a file that no editor has changed.
+const std::string* unsaved_text(const std::string& path) {
+  if (unsaved_texts().empty()) {
+    return nullptr;
+  }
+  std::error_code ignored;
+  auto found = unsaved_texts().find(path);
+  if (found == unsaved_texts().end()) {
+    found = unsaved_texts().find(std::filesystem::weakly_canonical(path, ignored).string());
+  }
+  return found == unsaved_texts().end() ? nullptr : &found->second;
+}
+
+}  // namespace
+
+void set_unsaved_texts(std::map<std::string, std::string> texts) {
+  unsaved_texts() = std::move(texts);
+}
 
 std::shared_ptr<const SourceFile> read_source_file(const std::string& path, SourceRange included_from) {
   const auto fail = [&](int error) {
@@ -23,6 +52,9 @@ std::shared_ptr<const SourceFile> read_source_file(const std::string& path, Sour
                           : "",
                       Finding::kUnreadableFile);
   };
+  if (const std::string* const text = unsaved_text(path)) {
+    return std::make_shared<const SourceFile>(path, *text, std::move(included_from));
+  }
   const UniqueFd fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (!fd) {
     fail(errno);

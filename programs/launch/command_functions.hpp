@@ -14,6 +14,7 @@ namespace launch {
 int check_command(const Words& words);
 int explain_command(const Words& words);
 int graph_command(const Words& words);
+int lsp_command(const Words& words);
 int reference_command(const Words& words);
 int run_program_command(const Words& words);  // `launch run`
 int schema_command(const Words& words);

@@ -157,6 +157,7 @@ const std::vector<Command>& command_table() {
        .run = logs_command,
        .asks_launch = true,
        .complete = process_words},
+      {.name = "lsp", .operand = "", .help = "the language server of launch files, for editors", .run = lsp_command},
       ros_command("node", "VERB", "lists and describes nodes"),
       ros_command("param", "VERB", "lists, prints and sets parameters of nodes"),
       {.name = "ps",

@@ -31,17 +31,18 @@ namespace launch {
 
 namespace {
 
-// The parent looks at the guest this often. A look counts no more, so a command that was stopped (Ctrl-Z) loses no time.
+// The parent looks at the guest this often. A look counts no more, so a command that was stopped (Ctrl-Z) loses no
+// time.
 constexpr std::chrono::milliseconds kLook{250};
 // How long a guest may take to die after it was told to.
 constexpr std::chrono::milliseconds kToDie{2000};
 
 // Memory that guest and parent share.
 struct Shared {
-  std::atomic<bool> finished;      // the command has its result
-  std::atomic<bool> lost_output;   // Python closed or replaced a standard descriptor
-  std::atomic<std::uint64_t> call; // counts the calls of Python; 0 while Python does not run
-  std::array<char, 4096> name;     // of the call
+  std::atomic<bool> finished;       // the command has its result
+  std::atomic<bool> lost_output;    // Python closed or replaced a standard descriptor
+  std::atomic<std::uint64_t> call;  // counts the calls of Python; 0 while Python does not run
+  std::array<char, 4096> name;      // of the call
 };
 
 struct Host {
@@ -99,7 +100,8 @@ End watch(pid_t guest, const Shared& shared, std::chrono::nanoseconds limit) {
       return End::kByItself;
     }
     const std::int64_t now = monotonic_time();
-    const std::chrono::nanoseconds look = std::min<std::chrono::nanoseconds>(std::chrono::nanoseconds(now - last), 2 * kLook);
+    const std::chrono::nanoseconds look =
+        std::min<std::chrono::nanoseconds>(std::chrono::nanoseconds(now - last), 2 * kLook);
     last = now;
     taken = shared.call == call && call != 0 ? taken + look : std::chrono::nanoseconds{0};
     call = shared.call;
@@ -145,7 +147,8 @@ GuestRefusal refusal_of(int status, End end, const Shared& shared, const GuestLi
   const std::string help = "it would end a launch in the same way";
   if (WIFSIGNALED(status)) {
     const char* const name = ::sigabbrev_np(WTERMSIG(status));
-    return {fmt::format("Python ends here by SIG{}", name == nullptr ? std::to_string(WTERMSIG(status)) : name), 0, help};
+    return {fmt::format("Python ends here by SIG{}", name == nullptr ? std::to_string(WTERMSIG(status)) : name), 0,
+            help};
   }
   return {fmt::format("Python ends the program here, with exit code {}", WEXITSTATUS(status)), 0, help};
 }

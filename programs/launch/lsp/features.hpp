@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// The answers to an editor's questions about a place in a launch file. Each takes a position of the protocol and gives
+// the result of the request, null for none.
+#pragma once
+
+#include <string>
+
+#include "programs/launch/lsp/workspace.hpp"
+
+namespace launch::lsp {
+
+// A document with what stands in it.
+struct Reading {
+  const std::string path;
+  const Document& document;
+  const Outline outline;
+};
+
+Json complete(const Workspace& workspace, const Reading& reading, const Json& position);          // completion.cpp
+Json describe(const Workspace& workspace, const Reading& reading, const Json& position);          // hover.cpp
+Json inlay_hints(const Workspace& workspace, const Reading& reading, const Json& range);           // inlay_hints.cpp
+Json definition(const Workspace& workspace, const Reading& reading, const Json& position);        // navigation.cpp
+Json symbols(const Reading& reading);                                                             // navigation.cpp
+Json folds(const Reading& reading);                                                               // navigation.cpp
+
+// Where an argument or a configuration of the file is declared and read. `everywhere`: also in the launch files below
+// the folder that include this file and give it the argument. Null when nothing of that kind stands at the position.
+Json references(const Workspace& workspace, const Reading& reading, const Json& position,
+                const std::string& folder);                                                       // references.cpp
+Json prepare_rename(const Reading& reading, const Json& position);                                // references.cpp
+Json rename(const Workspace& workspace, const Reading& reading, const Json& position, const std::string& name,
+            const std::string& folder);                                                           // references.cpp
+
+// The diagnostics of the document, those of `launch check`. Runs the check in this process.
+Json diagnostics(const Workspace& workspace, const Reading& reading);                             // diagnostics.cpp
+// What the suggestions of the diagnostics would change.
+Json code_actions(const Reading& reading, const Json& diagnostics);                               // diagnostics.cpp
+
+}  // namespace launch::lsp

@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "programs/launch/lsp/server.hpp"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <stdexcept>
+#include <utility>
+
+#include "launcher/python/interpreter/python_guest.hpp"
+#include "programs/launch/lsp/features.hpp"
+
+namespace launch::lsp {
+
+namespace {
+
+// Error codes of JSON-RPC and of the protocol.
+constexpr int kParseError = -32700;
+constexpr int kInvalidRequest = -32600;
+constexpr int kMethodNotFound = -32601;
+constexpr int kInvalidParams = -32602;
+constexpr int kInternalError = -32603;
+constexpr int kServerNotInitialized = -32002;
+
+constexpr int kIncremental = 2;  // TextDocumentSyncKind
+
+struct UnknownMethod {};
+
+bool write_all(int fd, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = ::write(fd, text.data(), text.size());
+    if (count < 0 && errno != EINTR) {
+      return false;
+    }
+    text.remove_prefix(count > 0 ? static_cast<std::size_t>(count) : 0);
+  }
+  return true;
+}
+
+std::string document_path(const Json& parameters) {
+  return path_of(parameters.at("textDocument").at("uri").get_ref<const std::string&>());
+}
+
+bool is_python(const std::string& path) {
+  return path.ends_with(".py");
+}
+
+}  // namespace
+
+Server::Server(ServerOptions options, int in, int out) : options_(options), in_(in), out_(out) {
+  ::signal(SIGPIPE, SIG_IGN);
+}
+
+Server::~Server() {
+  end_check();
+}
+
+int Server::run() {
+  std::array<char, 64UL << 10U> bytes{};
+  while (!ended_) {
+    if (!check_) {
+      begin_check();
+    }
+    std::array<pollfd, 2> events = {{{in_, POLLIN, 0}, {check_ ? check_->result.get() : -1, POLLIN, 0}}};
+    if (::poll(events.data(), events.size(), -1) < 0 && errno != EINTR) {
+      return EXIT_FAILURE;
+    }
+    if ((events[0].revents & (POLLIN | POLLHUP | POLLERR)) != 0) {
+      const ssize_t count = ::read(in_, bytes.data(), bytes.size());
+      if (count == 0 || (count < 0 && errno != EINTR && errno != EAGAIN)) {
+        break;
+      }
+      reader_.add({bytes.data(), static_cast<std::size_t>(std::max<ssize_t>(count, 0))});
+      while (!ended_) {
+        const std::optional<Json> message = reader_.next();
+        if (!message) {
+          break;
+        }
+        take(*message);
+      }
+    }
+    if (check_ && (events[1].revents & (POLLIN | POLLHUP | POLLERR)) != 0) {
+      read_check();
+    }
+  }
+  return shut_down_ ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+void Server::take(const Json& message) {
+  if (message.is_null()) {
+    answer_with_error(nullptr, kParseError, "this is not JSON");
+    return;
+  }
+  const auto method = message.is_object() ? message.find("method") : message.end();
+  const bool is_request = message.is_object() && message.contains("id");
+  if (!message.is_object() || method == message.end() || !method->is_string()) {
+    if (!message.is_object() || !message.contains("result")) {
+      answer_with_error(is_request ? message.at("id") : Json(), kInvalidRequest, "this is no request");
+    }
+    return;
+  }
+  const Json parameters = message.value("params", Json::object());
+  const auto& name = method->get_ref<const std::string&>();
+  if (!is_request) {
+    try {
+      notice(name, parameters);
+    } catch (const std::exception&) {
+      // Notices have no answer.
+    }
+    return;
+  }
+  const Json& id = message.at("id");
+  try {
+    if (!initialized_ && name != "initialize") {
+      answer_with_error(id, kServerNotInitialized, "the first request must be 'initialize'");
+    } else if (shut_down_) {
+      answer_with_error(id, kInvalidRequest, "the server is shut down");
+    } else {
+      answer_with(id, answer(name, parameters));
+    }
+  } catch (const UnknownMethod&) {
+    answer_with_error(id, kMethodNotFound, fmt::format("'{}' is not known here", name));
+  } catch (const Json::exception& error) {
+    answer_with_error(id, kInvalidParams, error.what());
+  } catch (const std::invalid_argument& error) {
+    answer_with_error(id, kInvalidParams, error.what());
+  } catch (const std::exception& error) {
+    answer_with_error(id, kInternalError, error.what());
+  }
+}
+
+Json Server::initialize(const Json& parameters) {
+  const Json options = parameters.value("initializationOptions", Json());
+  if (options.is_object()) {
+    options_.runs_python = options.value("runPython", options_.runs_python);
+  }
+  if (const Json root = parameters.value("rootUri", Json()); root.is_string()) {
+    folder_ = path_of(root.get_ref<const std::string&>());
+  }
+  workspace_.emplace(options_.runs_python);
+  initialized_ = true;
+  return {{"capabilities",
+           {{"textDocumentSync", {{"openClose", true}, {"change", kIncremental}, {"save", true}}},
+            {"completionProvider", {{"triggerCharacters", {"<", "\"", "'", "$", "(", " ", "/"}}}},
+            {"hoverProvider", true},
+            {"definitionProvider", true},
+            {"referencesProvider", true},
+            {"renameProvider", {{"prepareProvider", true}}},
+            {"documentSymbolProvider", true},
+            {"foldingRangeProvider", true},
+            {"inlayHintProvider", true},
+            {"codeActionProvider", {{"codeActionKinds", {"quickfix"}}}}}},
+          {"serverInfo", {{"name", "launch lsp"}, {"version", LAUNCH_VERSION}}}};
+}
+
+Json Server::answer(const std::string& method, const Json& parameters) {
+  if (method == "initialize") {
+    return initialize(parameters);
+  }
+  if (method == "shutdown") {
+    shut_down_ = true;
+    return nullptr;
+  }
+  if (!method.starts_with("textDocument/")) {
+    throw UnknownMethod();
+  }
+  const std::string path = document_path(parameters);
+  const Document* const document = workspace_->find(path);
+  if (document == nullptr) {
+    throw std::invalid_argument(fmt::format("'{}' is not open", path));
+  }
+  const Reading reading = {path, *document, is_python(path) ? Outline() : outline_of(document->text())};
+  const auto position = [&] { return parameters.at("position"); };
+  if (method == "textDocument/completion") {
+    return is_python(path) ? Json() : complete(*workspace_, reading, position());
+  }
+  if (method == "textDocument/hover") {
+    return describe(*workspace_, reading, position());
+  }
+  if (method == "textDocument/definition") {
+    return definition(*workspace_, reading, position());
+  }
+  if (method == "textDocument/references") {
+    return references(*workspace_, reading, position(), folder_);
+  }
+  if (method == "textDocument/prepareRename") {
+    return prepare_rename(reading, position());
+  }
+  if (method == "textDocument/rename") {
+    return rename(*workspace_, reading, position(), parameters.at("newName").get<std::string>(), folder_);
+  }
+  if (method == "textDocument/documentSymbol") {
+    return symbols(reading);
+  }
+  if (method == "textDocument/foldingRange") {
+    return folds(reading);
+  }
+  if (method == "textDocument/inlayHint") {
+    return inlay_hints(*workspace_, reading, parameters.at("range"));
+  }
+  if (method == "textDocument/codeAction") {
+    return code_actions(reading, parameters.at("context").at("diagnostics"));
+  }
+  throw UnknownMethod();
+}
+
+void Server::notice(const std::string& method, const Json& parameters) {
+  if (method == "exit") {
+    ended_ = true;
+    return;
+  }
+  if (!workspace_ || !method.starts_with("textDocument/")) {
+    return;
+  }
+  const std::string path = document_path(parameters);
+  if (method == "textDocument/didOpen") {
+    workspace_->open(path, parameters.at("textDocument").at("text").get<std::string>());
+  } else if (method == "textDocument/didChange") {
+    Document* const document = workspace_->find(path);
+    if (document == nullptr) {
+      return;
+    }
+    for (const Json& change : parameters.at("contentChanges")) {
+      document->change(change);
+    }
+    if (is_python(path)) {
+      return;  // nothing runs while somebody is typing
+    }
+  } else if (method == "textDocument/didClose") {
+    workspace_->close(path);
+    std::erase(to_check_, path);
+    publish(path, Json::array());
+    return;
+  } else if (method != "textDocument/didSave") {
+    return;
+  }
+  check_later(path);
+  for (const auto& [other, text] : workspace_->texts()) {
+    if (other != path && !is_python(other)) {
+      check_later(other);  // it may include this one
+    }
+  }
+}
+
+void Server::check_later(const std::string& path) {
+  if (path.empty() || (is_python(path) && !options_.runs_python)) {
+    return;
+  }
+  if (check_ && check_->path == path) {
+    end_check();
+  }
+  std::erase(to_check_, path);
+  to_check_.push_back(path);
+}
+
+void Server::begin_check() {
+  while (!to_check_.empty() && workspace_->find(to_check_.front()) == nullptr) {
+    to_check_.pop_front();
+  }
+  std::array<int, 2> ends{};
+  if (to_check_.empty() || ::pipe2(ends.data(), O_CLOEXEC) != 0) {
+    return;
+  }
+  UniqueFd result(ends[0]);
+  const UniqueFd write_end(ends[1]);
+  const std::string path = std::move(to_check_.front());
+  to_check_.pop_front();
+  const pid_t server = ::getpid();
+  const pid_t process = ::fork();
+  if (process == 0) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != server) {
+      ::_exit(EXIT_FAILURE);
+    }
+    // What a launch file prints must not get among the messages.
+    const UniqueFd nowhere(::open("/dev/null", O_RDWR | O_CLOEXEC));
+    ::dup2(nowhere.get(), STDIN_FILENO);
+    ::dup2(nowhere.get(), STDOUT_FILENO);
+    run_python_in_a_guest({std::chrono::seconds(20)});
+    const Document& document = *workspace_->find(path);
+    const Reading reading = {path, document, {}};
+    const bool written = write_all(write_end.get(), diagnostics(*workspace_, reading).dump(-1, ' ', false, Json::error_handler_t::replace));
+    end_of_guest();
+    ::_exit(written ? EXIT_SUCCESS : EXIT_FAILURE);
+  }
+  if (process > 0) {
+    check_.emplace(Check{path, process, std::move(result), {}});
+  }
+}
+
+void Server::read_check() {
+  std::array<char, 64UL << 10U> bytes{};
+  const ssize_t count = ::read(check_->result.get(), bytes.data(), bytes.size());
+  if (count > 0) {
+    check_->text.append(bytes.data(), static_cast<std::size_t>(count));
+    return;
+  }
+  if (count < 0 && (errno == EINTR || errno == EAGAIN)) {
+    return;
+  }
+  Json found = Json::parse(check_->text, nullptr, false);
+  const std::string path = check_->path;
+  end_check();
+  if (!found.is_discarded() && workspace_->find(path) != nullptr) {
+    publish(path, std::move(found));
+  }
+}
+
+void Server::end_check() {
+  if (check_) {
+    ::kill(check_->process, SIGKILL);
+    while (::waitpid(check_->process, nullptr, 0) < 0 && errno == EINTR) {
+    }
+    check_.reset();
+  }
+}
+
+void Server::publish(const std::string& path, Json diagnostics) {
+  send({{"jsonrpc", "2.0"},
+        {"method", "textDocument/publishDiagnostics"},
+        {"params", {{"uri", uri_of(path)}, {"diagnostics", std::move(diagnostics)}}}});
+}
+
+void Server::send(const Json& message) {
+  if (!write_all(out_, framed(message))) {
+    ended_ = true;
+  }
+}
+
+void Server::answer_with(const Json& id, Json result) {
+  send({{"jsonrpc", "2.0"}, {"id", id}, {"result", std::move(result)}});
+}
+
+void Server::answer_with_error(const Json& id, int code, const std::string& message) {
+  send({{"jsonrpc", "2.0"}, {"id", id}, {"error", {{"code", code}, {"message", message}}}});
+}
+
+}  // namespace launch::lsp

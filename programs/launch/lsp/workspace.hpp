@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the features of the server look things up in: the documents in the editor, the packages of the environment, and
+// other launch files.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "launcher/language/introspection.hpp"
+#include "launcher/language/registry.hpp"
+#include "launcher/substitution/scope.hpp"
+#include "programs/launch/lsp/document.hpp"
+#include "programs/launch/lsp/outline.hpp"
+
+namespace launch::lsp {
+
+class Workspace {
+ public:
+  // `runs_python`: Python launch files may be run, to learn their arguments and errors.
+  explicit Workspace(bool runs_python);
+
+  void open(const std::string& path, std::string text);
+  void close(const std::string& path);
+  // Null when it is not open.
+  Document* find(const std::string& path);
+  // The texts that are open, by path.
+  std::map<std::string, std::string> texts() const;
+
+  // The open document, or the file. nullopt when there is none.
+  std::optional<Document> document(const std::string& path) const;
+
+  const Registry& registry() const { return registry_; }
+  const Environment& environment() const { return environment_; }
+  bool runs_python() const { return runs_python_; }
+
+  std::vector<std::string> packages() const;
+  std::vector<std::string> executables(const std::string& package) const;
+  std::vector<std::string> components() const;  // classes that can be loaded into containers
+  // PREFIX/share/PACKAGE and the program; "" when there is none.
+  std::string share(const std::string& package) const;
+  std::string executable(const std::string& package, const std::string& name) const;
+
+  // The text with its substitutions performed, as far as they are known without a visit: packages, the environment,
+  // $(dirname), and arguments with a default. nullopt when something is unknown.
+  std::optional<std::string> performed(const std::string& path, const Outline& outline, std::string_view text) const;
+
+  // The arguments that a launch file declares: those of the files that it includes, too, if it can be loaded.
+  struct Argument {
+    std::string name;
+    std::string description;
+    std::optional<std::string> default_value;  // as --show-args shows it
+    std::vector<std::string> choices;
+  };
+  std::vector<Argument> arguments_of(const std::string& path) const;
+
+ private:
+  // Those that stand in its text.
+  std::vector<Argument> written_arguments_of(const std::string& path) const;
+  Scope scope_in(const std::string& path, const Outline& outline) const;
+
+  bool runs_python_;
+  Environment environment_;
+  Registry registry_;
+  std::shared_ptr<PackageIndex> packages_;
+  std::map<std::string, Document> documents_;
+};
+
+}  // namespace launch::lsp
