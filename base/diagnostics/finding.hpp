@@ -27,6 +27,7 @@ enum class Finding : std::uint16_t {
   kWrongValue = 106,
   kExtension = 107,
   kStrayText = 108,
+  kUselessIgnore = 109,
 
   // What it comes to.
   kUndefined = 201,

@@ -18,6 +18,7 @@
 #include "programs/command_line/subcommand.hpp"
 #include "programs/launch/check/check_launch_file.hpp"
 #include "programs/launch/check/diagnostic_output.hpp"
+#include "programs/launch/check/finding_baseline.hpp"
 #include "programs/launch/check/finding_table.hpp"
 #include "programs/launch/command_functions.hpp"
 
@@ -133,7 +134,12 @@ int check_command(const std::vector<std::string>& words) {
       "out, and looks for the packages, programs, parameter files and included files that they name. Exit code 1 when "
       "there are errors.");
   command.take_target(target);
-  command.take_choice("--format", format, {"text", "json", "sarif"}, "text, json or sarif");
+  command.take_choice("--format", format, {"text", "json", "sarif", "github", "gitlab"},
+                      "text; json; sarif; github: annotations of GitHub Actions; gitlab: a report for Code Quality");
+  std::string baseline;
+  command.take_text("--baseline", baseline, "leave out the findings in this file, so that new ones are left");
+  std::string new_baseline;
+  command.take_text("--write-baseline", new_baseline, "write the findings into this file, and exit with 0");
   command.take_flag("--strict-ros2", options.strict_ros2,
                     "tags and attributes that ros2 launch does not know are errors");
   command.take_flag("--werror", choice.warnings_are_errors, "warnings are errors");
@@ -194,16 +200,36 @@ int check_command(const std::vector<std::string>& words) {
     found.insert(found.end(), of_file.begin(), of_file.end());
   }
   choice.apply(found);
+  std::string of_baseline;
+  try {
+    if (!new_baseline.empty()) {
+      write_baseline(new_baseline, found);
+      fmt::print(stderr, "launch check: {} written to {}\n", counted(found.size(), "finding"), new_baseline);
+      return 0;
+    }
+    if (!baseline.empty()) {
+      const ComparedWithBaseline compared = leave_out_known(baseline, found);
+      of_baseline = fmt::format(", {} of the baseline{}", counted(compared.known, "finding"),
+                                compared.gone == 0 ? "" : fmt::format(" ({} of it gone)", compared.gone));
+    }
+  } catch (const LaunchError& error) {
+    print_errors(error, "launch check");
+    return 1;
+  }
   const auto errors = static_cast<std::size_t>(std::count_if(
       found.begin(), found.end(), [](const Diagnostic& one) { return one.severity == Severity::kError; }));
   if (format == "json") {
     result.print(diagnostics_as_json(found));
   } else if (format == "sarif") {
     result.print(diagnostics_as_sarif(found));
+  } else if (format == "github") {
+    result.print(diagnostics_for_github(found));
+  } else if (format == "gitlab") {
+    result.print(diagnostics_for_gitlab(found));
   } else {
     result.print(diagnostics_as_text(found, result.has_colour()));
-    result.print(fmt::format("{}: {}, {}\n", counted(files.size(), "file"), counted(errors, "error"),
-                             counted(found.size() - errors, "warning")));
+    result.print(fmt::format("{}: {}, {}{}\n", counted(files.size(), "file"), counted(errors, "error"),
+                             counted(found.size() - errors, "warning"), of_baseline));
   }
   return result.finish() && errors == 0 ? 0 : 1;
 }

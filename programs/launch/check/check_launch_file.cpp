@@ -18,6 +18,7 @@
 #include "launcher/substitution/unrun_commands.hpp"
 #include "launcher/visit/launch_plan.hpp"
 #include "programs/launch/check/finders.hpp"
+#include "programs/launch/check/ignored_findings.hpp"
 
 namespace launch {
 
@@ -45,10 +46,19 @@ class Checker {
       add(error);
       check_what_does_not_load(path);
     }
+    leave_out_ignored(readable(path), found_);
     return std::move(found_);
   }
 
  private:
+  static std::shared_ptr<const SourceFile> readable(const std::string& path) {
+    try {
+      return read_source_file(path);
+    } catch (const LaunchError&) {
+      return nullptr;
+    }
+  }
+
   // Extensions are found even in a file with other errors, unless the file can't be read at all.
   void check_what_does_not_load(const std::string& path) {
     if (!options_.strict_ros2) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Diagnostics for programs: JSON of our own, and SARIF 2.1.0, which editors and code hosts show.
+// Diagnostics for programs: JSON of our own, SARIF 2.1.0, which editors and code hosts show, and annotations of code
+// hosts.
 #pragma once
 
 #include <string>
@@ -18,5 +19,10 @@ std::string diagnostics_as_text(const std::vector<Diagnostic>& diagnostics, bool
 
 // One run of the tool `launch check`, with a rule for each kind that was found.
 std::string diagnostics_as_sarif(const std::vector<Diagnostic>& diagnostics);
+
+// Annotations of GitHub Actions (workflow commands), and a report for GitLab's Code Quality. Files are named from the
+// working directory.
+std::string diagnostics_for_github(const std::vector<Diagnostic>& diagnostics);  // diagnostic_annotations.cpp
+std::string diagnostics_for_gitlab(const std::vector<Diagnostic>& diagnostics);  // diagnostic_annotations.cpp
 
 }  // namespace launch

@@ -90,6 +90,16 @@ def generate_launch_description():
   <set_env name="LANG" value="C"/> only for the talker
 </launch>
 )x"},
+    {Finding::kUselessIgnore, "Comment that ignores nothing", Severity::kWarning,
+     "A comment `launch: ignore LF0501: REASON` leaves findings with this id out, on its own line, and on the next one "
+     "if "
+     "it has its line for itself. This one names no finding, gives no reason, or there is nothing to ignore any more.",
+     R"x(<launch>
+  <!-- launch: ignore LF0501: the robot's operator gives it -->
+  <arg name="site" default="hall"/>
+  <log message="$(var site)"/>
+</launch>
+)x"},
 
     {Finding::kUndefined, "Nothing has this name", Severity::kError,
      "A configuration, an environment variable, a parameter or a loop variable that a substitution reads is not set "

@@ -34,7 +34,8 @@ std::vector<ArgumentPlace> argument_places(const Outline& outline, std::string_v
       }
       const Span value = *attribute.value;
       if (names && attribute.name == "name") {
-        const bool given = element.parent >= 0 && outline.elements[static_cast<std::size_t>(element.parent)].tag == "include";
+        const bool given =
+            element.parent >= 0 && outline.elements[static_cast<std::size_t>(element.parent)].tag == "include";
         places.push_back({given ? ArgumentPlace::Kind::kGiven : ArgumentPlace::Kind::kDeclared,
                           std::string(text.substr(value.begin, value.end - value.begin)), value,
                           given ? element.parent : -1});

@@ -20,7 +20,7 @@ struct ArgumentPlace {
 
   Kind kind;
   std::string name;
-  Span span;        // of the name
+  Span span;         // of the name
   int include = -1;  // number of the element `include`, of what is given
 };
 

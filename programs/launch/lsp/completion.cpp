@@ -19,14 +19,14 @@ namespace {
 namespace fs = std::filesystem;
 
 // CompletionItemKind
-constexpr int kVariable = 6;
-constexpr int kClass = 7;
-constexpr int kModule = 9;
-constexpr int kProperty = 10;
-constexpr int kValue = 12;
-constexpr int kFile = 17;
-constexpr int kFunction = 3;
-constexpr int kFolder = 19;
+constexpr int kVariableItem = 6;
+constexpr int kClassItem = 7;
+constexpr int kModuleItem = 9;
+constexpr int kPropertyItem = 10;
+constexpr int kValueItem = 12;
+constexpr int kFileItem = 17;
+constexpr int kFunctionItem = 3;
+constexpr int kFolderItem = 19;
 constexpr int kSnippet = 2;  // InsertTextFormat
 
 class Completion {
@@ -45,7 +45,9 @@ class Completion {
   }
 
  private:
-  const OutlineElement& element(int number) const { return reading_.outline.elements[static_cast<std::size_t>(number)]; }
+  const OutlineElement& element(int number) const {
+    return reading_.outline.elements[static_cast<std::size_t>(number)];
+  }
 
   // The last element whose head holds the place, or else the innermost one around it.
   int element_around() const {
@@ -101,7 +103,7 @@ class Completion {
 
   void tags(int parent, std::size_t begin) {
     if (parent < 0) {
-      add("launch", kClass, begin, "the root of a launch file");
+      add("launch", kClassItem, begin, "the root of a launch file");
       return;
     }
     const Declared around = declared(reading_.outline, parent, workspace_.registry());
@@ -111,12 +113,13 @@ class Completion {
     std::set<std::string> seen;
     for (const ItemSpec& item : around.items()) {
       seen.insert(item.tag);
-      add(item.tag, kClass, begin, item.help, open + item.tag + close);
+      add(item.tag, kClassItem, begin, item.help, open + item.tag + close);
     }
     if (around.holds_actions()) {
       for (const auto& [tag, type] : workspace_.registry().types()) {
         if (!seen.contains(tag)) {
-          add(tag, kClass, begin, type.help + (type.extension ? " (Not known to ros2 launch.)" : ""), open + tag + close);
+          add(tag, kClassItem, begin, type.help + (type.extension ? " (Not known to ros2 launch.)" : ""),
+              open + tag + close);
         }
       }
     }
@@ -131,7 +134,7 @@ class Completion {
         continue;
       }
       const bool has_value = there != nullptr && there->value;
-      Json& item = add(attribute.name, kProperty, begin, attribute.help,
+      Json& item = add(attribute.name, kPropertyItem, begin, attribute.help,
                        has_value ? attribute.name : attribute.name + (reading_.outline.yaml ? ": " : "=\"$1\""));
       if (!has_value && !reading_.outline.yaml) {
         item["insertTextFormat"] = kSnippet;
@@ -140,13 +143,14 @@ class Completion {
     }
     if (reading_.outline.yaml) {
       for (const ItemSpec& item : what.items()) {
-        add(item.tag, kClass, begin, item.help, item.tag + ":");
+        add(item.tag, kClassItem, begin, item.help, item.tag + ":");
       }
     }
   }
 
   void value(int number, const OutlineAttribute& attribute) {
-    const std::string_view written = std::string_view(text_).substr(attribute.value->begin, offset_ - attribute.value->begin);
+    const std::string_view written =
+        std::string_view(text_).substr(attribute.value->begin, offset_ - attribute.value->begin);
     if (const std::optional<OpenSubstitution> open = open_substitution(written)) {
       substitution(*open, attribute.value->begin + open->begin);
       return;
@@ -162,14 +166,14 @@ class Completion {
       }
     };
     if (spec != nullptr && spec->type == AttributeType::kBoolean) {
-      add_all({"true", "false"}, kValue);
+      add_all({"true", "false"}, kValueItem);
     }
     if (attribute.name == "pkg") {
-      add_all(workspace_.packages(), kModule);
+      add_all(workspace_.packages(), kModuleItem);
     } else if (attribute.name == "exec") {
-      add_all(workspace_.executables(performed(value_of(of, "pkg", text_))), kFile);
+      add_all(workspace_.executables(performed(value_of(of, "pkg", text_))), kFileItem);
     } else if (attribute.name == "plugin") {
-      add_all(workspace_.components(), kClass);
+      add_all(workspace_.components(), kClassItem);
     } else if (attribute.name == "file" && of.tag == "include") {
       files(written, begin);
     } else if (attribute.name == "name" && (of.tag == "arg" || of.tag == "let") && of.parent >= 0 &&
@@ -177,14 +181,15 @@ class Completion {
       arguments_of_include(element(of.parent), begin);
     } else if (attribute.name == "value" && of.tag == "arg" && of.parent >= 0 && element(of.parent).tag == "include") {
       for (const Workspace::Argument& argument : arguments_of(element(of.parent))) {
-        add_all(argument.name == value_of(of, "name", text_) ? argument.choices : std::vector<std::string>{}, kValue);
+        add_all(argument.name == value_of(of, "name", text_) ? argument.choices : std::vector<std::string>{},
+                kValueItem);
       }
     } else if (spec != nullptr) {
       words_of_help(spec->help, begin);
     }
     if (spec != nullptr && spec->type != AttributeType::kLiteral && written.ends_with('$')) {
       for (const SubstitutionType& type : substitution_types()) {
-        add(type.usage, kFunction, offset_ - 1, type.help, "$(" + type.name);
+        add(type.usage, kFunctionItem, offset_ - 1, type.help, "$(" + type.name);
       }
     }
   }
@@ -202,14 +207,14 @@ class Completion {
     }
     std::istringstream words(match.str(1) + match.str(2) + ", " + match.str(3));
     for (std::string word; std::getline(words >> std::ws, word, ',');) {
-      add(word, kValue, begin);
+      add(word, kValueItem, begin);
     }
   }
 
   void files(std::string_view written, std::size_t begin) {
     const std::size_t slash = written.rfind('/');
-    const std::string folder =
-        slash == std::string_view::npos ? fs::path(reading_.path).parent_path().string() : performed(written.substr(0, slash));
+    const std::string folder = slash == std::string_view::npos ? fs::path(reading_.path).parent_path().string()
+                                                               : performed(written.substr(0, slash));
     const std::size_t at = slash == std::string_view::npos ? begin : begin + slash + 1;
     std::error_code unreadable;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder.empty() ? "/" : folder, unreadable)) {
@@ -219,20 +224,21 @@ class Completion {
       }
       const bool here = slash == std::string_view::npos;
       if (entry.is_directory(unreadable)) {
-        add(name + "/", kFolder, at, {}, here ? "$(dirname)/" + name + "/" : name + "/");
+        add(name + "/", kFolderItem, at, {}, here ? "$(dirname)/" + name + "/" : name + "/");
       } else if (is_launch_file(entry.path())) {
-        add(name, kFile, at, {}, here ? "$(dirname)/" + name : name);
+        add(name, kFileItem, at, {}, here ? "$(dirname)/" + name : name);
       }
     }
   }
 
   std::vector<Workspace::Argument> arguments_of(const OutlineElement& include) const {
-    return workspace_.arguments_of((fs::path(reading_.path).parent_path() / performed(value_of(include, "file", text_))).string());
+    return workspace_.arguments_of(
+        (fs::path(reading_.path).parent_path() / performed(value_of(include, "file", text_))).string());
   }
 
   void arguments_of_include(const OutlineElement& include, std::size_t begin) {
     for (const Workspace::Argument& argument : arguments_of(include)) {
-      Json& item = add(argument.name, kVariable, begin, argument.description);
+      Json& item = add(argument.name, kVariableItem, begin, argument.description);
       item["detail"] = argument.default_value ? "default: " + *argument.default_value : "required";
     }
   }
@@ -240,7 +246,7 @@ class Completion {
   void substitution(const OpenSubstitution& open, std::size_t begin) {
     if (open.in_name) {
       for (const SubstitutionType& type : substitution_types()) {
-        add(type.name, kFunction, begin, type.usage + ": " + type.help);
+        add(type.name, kFunctionItem, begin, type.usage + ": " + type.help);
       }
       return;
     }
@@ -255,21 +261,21 @@ class Completion {
       }
       names.erase("");
       for (const std::string& name : names) {
-        add(name, kVariable, begin);
+        add(name, kVariableItem, begin);
       }
     } else if (open.name == "env" || open.name == "optenv") {
       for (const auto& [name, content] : workspace_.environment()) {
         if (place == 1) {
-          add(name, kVariable, begin);
+          add(name, kVariableItem, begin);
         }
       }
     } else if ((open.name == "find-pkg-share" || open.name == "find-pkg-prefix") && place == 1) {
       for (const std::string& name : workspace_.packages()) {
-        add(name, kModule, begin);
+        add(name, kModuleItem, begin);
       }
     } else if (open.name == "exec-in-pkg") {
       for (const std::string& name : place == 2 ? workspace_.packages() : std::vector<std::string>{}) {
-        add(name, kModule, begin);
+        add(name, kModuleItem, begin);
       }
     }
   }

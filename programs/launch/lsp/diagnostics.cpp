@@ -14,8 +14,8 @@ namespace launch::lsp {
 namespace {
 
 // DiagnosticSeverity
-constexpr int kError = 1;
-constexpr int kWarning = 2;
+constexpr int kErrorSeverity = 1;
+constexpr int kWarningSeverity = 2;
 
 Json range_in(const SourceFile& file, const SourceRange& where) {
   return Document(file.text()).range(where.begin, where.end);
@@ -54,7 +54,7 @@ Json diagnostics(const Workspace& workspace, const Reading& reading) {
       here = here.file->included_from();
     }
     Json item = {{"range", here ? range_in(*here.file, here) : reading.document.range(0, 0)},
-                 {"severity", diagnostic.severity == Severity::kError ? kError : kWarning},
+                 {"severity", diagnostic.severity == Severity::kError ? kErrorSeverity : kWarningSeverity},
                  {"code", finding_id(diagnostic.finding)},
                  {"source", "launch"},
                  {"message", diagnostic.message + (diagnostic.help.empty() ? "" : "\n" + diagnostic.help)}};
@@ -79,11 +79,12 @@ Json code_actions(const Reading& reading, const Json& diagnostics) {
     const Json names = diagnostic.value("data", Json::array());
     for (const Json& name : names.is_array() ? names : Json::array()) {
       const auto& text = name.get_ref<const std::string&>();
-      actions.push_back({{"title", fmt::format("Change to '{}'", text)},
-                         {"kind", "quickfix"},
-                         {"diagnostics", Json::array({diagnostic})},
-                         {"isPreferred", names.size() == 1},
-                         {"edit", {{"changes", {{uri, Json::array({{{"range", diagnostic.at("range")}, {"newText", text}}})}}}}}});
+      actions.push_back(
+          {{"title", fmt::format("Change to '{}'", text)},
+           {"kind", "quickfix"},
+           {"diagnostics", Json::array({diagnostic})},
+           {"isPreferred", names.size() == 1},
+           {"edit", {{"changes", {{uri, Json::array({{{"range", diagnostic.at("range")}, {"newText", text}}})}}}}}});
     }
   }
   return actions;

@@ -93,13 +93,11 @@ std::string path_of(std::string_view uri) {
 }
 
 std::string uri_of(std::string_view path) {
-  constexpr std::string_view kPlain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~/";
+  constexpr std::string_view kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~/";
   std::string uri = "file://";
   for (const char byte : path) {
-    uri += kPlain.find(byte) != std::string_view::npos
-               ? std::string(1, byte)
-               : fmt::format("%{:02X}", static_cast<unsigned char>(byte));
+    uri += kPlain.find(byte) != std::string_view::npos ? std::string(1, byte)
+                                                       : fmt::format("%{:02X}", static_cast<unsigned char>(byte));
   }
   return uri;
 }

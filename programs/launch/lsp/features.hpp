@@ -16,24 +16,24 @@ struct Reading {
   const Outline outline;
 };
 
-Json complete(const Workspace& workspace, const Reading& reading, const Json& position);          // completion.cpp
-Json describe(const Workspace& workspace, const Reading& reading, const Json& position);          // hover.cpp
-Json inlay_hints(const Workspace& workspace, const Reading& reading, const Json& range);           // inlay_hints.cpp
-Json definition(const Workspace& workspace, const Reading& reading, const Json& position);        // navigation.cpp
-Json symbols(const Reading& reading);                                                             // navigation.cpp
-Json folds(const Reading& reading);                                                               // navigation.cpp
+Json complete(const Workspace& workspace, const Reading& reading, const Json& position);    // completion.cpp
+Json describe(const Workspace& workspace, const Reading& reading, const Json& position);    // hover.cpp
+Json inlay_hints(const Workspace& workspace, const Reading& reading, const Json& range);    // inlay_hints.cpp
+Json definition(const Workspace& workspace, const Reading& reading, const Json& position);  // navigation.cpp
+Json symbols(const Reading& reading);                                                       // navigation.cpp
+Json folds(const Reading& reading);                                                         // navigation.cpp
 
 // Where an argument or a configuration of the file is declared and read. `everywhere`: also in the launch files below
 // the folder that include this file and give it the argument. Null when nothing of that kind stands at the position.
 Json references(const Workspace& workspace, const Reading& reading, const Json& position,
-                const std::string& folder);                                                       // references.cpp
-Json prepare_rename(const Reading& reading, const Json& position);                                // references.cpp
+                const std::string& folder);                         // references.cpp
+Json prepare_rename(const Reading& reading, const Json& position);  // references.cpp
 Json rename(const Workspace& workspace, const Reading& reading, const Json& position, const std::string& name,
-            const std::string& folder);                                                           // references.cpp
+            const std::string& folder);  // references.cpp
 
 // The diagnostics of the document, those of `launch check`. Runs the check in this process.
-Json diagnostics(const Workspace& workspace, const Reading& reading);                             // diagnostics.cpp
+Json diagnostics(const Workspace& workspace, const Reading& reading);  // diagnostics.cpp
 // What the suggestions of the diagnostics would change.
-Json code_actions(const Reading& reading, const Json& diagnostics);                               // diagnostics.cpp
+Json code_actions(const Reading& reading, const Json& diagnostics);  // diagnostics.cpp
 
 }  // namespace launch::lsp

@@ -12,7 +12,8 @@ namespace launch::lsp {
 namespace {
 
 Json markdown(const Reading& reading, const std::string& text, Span span) {
-  return {{"contents", {{"kind", "markdown"}, {"value", text}}}, {"range", reading.document.range(span.begin, span.end)}};
+  return {{"contents", {{"kind", "markdown"}, {"value", text}}},
+          {"range", reading.document.range(span.begin, span.end)}};
 }
 
 // The "$(…)" of the value that holds the place, without what is around it.

@@ -75,8 +75,9 @@ Declared declared(const Outline& outline, int number, const Registry& registry) 
     return {.item = find_item(around.action->items, element.tag)};
   }
   if (around.item != nullptr) {
-    return {.item = around.item->recursive && around.item->tag == element.tag ? around.item
-                                                                             : find_item(around.item->items, element.tag)};
+    return {.item = around.item->recursive && around.item->tag == element.tag
+                        ? around.item
+                        : find_item(around.item->items, element.tag)};
   }
   return {};
 }

@@ -31,9 +31,9 @@ const AttributeSpec* find_attribute(const std::vector<AttributeSpec>& attributes
 // A "$(…" that is open at the end of the text: its name, and the argument that is being written.
 struct OpenSubstitution {
   std::string name;
-  bool in_name = false;  // the name itself is being written
+  bool in_name = false;                // the name itself is being written
   std::vector<std::string> arguments;  // the last one may be ""
-  std::size_t begin = 0;  // of the word that is being written, in the text
+  std::size_t begin = 0;               // of the word that is being written, in the text
 };
 std::optional<OpenSubstitution> open_substitution(std::string_view text);
 

@@ -16,9 +16,10 @@ namespace launch {
 int lsp_command(const Words& words) {
   lsp::ServerOptions options;
   bool stdio = false;
-  Subcommand command("launch lsp",
-                     "The language server of launch files, for editors: diagnostics, completion, help, places. Speaks the "
-                     "Language Server Protocol on standard input and output. docs/editors.md tells how to set an editor up.");
+  Subcommand command(
+      "launch lsp",
+      "The language server of launch files, for editors: diagnostics, completion, help, places. Speaks the "
+      "Language Server Protocol on standard input and output. docs/editors.md tells how to set an editor up.");
   command.take_flag("--run-python", options.runs_python,
                     "run Python launch files when they are opened or saved, in a process of their own, to find their "
                     "errors and arguments");

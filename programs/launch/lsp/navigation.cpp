@@ -40,18 +40,18 @@ Json declaration_in(const Workspace& workspace, const std::string& path, const s
 }
 
 // SymbolKind
-constexpr int kModule = 2;
-constexpr int kClass = 5;
-constexpr int kVariable = 13;
-constexpr int kObject = 19;
-constexpr int kFileKind = 1;
+constexpr int kModuleSymbol = 2;
+constexpr int kClassSymbol = 5;
+constexpr int kVariableSymbol = 13;
+constexpr int kObjectSymbol = 19;
+constexpr int kFileSymbol = 1;
 
 int symbol_kind(const OutlineElement& element) {
-  return element.tag == "arg" || element.tag == "let" ? kVariable
-         : element.tag == "include"                   ? kFileKind
-         : element.tag == "group"                     ? kModule
-         : element.tag == "launch"                    ? kClass
-                                                      : kObject;
+  return element.tag == "arg" || element.tag == "let" ? kVariableSymbol
+         : element.tag == "include"                   ? kFileSymbol
+         : element.tag == "group"                     ? kModuleSymbol
+         : element.tag == "launch"                    ? kClassSymbol
+                                                      : kObjectSymbol;
 }
 
 std::string detail_of(const OutlineElement& element, std::string_view text) {
@@ -71,11 +71,12 @@ Json symbols_within(const Reading& reading, int parent) {
       continue;
     }
     const std::string detail = detail_of(element, reading.document.text());
-    list.push_back({{"name", detail.empty() ? element.tag : element.tag + " " + detail},
-                    {"kind", symbol_kind(element)},
-                    {"range", reading.document.range(std::min(element.whole.begin, element.tag_span.begin), element.whole.end)},
-                    {"selectionRange", reading.document.range(element.tag_span.begin, element.tag_span.end)},
-                    {"children", symbols_within(reading, static_cast<int>(i))}});
+    list.push_back(
+        {{"name", detail.empty() ? element.tag : element.tag + " " + detail},
+         {"kind", symbol_kind(element)},
+         {"range", reading.document.range(std::min(element.whole.begin, element.tag_span.begin), element.whole.end)},
+         {"selectionRange", reading.document.range(element.tag_span.begin, element.tag_span.end)},
+         {"children", symbols_within(reading, static_cast<int>(i))}});
   }
   return list;
 }

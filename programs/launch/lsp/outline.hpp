@@ -31,8 +31,8 @@ struct OutlineAttribute {
 struct OutlineElement {
   std::string tag;
   Span tag_span;
-  Span head;     // XML: the start tag, without "<" and ">"; YAML: the lines of its attributes
-  Span whole;    // with what it holds
+  Span head;        // XML: the start tag, without "<" and ">"; YAML: the lines of its attributes
+  Span whole;       // with what it holds
   int parent = -1;  // its number in Outline::elements
   std::vector<OutlineAttribute> attributes;
 

@@ -104,8 +104,9 @@ class XmlReader {
     // A value that is not closed ends with its line, so that what follows is read as if it were.
     std::size_t end = text_.find(text_[quote], quote + 1);
     const std::size_t line_end = std::min(text_.find('\n', quote), text_.size());
-    const bool looks_open = end == std::string_view::npos ||
-                            (end > line_end && text_.substr(quote + 1, end - quote - 1).find('<') != std::string_view::npos);
+    const bool looks_open =
+        end == std::string_view::npos ||
+        (end > line_end && text_.substr(quote + 1, end - quote - 1).find('<') != std::string_view::npos);
     end = looks_open ? line_end : end;
     attribute.value = Span{quote + 1, end};
     at_ = looks_open ? end : end + 1;

@@ -28,9 +28,9 @@ class YamlReader {
  private:
   // A key without a value that holds the lines below it, further to the right.
   struct Open {
-    int column;       // of the key
-    int element;      // the element of the key, or of the key above
-    bool is_list;     // the key holds items: `children`, `param`
+    int column;    // of the key
+    int element;   // the element of the key, or of the key above
+    bool is_list;  // the key holds items: `children`, `param`
     std::string key;
   };
 
@@ -61,7 +61,8 @@ class YamlReader {
     }
     const int column = static_cast<int>(at - begin);
     close_down_to(item ? column + 1 : column, begin);
-    if (item && !open_.empty() && open_.back().is_list && open_.back().key != "children" && open_.back().key != "launch") {
+    if (item && !open_.empty() && open_.back().is_list && open_.back().key != "children" &&
+        open_.back().key != "launch") {
       begin_item(at, column);
     }
     key(at, end, column);
@@ -83,7 +84,8 @@ class YamlReader {
 
   void key(std::size_t at, std::size_t end, int column) {
     std::size_t colon = at;
-    while (colon < end && (text_[colon] != ':' || (colon + 1 < end && text_[colon + 1] != ' ' && text_[colon + 1] != '\r'))) {
+    while (colon < end &&
+           (text_[colon] != ':' || (colon + 1 < end && text_[colon + 1] != ' ' && text_[colon + 1] != '\r'))) {
       ++colon;
     }
     Span name = {at, colon};

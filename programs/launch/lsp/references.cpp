@@ -28,7 +28,8 @@ struct Place {
 std::string included_file(const Workspace& workspace, const Reading& reading, int include) {
   const std::string_view text = reading.document.text();
   const OutlineElement& element = reading.outline.elements[static_cast<std::size_t>(include)];
-  const std::optional<std::string> path = workspace.performed(reading.path, reading.outline, value_of(element, "file", text));
+  const std::optional<std::string> path =
+      workspace.performed(reading.path, reading.outline, value_of(element, "file", text));
   std::error_code ignored;
   return path ? fs::weakly_canonical(fs::path(reading.path).parent_path() / *path, ignored).string() : std::string();
 }
@@ -44,7 +45,8 @@ std::set<std::string> files_below(const std::string& folder, const std::string& 
   for (fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, unreadable), end;
        at != end && files.size() < kMost; at.increment(unreadable)) {
     const std::string name = at->path().filename().string();
-    if (at->is_directory(unreadable) && (name.starts_with('.') || name == "build" || name == "install" || name == "log")) {
+    if (at->is_directory(unreadable) &&
+        (name.starts_with('.') || name == "build" || name == "install" || name == "log")) {
       at.disable_recursion_pending();
     } else if (is_launch_file(at->path()) && !name.ends_with(".py")) {
       files.insert(at->path().string());
@@ -78,10 +80,10 @@ std::vector<Place> places_of(const Workspace& workspace, const Argument& argumen
     }
     const Reading reading = {path, *document, outline_of(document->text())};
     for (const ArgumentPlace& place : argument_places(reading.outline, document->text())) {
-      const bool is_it = place.name == argument.name &&
-                         (place.kind == ArgumentPlace::Kind::kGiven
-                              ? included_file(workspace, reading, place.include) == argument.file
-                              : path == argument.file);
+      const bool is_it =
+          place.name == argument.name &&
+          (place.kind == ArgumentPlace::Kind::kGiven ? included_file(workspace, reading, place.include) == argument.file
+                                                     : path == argument.file);
       if (is_it) {
         places.push_back({path, document->range(place.span.begin, place.span.end)});
       }

@@ -288,7 +288,8 @@ void Server::begin_check() {
     run_python_in_a_guest({std::chrono::seconds(20)});
     const Document& document = *workspace_->find(path);
     const Reading reading = {path, document, {}};
-    const bool written = write_all(write_end.get(), diagnostics(*workspace_, reading).dump(-1, ' ', false, Json::error_handler_t::replace));
+    const bool written = write_all(
+        write_end.get(), diagnostics(*workspace_, reading).dump(-1, ' ', false, Json::error_handler_t::replace));
     end_of_guest();
     ::_exit(written ? EXIT_SUCCESS : EXIT_FAILURE);
   }

@@ -163,8 +163,10 @@ std::vector<Workspace::Argument> Workspace::written_arguments_of(const std::stri
                           outline.elements[static_cast<std::size_t>(element.parent)].tag != "include";
     const auto value = [&](const char* attribute) { return std::string(value_of(element, attribute, file->text())); };
     if (declares && !value("name").empty()) {
-      arguments.push_back({value("name"), value("description"),
-                           element.find("default") == nullptr ? std::nullopt : std::optional(value("default")), {}});
+      arguments.push_back({value("name"),
+                           value("description"),
+                           element.find("default") == nullptr ? std::nullopt : std::optional(value("default")),
+                           {}});
     }
   }
   return arguments;
@@ -181,9 +183,10 @@ std::vector<Workspace::Argument> Workspace::arguments_of(const std::string& path
     const auto description = load_launch_description(path, registry_, scope);
     for (const ArgumentInfo& info : find_arguments(*description, registry_, scope).arguments) {
       const ArgumentDeclaration& declaration = *info.declaration;
-      arguments.push_back({declaration.name, declaration.description,
-                           declaration.default_value ? std::optional(declaration.default_value->describe()) : std::nullopt,
-                           declaration.choices});
+      arguments.push_back(
+          {declaration.name, declaration.description,
+           declaration.default_value ? std::optional(declaration.default_value->describe()) : std::nullopt,
+           declaration.choices});
     }
   } catch (const LaunchError&) {
     return written_arguments_of(path);  // its own diagnostics tell why

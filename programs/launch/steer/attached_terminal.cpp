@@ -23,7 +23,7 @@ namespace {
 
 using Json = ControlClient::Json;
 
-constexpr std::size_t kMostTyped = std::size_t{64} * 1024;  // until the launch takes it
+constexpr std::size_t kMostKeys = std::size_t{64} * 1024;  // until the launch takes it
 constexpr std::size_t kInputOfRequest = std::size_t{16} * 1024;
 
 // A terminal that stops, by Ctrl-S or because it is far away, must not stop this program: signals and keys are taken
@@ -87,7 +87,7 @@ void AttachedTerminal::turn() {
   const bool may_show = shown_.empty();
   std::array<pollfd, 4> waits{{{signals_.get(), POLLIN, 0},
                                {may_show && !launch_.ended() ? launch_.fd() : -1, POLLIN, 0},
-                               {reads_input_ && typed_.size() < kMostTyped ? STDIN_FILENO : -1, POLLIN, 0},
+                               {reads_input_ && typed_.size() < kMostKeys ? STDIN_FILENO : -1, POLLIN, 0},
                                {may_show ? -1 : output_.get(), POLLOUT, 0}}};
   if (::poll(waits.data(), waits.size(), -1) < 0) {
     return;

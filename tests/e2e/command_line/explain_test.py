@@ -74,7 +74,7 @@ Example:
         self.assertEqual(result.returncode, 2)
         self.assertEqual(result.stdout, '')
         self.assertEqual(result.stderr,
-                         "launch explain: error: no finding has the id 'LF0199'\n      = help: did you mean 'LF0101'?\n"
+                         "launch explain: error: no finding has the id 'LF0199'\n      = help: did you mean 'LF0109'?\n"
                          "      = help: see 'launch explain --help'\n")
         self.assertEqual(launch('explain', 'talker').stderr,
                          "launch explain: error: no finding has the id 'talker'\n"

@@ -21,7 +21,8 @@ std::string shown(std::string_view text, const Outline& outline, int parent) {
                                 value_of(element, one.name, text));
     }
     const std::string inside = shown(text, outline, static_cast<int>(i));
-    all += fmt::format("{}{}({}){}", all.empty() ? "" : " ", element.tag, attributes, inside.empty() ? "" : "[" + inside + "]");
+    all += fmt::format("{}{}({}){}", all.empty() ? "" : " ", element.tag, attributes,
+                       inside.empty() ? "" : "[" + inside + "]");
   }
   return all;
 }
@@ -31,8 +32,10 @@ std::string shown(std::string_view text) {
 }
 
 TEST(LspOutline, ReadsXml) {
-  EXPECT_EQ(shown(R"(<?xml version="1.0"?><launch><!-- <no/> --><group ns='a'><node pkg="b" exec = "c > d"/></group><x/></launch>)"),
-            "launch()[group(ns=a)[node(pkg=b exec=c > d)] x()]");
+  EXPECT_EQ(
+      shown(
+          R"(<?xml version="1.0"?><launch><!-- <no/> --><group ns='a'><node pkg="b" exec = "c > d"/></group><x/></launch>)"),
+      "launch()[group(ns=a)[node(pkg=b exec=c > d)] x()]");
 }
 
 TEST(LspOutline, TakesWhatIsMissingInXml) {
@@ -43,9 +46,12 @@ TEST(LspOutline, TakesWhatIsMissingInXml) {
 }
 
 TEST(LspOutline, ReadsYaml) {
-  EXPECT_EQ(shown("launch:\n- arg: {name: a, default: '1, 2'}\n- group:\n    ns: b\n    children:\n    - node:\n        pkg: \"c\"\n"
-                  "        param:\n        - name: p\n          value: 1\n        - from: q\n        exec: d\n- let:\n    name: e\n"),
-            "launch()[arg(name=a default=1, 2) group(ns=b)[node(pkg=c exec=d)[param(name=p value=1) param(from=q)]] let(name=e)]");
+  EXPECT_EQ(shown("launch:\n- arg: {name: a, default: '1, 2'}\n- group:\n    ns: b\n    children:\n    - node:\n       "
+                  " pkg: \"c\"\n"
+                  "        param:\n        - name: p\n          value: 1\n        - from: q\n        exec: d\n- let:\n "
+                  "   name: e\n"),
+            "launch()[arg(name=a default=1, 2) group(ns=b)[node(pkg=c exec=d)[param(name=p value=1) param(from=q)]] "
+            "let(name=e)]");
 }
 
 TEST(LspOutline, TakesWhatIsMissingInYaml) {
