@@ -4,7 +4,8 @@
 # Makes the messages, services and actions of a package: the shared library <target> and the headers
 # <pkg>/msg/<name>.hpp, <pkg>/srv/<name>.hpp and <pkg>/action/<name>.hpp. <pkg> is the project if it has a package.xml,
 # and <target> otherwise. Others link <pkg>::<target>. For programs in C there are the library
-# <target>__rosidl_generator_c and the headers <pkg>/msg/<name>.h.
+# <target>__rosidl_generator_c and the headers <pkg>/msg/<name>.h. For programs in Python there are the modules <pkg>.msg,
+# <pkg>.srv and <pkg>.action below PYTHON_INSTALL_DIR, which load that library when a type is sent first.
 #
 # Files are "msg/<Name>.msg", "srv/<Name>.srv", "action/<Name>.action" or the same with ".idl". They are relative to the
 # current folder, or to another one, as in "<folder>:msg/<Name>.msg", or absolute. The folder of a file is the namespace
@@ -82,6 +83,31 @@ macro(_rosidl_library_of_c)
   endif()
 endmacro()
 
+# Sets `python` to the arguments of the generator for the modules in Python, and `modules` to their files.
+macro(_rosidl_modules_of_python)
+  set(python "")
+  set(modules "")
+  if(NOT ARG_SKIP_INSTALL)
+    if(NOT PYTHON_INSTALL_DIR)
+      set(PYTHON_INSTALL_DIR lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/site-packages)
+    endif()
+    set(folder ${PROJECT_BINARY_DIR}/prefix/${PYTHON_INSTALL_DIR})
+    file(RELATIVE_PATH libraries_of_modules /prefix/${PYTHON_INSTALL_DIR}/${pkg}/msg /prefix/lib/lib)
+    set(library ${target})
+    if(ARG_LIBRARY_NAME)
+      set(library ${ARG_LIBRARY_NAME})
+    endif()
+    set(python --python-output ${folder}
+      --python-library ${libraries_of_modules}${library}__rosidl_generator_c${CMAKE_SHARED_LIBRARY_SUFFIX})
+    foreach(name IN LISTS names)
+      string(REPLACE "/" "/_" name ${name})
+      list(APPEND modules ${folder}/${pkg}/${name}.py)
+    endforeach()
+    install(DIRECTORY ${folder}/${pkg} DESTINATION ${PYTHON_INSTALL_DIR} FILES_MATCHING PATTERN "*.py"
+      PATTERN __pycache__ EXCLUDE)
+  endif()
+endmacro()
+
 function(rosidl_generate_interfaces target)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "ADD_LINTER_TESTS;SKIP_INSTALL;SKIP_GROUP_MEMBERSHIP_CHECK" "LIBRARY_NAME"
     "DEPENDENCIES;INCLUDE")
@@ -154,12 +180,13 @@ function(rosidl_generate_interfaces target)
 
   get_property(generator GLOBAL PROPERTY ROSIDL_GENERATOR)
   file(GLOB generator_sources ${generator}/*.py)
+  _rosidl_modules_of_python()
   add_custom_command(
-    OUTPUT ${source} ${source_of_c} ${headers} ${output}/type_descriptions.json
+    OUTPUT ${source} ${source_of_c} ${headers} ${output}/type_descriptions.json ${modules}
     COMMAND ${Python3_EXECUTABLE} -B ${generator} --package ${pkg} --output ${output} --known ${known}
-      --descriptions ${descriptions} -- ${files}
+      --descriptions ${descriptions} ${python} -- ${files}
     DEPENDS ${files} ${descriptions} ${generator_sources}
-    COMMENT "Generating the C++ and C of ${pkg}"
+    COMMENT "Generating the C++, C and Python of ${pkg}"
     VERBATIM)
 
   set(skip_install "")

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""python3 rosidl_generator --package PKG --output DIR [--known PKG/msg/NAME]... [--descriptions JSON]... FILE...
+"""python3 rosidl_generator --package PKG --output DIR [--known PKG/msg/NAME]... [--descriptions JSON]...
+                            [--python-output DIR --python-library FILE] FILE...
 
 Writes the C++ and C of one package: headers under DIR/include/PKG, the sources DIR/PKG__interfaces.cpp and DIR/PKG__c.cpp
 of its libraries, and DIR/type_descriptions.json, which packages that use its messages need as --descriptions. The
 folder of a file, msg, srv or action, is the namespace of its types; if it has another name, the extension of the file is.
---known names the messages of other packages that may be used.
+--known names the messages of other packages that may be used. --python-output is the folder for the package's modules in
+Python, --python-library its library for C from the folders of these modules.
 """
 
 import argparse
@@ -19,7 +21,7 @@ if __package__ in (None, ''):
     __package__ = 'rosidl_generator'
     __spec__ = ModuleSpec('rosidl_generator.__main__', None)  # Python 3.13 warns if the two differ
 
-from . import c_headers, c_source, cpp_builder, cpp_source, cpp_struct, cpp_traits, type_hash  # noqa: E402
+from . import c_headers, c_source, cpp_builder, cpp_source, cpp_struct, cpp_traits, py_modules, type_hash  # noqa: E402
 from .idl_parser import parse_idl  # noqa: E402
 from .interface_parser import InterfaceError, parse_file  # noqa: E402
 from .least_size import least_sizes  # noqa: E402
@@ -47,6 +49,8 @@ def main() -> int:
     arguments.add_argument('--output', required=True)
     arguments.add_argument('--known', nargs='*', default=[])
     arguments.add_argument('--descriptions', nargs='*', default=[])
+    arguments.add_argument('--python-output')
+    arguments.add_argument('--python-library', default='')
     arguments.add_argument('files', nargs='+', metavar='FILE')
     options = arguments.parse_args()
 
@@ -98,6 +102,9 @@ def main() -> int:
                      cpp_source.source(options.package, files, own, hashes))
     write_if_changed(os.path.join(options.output, f'{options.package}__c.cpp'),
                      c_source.source(options.package, files, sizes))
+    if options.python_output:
+        for path, text in py_modules.modules(options.package, files, options.python_library).items():
+            write_if_changed(os.path.join(options.python_output, path), text)
     return 0
 
 

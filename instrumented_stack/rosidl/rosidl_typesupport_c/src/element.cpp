@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "element.hpp"
+#include "rosidl_typesupport_c/element.hpp"
 
 #include <cstdlib>
 #include <cstring>

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "element.hpp"
+#include "rosidl_typesupport_c/element.hpp"
 
 using rosidl_typesupport_c::Element;
 using rosidl_typesupport_c::Field;

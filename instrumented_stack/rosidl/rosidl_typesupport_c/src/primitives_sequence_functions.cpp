@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rosidl_runtime_c/primitives_sequence_functions.h"
 
-#include "element.hpp"
+#include "rosidl_typesupport_c/element.hpp"
 
 namespace {
 

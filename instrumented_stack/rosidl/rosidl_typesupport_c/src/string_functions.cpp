@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "element.hpp"
+#include "rosidl_typesupport_c/element.hpp"
 #include "rosidl_runtime_c/u16string_functions.h"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <iterator>
 
-#include "element.hpp"
+#include "rosidl_typesupport_c/element.hpp"
 #include "rosidl_typesupport_c/identifier.h"
 #include "rosidl_typesupport_fastrtps_cpp/identifier.hpp"
 
@@ -43,7 +43,17 @@ void set_info(const Layout& layout, const rosidl_service_introspection_info_t& i
   put(target, layout.offsets[3], info.sequence_number);
 }
 
+ToPython python_conversion = nullptr;
+
 }  // namespace
+
+void set_to_python(ToPython function) {
+  python_conversion = function;
+}
+
+void* to_python(const Layout& layout, void* message) {
+  return python_conversion(layout, message);
+}
 
 const char* const kIdentifier = rosidl_typesupport_fastrtps_cpp::typesupport_identifier_of_c;
 

@@ -8,6 +8,7 @@
 #include "rosidl_runtime_c/message_type_support_struct.h"
 #include "rosidl_runtime_c/service_type_support_struct.h"
 #include "rosidl_typesupport_c/message_layout.h"
+#include "rosidl_typesupport_c/python.hpp"
 #include "rosidl_typesupport_fastrtps_cpp/message_type_support.h"
 #include "rosidl_typesupport_fastrtps_cpp/service_type_support.h"
 #include "rosidl_typesupport_interface/macros.h"
@@ -15,8 +16,6 @@
 // Creates the handles of C messages from their layouts, and defines their functions. Only the generated source files
 // include this header.
 namespace rosidl_typesupport_c {
-
-using Layout = rosidl_typesupport_c__MessageLayout;
 
 // The bytes of a message. `read` and `write` return false where the callbacks of type supports do.
 bool write(const Layout& layout, const void* message, eprosima::fastcdr::Cdr& cdr);
@@ -43,6 +42,7 @@ struct Callbacks {
   static std::size_t max_size(char& bounds_info) { return max_serialized_size(L, bounds_info); }
   static void* create() { return rosidl_typesupport_c__message_create(&L); }
   static void destroy(void* message) { rosidl_typesupport_c__message_destroy(&L, message); }
+  static void* to_python(void* message) { return rosidl_typesupport_c::to_python(L, message); }
   static void* create_event(const rosidl_service_introspection_info_t* info, const void* request,
                             const void* response) {
     return rosidl_typesupport_c::create_event(L, *info, request, response);
@@ -54,10 +54,12 @@ extern const char* const kIdentifier;
 template <const Layout& L>
 const rosidl_message_type_support_t* message_type_support(const char* message_namespace, const char* message_name) {
   using Functions = Callbacks<L>;
-  static const message_type_support_callbacks_t callbacks{
-      message_namespace,   message_name,  L.description->type_hash, Functions::write,  Functions::read, Functions::size,
-      Functions::max_size, L.description, Functions::create,        Functions::destroy};
-  static const rosidl_message_type_support_t handle{kIdentifier, &callbacks, itself};
+  static const MessageSupport support{
+      {message_namespace, message_name, L.description->type_hash, Functions::write, Functions::read, Functions::size,
+       Functions::max_size, L.description, Functions::create, Functions::destroy},
+      &L,
+      Functions::to_python};
+  static const rosidl_message_type_support_t handle{kIdentifier, &support, itself};
   return &handle;
 }
 
