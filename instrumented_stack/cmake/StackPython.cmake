@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Modules of Python in packages of the stack. They are where setup.bash of the prefix has Python look for them.
 include_guard(GLOBAL)
-set(STACK_PYTHON_DIRECTORY lib/python${python_version}/site-packages)
+set(STACK_PYTHON_DIRECTORY lib/python${python_version}/site-packages CACHE INTERNAL "of modules, below the prefix")
 
 # stack_python_package(<pkg>)
 #
