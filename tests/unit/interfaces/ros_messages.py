@@ -45,7 +45,8 @@ class Values:
 
     def value(self, type_):
         if isinstance(type_, definition.Array):
-            return [self.value(type_.value_type) for _ in range(type_.size)]
+            some = [self.value(type_.value_type) for _ in range(min(type_.size, 64))]
+            return (some * (type_.size // len(some) + 1))[:type_.size]
         if isinstance(type_, definition.AbstractSequence):
             most = min(type_.maximum_size, 4) if type_.has_maximum_size() else 4
             return [self.value(type_.value_type) for _ in range(self._random.randint(0, most))]
