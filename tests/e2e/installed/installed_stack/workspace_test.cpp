@@ -78,6 +78,13 @@ TEST_F(Workspace, IsBuiltTestedAndSourced) {
   EXPECT_EQ(sourced.out, install + "/arm_reach:" + install + "/arm_messages:" + prefix_.string() + "\n" + kReach)
       << sourced.err;
 
+  // Python finds the messages, whose library has another name than the package's own.
+  const std::string program =
+      "from arm_messages.msg import Count, Distance, Reach; Reach.__import_type_support__(); "
+      "print(Distance(meters=2.0), Count.SLOT_TYPES, Reach.IS_EXTENDED__DEFAULT)";
+  EXPECT_EQ(in_shell("source " + install + "/setup.bash && python3 -B -c '" + program + "'").out,
+            "arm_messages.msg.Distance(meters=2.0) (BasicType('uint32'),) True\n");
+
   // The libraries of another ROS 2, with the same names and nothing in them.
   const fs::path other = sandbox_.directory() / "other_ros2/lib";
   fs::create_directories(other);
