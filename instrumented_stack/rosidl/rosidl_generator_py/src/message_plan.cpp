@@ -101,7 +101,8 @@ bool add_fields(const Layout& layout, MessagePlan& plan) {
       return false;
     }
     const ElementKind kind = element_kind(description.type_id);
-    plan.fields.push_back({rosidl_typesupport_c::field_of(layout, i), kind.kind, slot, description.name, kind.type_code});
+    plan.fields.push_back(
+        {rosidl_typesupport_c::field_of(layout, i), kind.kind, slot, description.name, kind.type_code});
     if (PyObject_HasAttr(reinterpret_cast<PyObject*>(plan.type), slot) == 0) {
       PyErr_Format(PyExc_ImportError,
                    "the class %s has no field '%s', but the library of its package has: they are of different versions",

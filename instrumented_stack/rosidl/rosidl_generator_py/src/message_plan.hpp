@@ -8,15 +8,25 @@
 #include "reference.hpp"
 #include "rosidl_typesupport_c/element.hpp"
 
-// Which attribute of which class a field of a C message is. A plan lives as long as the process, as classes of messages do.
-// All functions need Python's lock.
+// Which attribute of which class a field of a C message is. A plan lives as long as the process, as classes of messages
+// do. All functions need Python's lock.
 namespace rosidl_generator_py {
 
 using rosidl_typesupport_c::Field;
 using rosidl_typesupport_c::Layout;
 
 // What a value is in Python. The kinds of numbers are those that arrays can have.
-enum class Kind : std::uint8_t { kSigned, kUnsigned, kFloating, kBool, kOctet, kCharacter, kString, kWideString, kMessage };
+enum class Kind : std::uint8_t {
+  kSigned,
+  kUnsigned,
+  kFloating,
+  kBool,
+  kOctet,
+  kCharacter,
+  kString,
+  kWideString,
+  kMessage
+};
 
 struct FieldPlan {
   Field field;
@@ -36,15 +46,15 @@ struct MessagePlan {
   std::vector<FieldPlan> fields;
 };
 
-// The plan of a layout. It is made when it is asked for first, with the class that rosidl_generator_py finds by the name of the
-// type. Null, with an exception, if there is no such class or if its fields are others.
+// The plan of a layout. It is made when it is asked for first, with the class that rosidl_generator_py finds by the
+// name of the type. Null, with an exception, if there is no such class or if its fields are others.
 const MessagePlan* plan_of(const Layout& layout);
 
 // The plan of the objects of a class, or of one that inherits from it. Null, with an exception, if there is none.
 const MessagePlan* plan_of(PyTypeObject* type);
 
-// Fills the message, which is initialised, from the object. False, with an exception that names the field, if a value does not
-// fit. The message is then valid but incomplete.
+// Fills the message, which is initialised, from the object. False, with an exception that names the field, if a value
+// does not fit. The message is then valid but incomplete.
 bool from_python(const MessagePlan& plan, PyObject* object, void* message);
 
 // Makes an object of the message: a new reference, or null with an exception.

@@ -28,15 +28,15 @@ PyObject* capsule(Function* pointer) {
   return PyCapsule_New(const_cast<void*>(reinterpret_cast<const void*>(pointer)), nullptr, nullptr);
 }
 
-// Calls the function that returns the handle of an interface. `kind` is message, service or action. Libraries stay loaded.
+// Calls the function that returns the handle of an interface. `kind` is message, service or action. Libraries stay
+// loaded.
 const void* handle_of(const char* library, const char* kind, const char* interface) {
   void* loaded = dlopen(library, RTLD_LAZY | RTLD_LOCAL);
   if (loaded == nullptr) {
     PyErr_Format(PyExc_ImportError, "%s", dlerror());
     return nullptr;
   }
-  const std::string symbol =
-      std::string("rosidl_typesupport_c__get_") + kind + "_type_support_handle__" + interface;
+  const std::string symbol = std::string("rosidl_typesupport_c__get_") + kind + "_type_support_handle__" + interface;
   void* function = dlsym(loaded, symbol.c_str());
   if (function == nullptr) {
     PyErr_Format(PyExc_ImportError, "%s: no function %s", library, symbol.c_str());
@@ -76,7 +76,8 @@ PyObject* interface(PyObject* /*module*/, PyObject* arguments) {
 
 PyMethodDef functions[] = {
     {"message", message, METH_VARARGS,
-     "message(library, name): the capsules create, convert from Python, convert to Python, destroy and type support of the "
+     "message(library, name): the capsules create, convert from Python, convert to Python, destroy and type support of "
+     "the "
      "message std_msgs__msg__String in the library for C of its package"},
     {"interface", interface, METH_VARARGS,
      "interface(library, kind, name): the capsule of the type support of a service or an action"},

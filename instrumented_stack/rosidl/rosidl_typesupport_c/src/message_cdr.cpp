@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <stdexcept>
 
-#include "rosidl_typesupport_c/element.hpp"
 #include "fastcdr_versions/cdr.hpp"
 #include "rosidl_runtime_c/string_functions.h"
 #include "rosidl_runtime_c/u16string_functions.h"
+#include "rosidl_typesupport_c/element.hpp"
 #include "rosidl_typesupport_c/type_support.hpp"
 #include "rosidl_typesupport_fastrtps_cpp/cdr_members.hpp"
 

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "rosidl_typesupport_c/element.hpp"
 #include "rosidl_runtime_c/u16string_functions.h"
+#include "rosidl_typesupport_c/element.hpp"
 
 namespace {
 namespace strings {
