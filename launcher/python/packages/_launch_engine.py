@@ -10,6 +10,11 @@ IS_PROGRAM = True  # before the import: the packages ask for it while they are i
 from launch._script import _link, _values  # noqa: E402
 
 
+def has_launch():
+    """Whether a LaunchService runs in this program."""
+    return _link.current is not None
+
+
 def is_running():
     """Whether this thread is the one that carries the launch out."""
     return _link.of_this_thread() is not None

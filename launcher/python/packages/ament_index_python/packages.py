@@ -2,8 +2,11 @@
 """Packages, as $(find-pkg-prefix …) and $(find-pkg-share …) find them."""
 
 import os
+import sys
+import warnings
 
-from ament_index_python.resources import get_resources
+from ament_index_python.resources import get_resources, has_resource
+from ament_index_python.search_paths import get_search_paths
 
 
 class PackageNotFoundError(KeyError):
@@ -11,6 +14,14 @@ class PackageNotFoundError(KeyError):
 
     def __str__(self):
         return str(self.args[0])
+
+
+def _launch_runs():
+    """Whether the launcher is to be asked: in launch files, and in a program while its launch runs."""
+    if '_launch_engine' not in sys.modules and '_launch_engine' not in sys.builtin_module_names:
+        return False  # a program that has not imported `launch`
+    import _launch_engine
+    return not hasattr(_launch_engine, 'IS_PROGRAM') or _launch_engine.has_launch()
 
 
 def _find(substitution, package_name):
@@ -24,12 +35,28 @@ def _find(substitution, package_name):
         raise error from None
 
 
+def _find_in_index(package_name):
+    if not package_name or not isinstance(package_name, str):
+        raise ValueError(f"'{package_name}' is not the name of a package")
+    prefix = has_resource('packages', package_name)
+    if not prefix:
+        raise PackageNotFoundError(f"package '{package_name}' not found, searching: {get_search_paths()}")
+    return prefix
+
+
 def get_package_prefix(package_name):
+    if not _launch_runs():
+        return _find_in_index(package_name)
     from launch_ros.substitutions import FindPackagePrefix
     return _find(FindPackagePrefix, package_name)
 
 
 def get_package_share_directory(package_name, print_warning=True):
+    if not _launch_runs():
+        path = os.path.join(_find_in_index(package_name), 'share', package_name)
+        if print_warning and not os.path.isdir(path):
+            warnings.warn(f"Share directory for {package_name} ({path}) does not exist.", stacklevel=2)
+        return path
     from launch_ros.substitutions import FindPackageShare
     return _find(FindPackageShare, package_name)
 

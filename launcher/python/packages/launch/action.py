@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Action: one thing that a launch file asks for."""
 
-from launch import _dispatch
+from launch import _dispatch, _outside
 from launch._entities import entities, entity, told_at
 from launch._values import LaunchFileError, WrongKind, reject
 from launch._places import name_of_function, of_function
@@ -60,6 +60,8 @@ class Action(LaunchDescriptionEntity):
         return None
 
     def execute(self, context):
+        if _outside.is_here() and _outside.execute(self, context):
+            return None
         return [_Plain(self)]
 
     def _with_places(self, attributes):

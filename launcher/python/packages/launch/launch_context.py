@@ -4,7 +4,7 @@
 import types
 
 import _launch_engine
-from launch import _environment
+from launch import _environment, _outside
 from launch._places import caller, resolve
 from launch._values import LaunchFileError, items
 
@@ -104,6 +104,8 @@ class LaunchContext:
         return types.SimpleNamespace(**self.get_locals_as_dict())
 
     def _perform(self, value):
+        if _outside.is_here():
+            return _outside.perform(value, self)
         if isinstance(self.launch_configurations, dict):
             return _launch_engine.perform(value, self.launch_configurations)
         return _launch_engine.perform(value)

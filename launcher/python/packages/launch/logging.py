@@ -9,6 +9,7 @@ from logging import *  # noqa: F401,F403  as ROS 2's module does
 from logging import CRITICAL, DEBUG, ERROR, INFO, WARNING
 
 import _launch_engine
+from launch import _outside
 
 _LEVELS = {DEBUG: 'debug', INFO: 'info', WARNING: 'warning', ERROR: 'error', CRITICAL: 'critical'}
 
@@ -40,6 +41,9 @@ class LaunchConfig:
 
     @property
     def log_dir(self):
+        if _outside.is_here():  # no launch has a folder of its own yet
+            return os.environ.get('ROS_LOG_DIR') or os.path.join(
+                os.environ.get('ROS_HOME') or os.path.expanduser('~/.ros'), 'log')
         return _launch_engine.log_directory()
 
     @property
