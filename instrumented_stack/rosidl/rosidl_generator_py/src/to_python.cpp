@@ -77,21 +77,28 @@ PyObject* one(const FieldPlan& field, const void* source) {
   }
 }
 
-// What `module` calls `name`. It is imported once.
-PyObject* imported(const char* module, const char* name) {
-  const Reference imported(PyImport_ImportModule(module));
-  return imported ? PyObject_GetAttrString(imported.get(), name) : nullptr;
+// What `module` calls `name`: a borrowed reference, or null with an exception. `kept` keeps it. It is no static
+// variable with an initialiser: an import may let another thread run, which would wait for the end of the
+// initialisation with Python's lock.
+PyObject* imported(const char* module, const char* name, PyObject*& kept) {
+  if (kept == nullptr) {
+    const Reference imported(PyImport_ImportModule(module));
+    PyObject* found = imported ? PyObject_GetAttrString(imported.get(), name) : nullptr;
+    kept = kept != nullptr ? kept : found;
+  }
+  return kept;
 }
 
 // numpy.empty(count, dtype=type_code), filled.
 PyObject* number_array(const FieldPlan& field, const void* elements) {
-  static PyObject* const kEmpty = imported("numpy", "empty");
-  if (kEmpty == nullptr) {
+  static PyObject* kept = nullptr;
+  PyObject* empty = imported("numpy", "empty", kept);
+  if (empty == nullptr) {
     PyErr_SetString(PyExc_ImportError, "arrays of numbers in messages need numpy (Debian: python3-numpy)");
     return nullptr;
   }
   const char type_code[] = {field.type_code, '\0'};
-  Reference array(PyObject_CallFunction(kEmpty, "ns", static_cast<Py_ssize_t>(field.field.count), type_code));
+  Reference array(PyObject_CallFunction(empty, "ns", static_cast<Py_ssize_t>(field.field.count), type_code));
   Py_buffer buffer;
   if (!array || PyObject_GetBuffer(array.get(), &buffer, PyBUF_WRITABLE) != 0) {
     return nullptr;
@@ -103,11 +110,12 @@ PyObject* number_array(const FieldPlan& field, const void* elements) {
 
 // array.array(type_code, bytes)
 PyObject* number_sequence(const FieldPlan& field, const void* elements, std::size_t count) {
-  static PyObject* const kArray = imported("array", "array");
-  if (kArray == nullptr) {
+  static PyObject* kept = nullptr;
+  PyObject* array = imported("array", "array", kept);
+  if (array == nullptr) {
     return nullptr;
   }
-  return PyObject_CallFunction(kArray, "Cy#", field.type_code, count != 0 ? elements : "",
+  return PyObject_CallFunction(array, "Cy#", field.type_code, count != 0 ? elements : "",
                                static_cast<Py_ssize_t>(count * field.field.element.size));
 }
 
@@ -139,8 +147,8 @@ PyObject* value_of(const FieldPlan& field, const void* source) {
 
 // Whether objects check what they are given later on: a constant of the package, by the environment.
 PyObject* check_fields() {
-  static PyObject* const kValue = imported("rosidl_generator_py", "CHECK_FIELDS");
-  return kValue;
+  static PyObject* kept = nullptr;
+  return imported("rosidl_generator_py", "CHECK_FIELDS", kept);
 }
 
 }  // namespace
