@@ -13,6 +13,7 @@ import numpy
 from example_interfaces.action import Fibonacci
 from example_interfaces.srv import AddTwoInts
 from rosidl_parser import definition
+from rosidl_pycommon.interface_base_classes import BaseAction, BaseImpl, BaseMessage, BaseService
 from ros_messages import Conversion
 from std_msgs.msg import ByteMultiArray, Header, Int8, String, UInt8MultiArray
 from test_msgs.msg import Arrays, BasicTypes, BoundedSequences, Constants, Defaults, Empty, Nested, Strings, UnboundedSequences
@@ -27,6 +28,10 @@ class ClassesTest(unittest.TestCase):
         self.assertEqual((String.__module__, String.__qualname__), ('std_msgs.msg._string', 'String'))
         self.assertEqual(String.__slots__, ['_data', '_check_fields'])
         self.assertEqual(String.__doc__, "Message class 'String'.")
+
+    def test_has_the_base_classes(self):
+        self.assertTrue(issubclass(String, BaseMessage) and issubclass(AddTwoInts, BaseService) and issubclass(Fibonacci, BaseAction))
+        self.assertTrue(issubclass(Fibonacci.Impl, BaseImpl) and isinstance(Fibonacci.Impl.SendGoalService.Request(), BaseMessage))
 
     def test_star_and_dir_have_all_classes(self):
         names = {}
@@ -52,6 +57,7 @@ class ClassesTest(unittest.TestCase):
 
     def test_values_by_keyword(self):
         self.assertEqual(Header(frame_id='map').frame_id, 'map')
+        self.assertEqual(Header(frame_id=None).frame_id, '')
         with self.assertRaisesRegex(AssertionError, 'Invalid arguments passed to constructor: data, map'):
             Header(check_fields=True, map='map', data=1)
 

@@ -6,6 +6,9 @@ from importlib import import_module
 from os.path import abspath, dirname, exists, join
 from typing import Any, Callable, List, Mapping, Tuple
 
+from rosidl_pycommon.interface_base_classes import (
+    ActionTypeSupportMeta, BaseAction, BaseImpl, BaseService, ServiceTypeSupportMeta)
+
 from ._field_types import FieldType, class_of, field_type
 from ._messages import message_class
 
@@ -35,22 +38,24 @@ class Definitions:
 
     def service(self, name: str, request: Any, response: Any, event: Any) -> Tuple[type, Any]:
         """The metaclass and the class of the service of these messages."""
-        return self._compound('service', name, {'Request': request, 'Response': response, 'Event': event},
-                              [request, response, event])
+        return self._compound('service', name, (ServiceTypeSupportMeta, BaseService),
+                              {'Request': request, 'Response': response, 'Event': event}, [request, response, event])
 
     def action(self, name: str, goal: Any, result: Any, feedback: Any, send_goal: Any, get_result: Any,
                feedback_message: Any) -> Tuple[type, Any]:
         """The metaclass and the class of the action of these messages and services."""
         cancel_goal = class_of('action_msgs/srv/CancelGoal')
         status = class_of('action_msgs/msg/GoalStatusArray')
-        impl = type('Impl', (), {
+        impl = type(BaseImpl)('Impl', (BaseImpl,), {
             '__module__': self._module, '__qualname__': f'{name}.Impl', 'SendGoalService': send_goal,
             'GetResultService': get_result, 'FeedbackMessage': feedback_message, 'CancelGoalService': cancel_goal,
             'GoalStatusMessage': status})
-        return self._compound('action', name, {'Goal': goal, 'Result': result, 'Feedback': feedback, 'Impl': impl},
+        return self._compound('action', name, (ActionTypeSupportMeta, BaseAction),
+                              {'Goal': goal, 'Result': result, 'Feedback': feedback, 'Impl': impl},
                               [status, cancel_goal, send_goal, get_result, feedback_message])
 
-    def _compound(self, kind: str, name: str, attributes: Mapping[str, Any], parts: List[Any]) -> Tuple[type, Any]:
+    def _compound(self, kind: str, name: str, bases: Tuple[type, type], attributes: Mapping[str, Any], parts: List[Any]
+                  ) -> Tuple[type, Any]:
         def import_type_support(metaclass: Any) -> None:
             metaclass._TYPE_SUPPORT = self._native().interface(self._loaded_library(), kind, self._symbol(name))
             for part in parts:
@@ -59,11 +64,12 @@ class Definitions:
         def __init__(instance: Any) -> None:
             raise NotImplementedError(f'{kind.capitalize()} classes can not be instantiated')
 
-        metaclass = type(f'Metaclass_{name}', (type,), {
+        base_of_metaclass, base = bases
+        metaclass = type(f'Metaclass_{name}', (base_of_metaclass,), {
             '__module__': self._module, '__doc__': f"Metaclass of {kind} '{name}'.", '_TYPE_SUPPORT': None,
             '__import_type_support__': classmethod(import_type_support)})
-        return metaclass, metaclass(name, (), {'__module__': self._module, '__qualname__': name, '__init__': __init__,
-                                               **attributes})
+        return metaclass, metaclass(name, (base,), {'__module__': self._module, '__qualname__': name, '__init__': __init__,
+                                                   **attributes})
 
     def _symbol(self, name: str) -> str:
         return f'{self._package}__{self._namespace}__{name}'

@@ -4,6 +4,8 @@
 import os
 from typing import Any, Callable, Dict, List, Mapping, Tuple
 
+from rosidl_pycommon.interface_base_classes import BaseMessage, MessageTypeSupportMeta
+
 from ._checks import check_of, kept_as_it_is
 from ._field_types import FieldType, field_type, numpy
 
@@ -26,7 +28,7 @@ def message_class(module: str, name: str, fields: Mapping[str, str], defaults: M
         '_fields_and_field_types': {field: type_.text for field, type_ in types.items()},
         'SLOT_TYPES': tuple(type_.slot_type() for type_ in types.values()),
         **_METHODS, **shown}
-    class_ = metaclass(name, (), namespace)
+    class_ = metaclass(name, (BaseMessage,), namespace)
     new_values = []
     for field, type_ in types.items():
         store = class_.__dict__[f'_{field}'].__set__
@@ -41,7 +43,7 @@ def _metaclass(module: str, name: str, shown: Mapping[str, Any], import_type_sup
     def constant(key: str) -> property:
         return property(lambda class_: shown[key], doc=f"Constant or default '{key}'.")
 
-    return type(f'Metaclass_{name}', (type,), {
+    return type(f'Metaclass_{name}', (MessageTypeSupportMeta,), {
         '__module__': module, '__doc__': f"Metaclass of message '{name}'.", '_CREATE_ROS_MESSAGE': None,
         '_CONVERT_FROM_PY': None, '_CONVERT_TO_PY': None, '_DESTROY_ROS_MESSAGE': None, '_TYPE_SUPPORT': None,
         '__import_type_support__': classmethod(import_type_support), **{key: constant(key) for key in shown}})
@@ -80,10 +82,10 @@ def _constructor(fields: frozenset, new_values: List[Tuple[str, FieldType, Calla
             assert fields.issuperset(kwargs), \
                 'Invalid arguments passed to constructor: ' + ', '.join(sorted(set(kwargs) - fields))
         for field, type_, store, default in new_values:
-            if field not in kwargs:
+            value = kwargs.get(field) if kwargs else None
+            if value is None:
                 store(self, default())
                 continue
-            value = kwargs[field]
             if type_.type_code is not None:
                 value = type_.convert(value)
                 assert type_.size is None or value.shape == (type_.size,), f"The '{field}' field must have {type_.size} values"
