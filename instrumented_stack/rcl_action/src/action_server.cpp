@@ -38,6 +38,9 @@ rcl_ret_t init_all(rcl_action_server_impl_s& server, rcl_node_t* node, const ros
 }
 
 rcl_ret_t fini_all(rcl_action_server_impl_s& server, rcl_node_t* node) {
+  for (const rcl_action_goal_handle_t* goal : std::exchange(server.goals, {})) {
+    delete goal;
+  }
   return last_error({rcl_timer_fini(&server.expire_timer), rcl_service_fini(&server.goal, node),
                      rcl_service_fini(&server.cancel, node), rcl_service_fini(&server.result, node),
                      rcl_publisher_fini(&server.feedback, node), rcl_publisher_fini(&server.status, node)});

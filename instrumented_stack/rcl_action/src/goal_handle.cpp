@@ -23,10 +23,6 @@ constexpr const char* kEventNames[] = {"begin to execute", "begin to be canceled
 
 }  // namespace
 
-rcl_action_goal_info_t rcl_action_get_zero_initialized_goal_info(void) {
-  return {};
-}
-
 rcl_action_goal_state_t rcl_action_transition_goal_state(rcl_action_goal_state_t state, rcl_action_goal_event_t event) {
   switch (event) {
     case GOAL_EVENT_EXECUTE:

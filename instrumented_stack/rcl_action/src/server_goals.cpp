@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The goals of a server, from acceptance to expiry.
 #include <algorithm>
-#include <cstring>
 #include <optional>
 
 #include "action_end.hpp"
@@ -9,16 +8,16 @@
 
 namespace {
 
-bool is_zero(const uint8_t (&goal_id)[UUID_SIZE]) {
-  return std::all_of(std::begin(goal_id), std::end(goal_id), [](uint8_t byte) { return byte == 0; });
+bool is_zero(const unique_identifier_msgs__msg__UUID& id) {
+  return std::all_of(std::begin(id.uuid), std::end(id.uuid), [](uint8_t byte) { return byte == 0; });
 }
 
 bool is_same(const rcl_action_goal_info_t& one, const rcl_action_goal_info_t& other) {
-  return std::memcmp(one.goal_id, other.goal_id, UUID_SIZE) == 0;
+  return uuidcmp(one.goal_id.uuid, other.goal_id.uuid);
 }
 
 int64_t nanoseconds(const rcl_action_goal_info_t& info) {
-  return int64_t{info.stamp_sec} * 1'000'000'000 + info.stamp_nanosec;
+  return int64_t{info.stamp.sec} * 1'000'000'000 + info.stamp.nanosec;
 }
 
 rcl_action_goal_info_t info_of(const rcl_action_goal_handle_t* goal) {
@@ -87,8 +86,8 @@ rcl_action_goal_handle_t* rcl_action_accept_new_goal(rcl_action_server_t* action
     return nullptr;
   }
   rcl_action_goal_info_t accepted = *goal_info;
-  accepted.stamp_sec = static_cast<int32_t>(now / 1'000'000'000);
-  accepted.stamp_nanosec = static_cast<uint32_t>(now % 1'000'000'000);
+  accepted.stamp.sec = static_cast<int32_t>(now / 1'000'000'000);
+  accepted.stamp.nanosec = static_cast<uint32_t>(now % 1'000'000'000);
   auto* goal = new rcl_action_goal_handle_t(rcl_action_get_zero_initialized_goal_handle());
   if (rcl_action_goal_handle_init(goal, &accepted, impl.options.allocator) != RCL_RET_OK) {
     delete goal;
@@ -122,6 +121,7 @@ rcl_ret_t rcl_action_expire_goals(const rcl_action_server_t* action_server, rcl_
       return false;
     }
     expired_goals[(*num_expired)++] = info_of(goal);
+    delete goal;
     return true;
   };
   if (impl.options.result_timeout.nanoseconds >= 0) {
@@ -157,14 +157,16 @@ rcl_ret_t rcl_action_process_cancel_request(const rcl_action_server_t* action_se
   const rcl_action_goal_info_t& wanted = request->goal_info;
   const int64_t until = nanoseconds(wanted);
   const bool any_id = is_zero(wanted.goal_id);
-
-  response->return_code = CANCEL_STATE_OK;
+  if (const rcl_ret_t result = rcl_action_cancel_response_init(response, impl.goals.size(), impl.options.allocator);
+      result != RCL_RET_OK) {
+    return result;
+  }
   if (!any_id && until == 0) {
     const rcl_action_goal_handle_t* goal = find(impl, wanted);
     if (goal == nullptr) {
-      response->return_code = CANCEL_STATE_UNKNOWN_GOAL;
+      response->msg.return_code = CANCEL_STATE_UNKNOWN_GOAL;
     } else if (!rcl_action_goal_handle_is_cancelable(goal)) {
-      response->return_code = CANCEL_STATE_TERMINATED;
+      response->msg.return_code = CANCEL_STATE_TERMINATED;
     }
   }
   const auto is_meant = [&](const rcl_action_goal_handle_t* goal) {
@@ -173,20 +175,34 @@ rcl_ret_t rcl_action_process_cancel_request(const rcl_action_server_t* action_se
     const bool by_time = until > 0 ? nanoseconds(info) <= until : any_id;
     return (by_id || by_time) && rcl_action_goal_handle_is_cancelable(goal);
   };
-  response->goals_canceling = new rcl_action_goal_info_t[impl.goals.size()];
-  response->num_goals = 0;
+  action_msgs__msg__GoalInfo__Sequence& canceling = response->msg.goals_canceling;
+  canceling.size = 0;
   for (const rcl_action_goal_handle_t* goal : impl.goals) {
     if (is_meant(goal)) {
-      response->goals_canceling[response->num_goals++] = info_of(goal);
+      canceling.data[canceling.size++] = info_of(goal);
     }
   }
   return RCL_RET_OK;
 }
 
-rcl_ret_t rcl_action_cancel_response_fini(rcl_action_cancel_response_t* response) {
-  RCUTILS_CHECK_ARGUMENT_FOR_NULL(response, RCL_RET_INVALID_ARGUMENT);
-  delete[] response->goals_canceling;
-  *response = {};
+rcl_ret_t rcl_action_get_goal_status_array(const rcl_action_server_t* action_server,
+                                           rcl_action_goal_status_array_t* status_array) {
+  if (!rcl_action_server_is_valid(action_server)) {
+    return RCL_RET_ACTION_SERVER_INVALID;
+  }
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(status_array, RCL_RET_INVALID_ARGUMENT);
+  const rcl_action_server_impl_t& impl = *action_server->impl;
+  if (const rcl_ret_t result =
+          rcl_action_goal_status_array_init(status_array, impl.goals.size(), impl.options.allocator);
+      result != RCL_RET_OK) {
+    return result;
+  }
+  rcl_action_goal_status_t* status = status_array->msg.status_list.data;
+  for (const rcl_action_goal_handle_t* goal : impl.goals) {
+    status->goal_info = info_of(goal);
+    (void)rcl_action_goal_handle_get_status(goal, &status->status);
+    ++status;
+  }
   return RCL_RET_OK;
 }
 

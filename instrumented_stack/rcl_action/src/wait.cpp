@@ -47,26 +47,28 @@ rcl_ret_t rcl_action_client_wait_set_get_num_entities(const rcl_action_client_t*
   return RCL_RET_OK;
 }
 
-rcl_ret_t rcl_action_wait_set_add_action_server(rcl_wait_set_t* wait_set, const rcl_action_server_t* action_server) {
+rcl_ret_t rcl_action_wait_set_add_action_server(rcl_wait_set_t* wait_set, const rcl_action_server_t* action_server,
+                                                size_t* service_index) {
   if (!rcl_action_server_is_valid(action_server)) {
     return RCL_RET_ACTION_SERVER_INVALID;
   }
   const rcl_action_server_impl_t& impl = *action_server->impl;
-  return first_error({rcl_wait_set_add_service(wait_set, &impl.goal, nullptr),
+  return first_error({rcl_wait_set_add_service(wait_set, &impl.goal, service_index),
                       rcl_wait_set_add_service(wait_set, &impl.cancel, nullptr),
                       rcl_wait_set_add_service(wait_set, &impl.result, nullptr),
                       rcl_wait_set_add_timer(wait_set, &impl.expire_timer, nullptr)});
 }
 
-rcl_ret_t rcl_action_wait_set_add_action_client(rcl_wait_set_t* wait_set, const rcl_action_client_t* action_client) {
+rcl_ret_t rcl_action_wait_set_add_action_client(rcl_wait_set_t* wait_set, const rcl_action_client_t* action_client,
+                                                size_t* client_index, size_t* subscription_index) {
   if (!rcl_action_client_is_valid(action_client)) {
     return RCL_RET_ACTION_CLIENT_INVALID;
   }
   const rcl_action_client_impl_t& impl = *action_client->impl;
-  return first_error({rcl_wait_set_add_client(wait_set, &impl.goal, nullptr),
+  return first_error({rcl_wait_set_add_client(wait_set, &impl.goal, client_index),
                       rcl_wait_set_add_client(wait_set, &impl.cancel, nullptr),
                       rcl_wait_set_add_client(wait_set, &impl.result, nullptr),
-                      rcl_wait_set_add_subscription(wait_set, &impl.feedback, nullptr),
+                      rcl_wait_set_add_subscription(wait_set, &impl.feedback, subscription_index),
                       rcl_wait_set_add_subscription(wait_set, &impl.status, nullptr)});
 }
 

@@ -1,38 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <lifecycle_msgs/msg/state.hpp>
-#include <lifecycle_msgs/msg/transition_event.hpp>
-#include <rosidl_typesupport_cpp/message_type_support.hpp>
+#include <string>
 
+#include "com_interface.hpp"
 #include "rcl/error_handling.h"
 #include "rcl_lifecycle/rcl_lifecycle.h"
+#include "rcutils/logging_macros.h"
 #include "tracetools/tracetools.h"
 
 namespace {
-
-using lifecycle_msgs::msg::TransitionEvent;
 
 template <typename MatchesT>
 const rcl_lifecycle_transition_t* find_transition(const rcl_lifecycle_state_t* state, MatchesT matches) {
   const rcl_lifecycle_transition_t* end = state->valid_transitions + state->valid_transition_size;
   const rcl_lifecycle_transition_t* found = std::find_if(state->valid_transitions, end, matches);
   return found == end ? nullptr : found;
-}
-
-rcl_ret_t publish(const rcl_publisher_t& publisher, const rcl_lifecycle_transition_t& transition) {
-  TransitionEvent event;
-  event.timestamp = static_cast<uint64_t>(
-      std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
-          .count());
-  event.transition.id = static_cast<uint8_t>(transition.id);
-  event.transition.label = transition.label;
-  event.start_state.id = static_cast<uint8_t>(transition.start->id);
-  event.start_state.label = transition.start->label;
-  event.goal_state.id = static_cast<uint8_t>(transition.goal->id);
-  event.goal_state.label = transition.goal->label;
-  return rcl_publish(&publisher, &event, nullptr);
 }
 
 rcl_ret_t trigger(rcl_lifecycle_state_machine_t* state_machine, const rcl_lifecycle_transition_t* transition,
@@ -44,7 +28,7 @@ rcl_ret_t trigger(rcl_lifecycle_state_machine_t* state_machine, const rcl_lifecy
   state_machine->current_state = transition->goal;
   rcl_ret_t ret = RCL_RET_OK;
   if (publish_notification && state_machine->options.enable_com_interface) {
-    ret = publish(state_machine->pub_transition_event, *transition);
+    ret = rcl_lifecycle::publish(state_machine->com_interface, *transition);
   }
   // ROS 2 does not fire it if publishing failed. But the state has changed, and a trace must show that.
   TRACETOOLS_TRACEPOINT(rcl_lifecycle_transition, static_cast<const void*>(state_machine), transition->start->label,
@@ -59,10 +43,16 @@ rcl_lifecycle_state_machine_t rcl_lifecycle_get_zero_initialized_state_machine(v
 }
 
 rcl_lifecycle_state_machine_options_t rcl_lifecycle_get_default_state_machine_options(void) {
-  return {true};
+  return {true, true, rcl_get_default_allocator()};
 }
 
 rcl_ret_t rcl_lifecycle_state_machine_init(rcl_lifecycle_state_machine_t* state_machine, rcl_node_t* node_handle,
+                                           const rosidl_message_type_support_t* ts_pub_notify,
+                                           const rosidl_service_type_support_t* ts_srv_change_state,
+                                           const rosidl_service_type_support_t* ts_srv_get_state,
+                                           const rosidl_service_type_support_t* ts_srv_get_available_states,
+                                           const rosidl_service_type_support_t* ts_srv_get_available_transitions,
+                                           const rosidl_service_type_support_t* ts_srv_get_transition_graph,
                                            const rcl_lifecycle_state_machine_options_t* options) {
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(state_machine, RCL_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(node_handle, RCL_RET_INVALID_ARGUMENT);
@@ -72,10 +62,9 @@ rcl_ret_t rcl_lifecycle_state_machine_init(rcl_lifecycle_state_machine_t* state_
     return RCL_RET_ALREADY_INIT;
   }
   if (options->enable_com_interface) {
-    const rcl_publisher_options_t publisher_options = rcl_publisher_get_default_options();
-    const rcl_ret_t ret = rcl_publisher_init(&state_machine->pub_transition_event, node_handle,
-                                             rosidl_typesupport_cpp::get_message_type_support_handle<TransitionEvent>(),
-                                             "~/transition_event", &publisher_options);
+    const rcl_ret_t ret = rcl_lifecycle::init(state_machine->com_interface, node_handle, ts_pub_notify,
+                                              {ts_srv_change_state, ts_srv_get_state, ts_srv_get_available_states,
+                                               ts_srv_get_available_transitions, ts_srv_get_transition_graph});
     if (ret != RCL_RET_OK) {
       return ret;
     }
@@ -94,10 +83,7 @@ rcl_ret_t rcl_lifecycle_state_machine_fini(rcl_lifecycle_state_machine_t* state_
   if (state_machine->current_state != nullptr) {
     TRACETOOLS_EXT_TRACEPOINT(rcl_lifecycle_state_machine_fini, static_cast<const void*>(state_machine));
   }
-  rcl_ret_t ret = RCL_RET_OK;
-  if (state_machine->pub_transition_event.impl != nullptr) {
-    ret = rcl_publisher_fini(&state_machine->pub_transition_event, node_handle);
-  }
+  const rcl_ret_t ret = rcl_lifecycle::fini(state_machine->com_interface, node_handle);
   *state_machine = rcl_lifecycle_get_zero_initialized_state_machine();
   return ret;
 }
@@ -140,4 +126,17 @@ rcl_ret_t rcl_lifecycle_trigger_transition_by_label(rcl_lifecycle_state_machine_
              ? ret
              : trigger(state_machine, rcl_lifecycle_get_transition_by_label(state_machine->current_state, label),
                        publish_notification);
+}
+
+void rcl_print_state_machine(const rcl_lifecycle_state_machine_t* state_machine) {
+  const rcl_lifecycle_transition_map_t& map = state_machine->transition_map;
+  for (unsigned int i = 0; i < map.states_size; ++i) {
+    const rcl_lifecycle_state_t& state = map.states[i];
+    std::string transitions;
+    for (unsigned int j = 0; j < state.valid_transition_size; ++j) {
+      transitions += (j == 0 ? ": " : ", ") + std::string(state.valid_transitions[j].label);
+    }
+    RCUTILS_LOG_INFO_NAMED("rcl_lifecycle", "state %s(%u), %u transitions%s", state.label, state.id,
+                           state.valid_transition_size, transitions.c_str());
+  }
 }

@@ -100,7 +100,8 @@ bool ClientBase::wait_for_action_server_nanoseconds(nanoseconds timeout) {
 }
 
 void ClientBase::add_to_wait_set(rcl_wait_set_t& wait_set) {
-  require_ok(rcl_action_wait_set_add_action_client(&wait_set, &client_), "could not wait for an action client");
+  require_ok(rcl_action_wait_set_add_action_client(&wait_set, &client_, nullptr, nullptr),
+             "could not wait for an action client");
 }
 
 bool ClientBase::is_ready(const rcl_wait_set_t& wait_set) {

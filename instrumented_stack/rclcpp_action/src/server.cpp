@@ -28,16 +28,16 @@ constexpr rcl_ret_t (*kSetServerCallback[])(const rcl_action_server_t*, rcl_even
 GoalInfo to_message(const rcl_action_goal_info_t& info) {
   GoalInfo message;
   convert(info, &message.goal_id.uuid);
-  message.stamp.sec = info.stamp_sec;
-  message.stamp.nanosec = info.stamp_nanosec;
+  message.stamp.sec = info.stamp.sec;
+  message.stamp.nanosec = info.stamp.nanosec;
   return message;
 }
 
 rcl_action_goal_info_t to_info(const GoalInfo& message) {
   rcl_action_goal_info_t info = rcl_action_get_zero_initialized_goal_info();
   convert(message.goal_id.uuid, &info);
-  info.stamp_sec = message.stamp.sec;
-  info.stamp_nanosec = message.stamp.nanosec;
+  info.stamp.sec = message.stamp.sec;
+  info.stamp.nanosec = message.stamp.nanosec;
   return info;
 }
 
@@ -74,7 +74,8 @@ ServerBase::~ServerBase() {
 
 void ServerBase::add_to_wait_set(rcl_wait_set_t& wait_set) {
   const std::lock_guard lock(mutex_);
-  require_ok(rcl_action_wait_set_add_action_server(&wait_set, &server_), "could not wait for an action server");
+  require_ok(rcl_action_wait_set_add_action_server(&wait_set, &server_, nullptr),
+             "could not wait for an action server");
 }
 
 bool ServerBase::is_ready(const rcl_wait_set_t& wait_set) {
@@ -202,10 +203,11 @@ std::shared_ptr<rcl_action_goal_handle_t> ServerBase::accept(const GoalUUID& uui
   if (!accepted) {
     rclcpp::exceptions::throw_from_rcl_error(RCL_RET_ERROR, "could not accept a goal");
   }
-  std::shared_ptr<rcl_action_goal_handle_t> goal(accepted, [](rcl_action_goal_handle_t* handle) {
-    (void)rcl_action_goal_handle_fini(handle);
-    delete handle;
-  });
+  std::shared_ptr<rcl_action_goal_handle_t> goal(new rcl_action_goal_handle_t(*accepted),
+                                                 [](rcl_action_goal_handle_t* handle) {
+                                                   (void)rcl_action_goal_handle_fini(handle);
+                                                   delete handle;
+                                                 });
   goals_[uuid] = goal;
   require_ok(rcl_action_goal_handle_get_info(accepted, &info), "could not tell when a goal was accepted");
   return goal;
@@ -218,10 +220,11 @@ void ServerBase::answer_cancel_request(rmw_request_id_t header, const std::share
     const std::lock_guard lock(mutex_);
     const rcl_action_cancel_request_t wanted{
         to_info(std::static_pointer_cast<CancelGoal::Request>(request)->goal_info)};
-    rcl_action_cancel_response_t possible{};
+    rcl_action_cancel_response_t possible = rcl_action_get_zero_initialized_cancel_response();
     require_ok(rcl_action_process_cancel_request(&server_, &wanted, &possible), "could not process a cancel request");
-    response.return_code = static_cast<int8_t>(possible.return_code);
-    candidates.assign(possible.goals_canceling, possible.goals_canceling + possible.num_goals);
+    response.return_code = possible.msg.return_code;
+    candidates.assign(possible.msg.goals_canceling.data,
+                      possible.msg.goals_canceling.data + possible.msg.goals_canceling.size);
     (void)rcl_action_cancel_response_fini(&possible);
   }
   for (const rcl_action_goal_info_t& info : candidates) {
@@ -294,7 +297,7 @@ void ServerBase::publish_status() {
     require_ok(rcl_action_goal_handle_get_status(goals[i], &state), "could not get the status of a goal");
     GoalStatus status;
     status.goal_info = to_message(info);
-    status.status = static_cast<int8_t>(state);
+    status.status = state;
     array.status_list.push_back(status);
   }
   require_ok(rcl_action_publish_status(&server_, &array), "could not publish the status of goals");

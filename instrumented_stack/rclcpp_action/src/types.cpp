@@ -19,11 +19,11 @@ std::string to_string(const GoalUUID& goal_id) {
 }
 
 void convert(const GoalUUID& goal_id, rcl_action_goal_info_t* info) {
-  std::copy(goal_id.begin(), goal_id.end(), info->goal_id);
+  std::copy(goal_id.begin(), goal_id.end(), info->goal_id.uuid);
 }
 
 void convert(const rcl_action_goal_info_t& info, GoalUUID* goal_id) {
-  std::copy(std::begin(info.goal_id), std::end(info.goal_id), goal_id->begin());
+  std::copy(std::begin(info.goal_id.uuid), std::end(info.goal_id.uuid), goal_id->begin());
 }
 
 }  // namespace rclcpp_action

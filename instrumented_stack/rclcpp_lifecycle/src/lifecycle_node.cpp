@@ -21,11 +21,10 @@ LifecycleNode::LifecycleNode(const std::string& node_name, const std::string& no
                              const rclcpp::NodeOptions& options, bool enable_communication_interface)
     : AnyNode(node_name, node_namespace, options),
       states_(std::make_shared<StateManager>(*get_node_base_interface(), get_logger())) {
-  // In the trace, the services come before their state machine.
+  states_->init(enable_communication_interface);
   if (enable_communication_interface) {
     services_ = std::make_unique<LifecycleServices>(*this, states_);
   }
-  states_->init(enable_communication_interface);
   register_on_configure([this](const State& previous_state) { return on_configure(previous_state); });
   register_on_cleanup([this](const State& previous_state) { return on_cleanup(previous_state); });
   register_on_shutdown([this](const State& previous_state) { return on_shutdown(previous_state); });

@@ -15,7 +15,7 @@ namespace rclcpp_lifecycle {
 
 class LifecycleNode;
 
-// The services run in the default callback group of the node.
+// They run in the default callback group of the node. The states must have their com interface.
 class LifecycleServices {
  public:
   LifecycleServices(LifecycleNode& node, const std::shared_ptr<StateManager>& states);

@@ -2,6 +2,13 @@
 #include "state_manager.hpp"
 
 #include <lifecycle_msgs/msg/state.hpp>
+#include <lifecycle_msgs/msg/transition_event.hpp>
+#include <lifecycle_msgs/srv/change_state.hpp>
+#include <lifecycle_msgs/srv/get_available_states.hpp>
+#include <lifecycle_msgs/srv/get_available_transitions.hpp>
+#include <lifecycle_msgs/srv/get_state.hpp>
+#include <rosidl_typesupport_cpp/message_type_support.hpp>
+#include <rosidl_typesupport_cpp/service_type_support.hpp>
 
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/logging.hpp"
@@ -31,6 +38,11 @@ std::vector<Transition> copy(const rcl_lifecycle_transition_t* transitions, unsi
   return result;
 }
 
+template <typename ServiceT>
+const rosidl_service_type_support_t* type_of() {
+  return rosidl_typesupport_cpp::get_service_type_support_handle<ServiceT>();
+}
+
 bool is_primary(const rcl_lifecycle_state_t* state) {
   return state->id <= lifecycle_msgs::msg::State::PRIMARY_STATE_FINALIZED;
 }
@@ -56,7 +68,12 @@ void StateManager::init(bool enable_communication_interface) {
   const std::lock_guard lock(mutex_);
   rcl_lifecycle_state_machine_options_t options = rcl_lifecycle_get_default_state_machine_options();
   options.enable_com_interface = enable_communication_interface;
-  const rcl_ret_t ret = rcl_lifecycle_state_machine_init(&state_machine_, node_handle_.get(), &options);
+  const rcl_ret_t ret = rcl_lifecycle_state_machine_init(
+      &state_machine_, node_handle_.get(),
+      rosidl_typesupport_cpp::get_message_type_support_handle<lifecycle_msgs::msg::TransitionEvent>(),
+      type_of<lifecycle_msgs::srv::ChangeState>(), type_of<lifecycle_msgs::srv::GetState>(),
+      type_of<lifecycle_msgs::srv::GetAvailableStates>(), type_of<lifecycle_msgs::srv::GetAvailableTransitions>(),
+      type_of<lifecycle_msgs::srv::GetAvailableTransitions>(), &options);
   if (ret != RCL_RET_OK) {
     rclcpp::exceptions::throw_from_rcl_error(
         ret, "Couldn't initialize state machine for node " + std::string(rcl_node_get_name(node_handle_.get())));

@@ -31,8 +31,11 @@ class StateManager {
   StateManager(const StateManager&) = delete;
   StateManager& operator=(const StateManager&) = delete;
 
-  // Starts in `unconfigured`, with or without the topic of transitions. Throws rclcpp::exceptions::RCLError.
+  // Starts in `unconfigured`, with or without the topic and the services of the state machine. Throws
+  // rclcpp::exceptions::RCLError.
   void init(bool enable_communication_interface);
+
+  rcl_lifecycle_com_interface_t& com_interface() { return state_machine_.com_interface; }
 
   // The callback of a transition state, TRANSITION_STATE_… of lifecycle_msgs/msg/State. Replaces an earlier one.
   void set_callback(uint8_t transition_state, Callback callback);

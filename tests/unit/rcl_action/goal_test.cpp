@@ -22,7 +22,7 @@ TEST(GoalStateMachine, AllowsTheTransitionsOfRos2) {
       {{GOAL_STATE_CANCELING, GOAL_EVENT_ABORT}, GOAL_STATE_ABORTED},
       {{GOAL_STATE_CANCELING, GOAL_EVENT_CANCELED}, GOAL_STATE_CANCELED},
   };
-  for (int state = GOAL_STATE_UNKNOWN; state < GOAL_STATE_MAX; ++state) {
+  for (int state = GOAL_STATE_UNKNOWN; state < GOAL_STATE_NUM_STATES; ++state) {
     for (int event = GOAL_EVENT_EXECUTE; event < GOAL_EVENT_NUM_EVENTS; ++event) {
       const std::pair from(static_cast<rcl_action_goal_state_t>(state), static_cast<rcl_action_goal_event_t>(event));
       const auto found = allowed.find(from);

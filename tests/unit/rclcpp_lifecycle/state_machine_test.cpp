@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The states and transitions of rcl_lifecycle.
 #include <gmock/gmock.h>
+#include <lifecycle_msgs/msg/transition_event.h>
 #include <rcl/error_handling.h>
 #include <rcl_lifecycle/rcl_lifecycle.h>
 
 #include <lifecycle_msgs/msg/transition.hpp>
+#include <lifecycle_msgs/msg/transition_event.hpp>
+#include <lifecycle_msgs/srv/change_state.hpp>
+#include <lifecycle_msgs/srv/get_available_states.hpp>
+#include <lifecycle_msgs/srv/get_available_transitions.hpp>
+#include <lifecycle_msgs/srv/get_state.hpp>
 #include <rclcpp_lifecycle/lifecycle_node.hpp>
 
 #include "tests/unit/rclcpp/ros_test.hpp"
@@ -12,6 +18,7 @@
 namespace {
 
 using lifecycle_msgs::msg::Transition;
+using lifecycle_msgs::msg::TransitionEvent;
 using testing::ElementsAre;
 
 std::string to_string(const rcl_lifecycle_transition_t& transition) {
@@ -77,8 +84,14 @@ class StateMachineTest : public RosTest {
   ~StateMachineTest() override { rcl_reset_error(); }
 
   rcl_ret_t init() {
-    return rcl_lifecycle_state_machine_init(&machine_, node_->get_node_base_interface()->get_rcl_node_handle(),
-                                            &options_);
+    using rosidl_typesupport_cpp::get_service_type_support_handle;
+    return rcl_lifecycle_state_machine_init(
+        &machine_, node_->get_node_base_interface()->get_rcl_node_handle(), event_type_,
+        get_service_type_support_handle<lifecycle_msgs::srv::ChangeState>(),
+        get_service_type_support_handle<lifecycle_msgs::srv::GetState>(),
+        get_service_type_support_handle<lifecycle_msgs::srv::GetAvailableStates>(),
+        get_service_type_support_handle<lifecycle_msgs::srv::GetAvailableTransitions>(),
+        get_service_type_support_handle<lifecycle_msgs::srv::GetAvailableTransitions>(), &options_);
   }
   rcl_ret_t fini() {
     return rcl_lifecycle_state_machine_fini(&machine_, node_->get_node_base_interface()->get_rcl_node_handle());
@@ -90,6 +103,8 @@ class StateMachineTest : public RosTest {
   }
 
   const rclcpp::Node::SharedPtr node_ = std::make_shared<rclcpp::Node>("node");
+  const rosidl_message_type_support_t* event_type_ =
+      rosidl_typesupport_cpp::get_message_type_support_handle<TransitionEvent>();
   rcl_lifecycle_state_machine_t machine_ = rcl_lifecycle_get_zero_initialized_state_machine();
   rcl_lifecycle_state_machine_options_t options_ = rcl_lifecycle_get_default_state_machine_options();
 };
@@ -113,10 +128,55 @@ TEST_F(StateMachineTest, GoesOnlyWhereTheCurrentStateLeads) {
   EXPECT_EQ(rcl_lifecycle_trigger_transition_by_label(&machine_, "activate", true), RCL_RET_INVALID_ARGUMENT);
 }
 
-TEST_F(StateMachineTest, HasItsTopicWhileItIsInitialized) {
+TEST_F(StateMachineTest, HasItsTopicAndServicesWhileItIsInitialized) {
   options_ = rcl_lifecycle_get_default_state_machine_options();
   EXPECT_EQ(init(), RCL_RET_OK);
   EXPECT_EQ(node_->count_publishers("/node/transition_event"), 1u);
+  EXPECT_STREQ(rcl_service_get_service_name(&machine_.com_interface.srv_get_transition_graph),
+               "/node/get_transition_graph");
+  EXPECT_EQ(node_->count_services("/node/change_state"), 1u);
+  EXPECT_EQ(fini(), RCL_RET_OK);
+  EXPECT_EQ(node_->count_services("/node/change_state"), 0u);
+}
+
+TEST_F(StateMachineTest, LeavesNothingWhenItCannotHaveItsServices) {
+  options_ = rcl_lifecycle_get_default_state_machine_options();
+  event_type_ = nullptr;
+  EXPECT_EQ(init(), RCL_RET_INVALID_ARGUMENT);
+  EXPECT_EQ(error(), "event_type argument is null");
+  EXPECT_EQ(machine_.current_state, nullptr);
+  EXPECT_EQ(node_->count_services("/node/change_state"), 0u);
+}
+
+TEST_F(StateMachineTest, PublishesMessagesOfCAsItDoesThoseOfCpp) {
+  options_ = rcl_lifecycle_get_default_state_machine_options();
+  event_type_ = ROSIDL_GET_MSG_TYPE_SUPPORT(lifecycle_msgs, msg, TransitionEvent);
+  ASSERT_EQ(init(), RCL_RET_OK);
+  std::vector<std::string> events;
+  const auto subscription =
+      node_->create_subscription<TransitionEvent>("~/transition_event", 10, [&](const TransitionEvent& event) {
+        EXPECT_GT(event.timestamp, 0u);
+        events.push_back(event.transition.label + ": " + event.start_state.label + " > " + event.goal_state.label);
+      });
+  EXPECT_EQ(rcl_lifecycle_trigger_transition_by_label(&machine_, "configure", true), RCL_RET_OK);
+  rclcpp::executors::SingleThreadedExecutor executor;
+  executor.add_node(node_);
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (events.empty() && std::chrono::steady_clock::now() < end) {
+    executor.spin_once(kPatience);
+  }
+  EXPECT_THAT(events, ElementsAre("configure: unconfigured > configuring"));
+  EXPECT_EQ(fini(), RCL_RET_OK);
+}
+
+TEST_F(StateMachineTest, PrintsItsStates) {
+  ASSERT_EQ(init(), RCL_RET_OK);
+  testing::internal::CaptureStderr();
+  rcl_print_state_machine(&machine_);
+  const std::string printed = testing::internal::GetCapturedStderr();
+  EXPECT_NE(printed.find("[rcl_lifecycle]: state inactive(2), 3 transitions: cleanup, activate, shutdown\n"),
+            std::string::npos)
+      << printed;
   EXPECT_EQ(fini(), RCL_RET_OK);
 }
 

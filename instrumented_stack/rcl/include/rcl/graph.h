@@ -35,6 +35,10 @@ rcl_ret_t rcl_count_subscribers(const rcl_node_t* node, const char* topic_name, 
 // Names and namespaces of all nodes, in the same order. Free with rcutils_string_array_fini().
 rcl_ret_t rcl_get_node_names(const rcl_node_t* node, rcl_allocator_t allocator, rcutils_string_array_t* node_names,
                              rcutils_string_array_t* node_namespaces);
+// The same, and the enclave of each, "/" where it has none.
+rcl_ret_t rcl_get_node_names_with_enclaves(const rcl_node_t* node, rcl_allocator_t allocator,
+                                           rcutils_string_array_t* node_names, rcutils_string_array_t* node_namespaces,
+                                           rcutils_string_array_t* enclaves);
 rcl_ret_t rcl_get_topic_names_and_types(const rcl_node_t* node, rcl_allocator_t* allocator, bool no_demangle,
                                         rcl_names_and_types_t* topic_names_and_types);
 

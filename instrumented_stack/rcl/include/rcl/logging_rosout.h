@@ -17,6 +17,12 @@ extern "C" {
 rcl_ret_t rcl_logging_rosout_init_publisher_for_node(rcl_node_t* node);
 rcl_ret_t rcl_logging_rosout_fini_publisher_for_node(rcl_node_t* node);
 
+// Note and forget that logger `logger_name.sublogger_name` is in use. They change nothing of what is published, because
+// messages of all descendants of a node's logger are. Each addition needs a removal. Return RCL_RET_NOT_FOUND if no
+// node has logger `logger_name`, and if the sublogger is not in use. Any thread.
+rcl_ret_t rcl_logging_rosout_add_sublogger(const char* logger_name, const char* sublogger_name);
+rcl_ret_t rcl_logging_rosout_remove_sublogger(const char* logger_name, const char* sublogger_name);
+
 // Publishes for the node with the longest logger name that is `name` or an ancestor of it.
 void rcl_logging_rosout_output_handler(const rcutils_log_location_t* location, int severity, const char* name,
                                        rcutils_time_point_value_t timestamp, const char* format, va_list* args);

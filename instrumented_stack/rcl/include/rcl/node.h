@@ -9,12 +9,14 @@
 #include "rcl/guard_condition.h"
 #include "rcl/node_options.h"
 #include "rcl/types.h"
+#include "type_description_interfaces/srv/get_type_description.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 typedef struct rcl_node_impl_s rcl_node_impl_t;
+typedef struct rcl_service_s rcl_service_t;
 
 typedef struct rcl_node_s {
   rcl_context_t* context;
@@ -50,6 +52,16 @@ const char* rcl_node_get_logger_name(const rcl_node_t* node);
 // remapping. Free the output with `allocator`.
 rcl_ret_t rcl_node_resolve_name(const rcl_node_t* node, const char* input_name, rcl_allocator_t allocator,
                                 bool is_service, bool only_expand, char** output_name);
+
+// Creates the service ~/get_type_description, with messages of C. The caller answers its requests and finalizes it.
+rcl_ret_t rcl_node_type_description_service_init(rcl_service_t* service, const rcl_node_t* node);
+
+// Makes the answer to a request of that service. What `response` contained before is overwritten, not freed; the caller
+// finalizes it. Any thread.
+void rcl_node_type_description_service_handle_request(
+    rcl_node_t* node, const rmw_request_id_t* request_header,
+    const type_description_interfaces__srv__GetTypeDescription_Request* request,
+    type_description_interfaces__srv__GetTypeDescription_Response* response);
 
 #ifdef __cplusplus
 }

@@ -79,6 +79,9 @@ rcl_ret_t rcl_disable_ros_time_override(rcl_clock_t* clock);
 rcl_ret_t rcl_is_enabled_ros_time_override(rcl_clock_t* clock, bool* is_enabled);
 rcl_ret_t rcl_set_ros_time_override(rcl_clock_t* clock, rcl_time_point_value_t time_value);
 
+// `delta` is the time from `start` to `finish`. Returns RCL_RET_ERROR if they are of different clocks.
+rcl_ret_t rcl_difference_times(const rcl_time_point_t* start, const rcl_time_point_t* finish, rcl_duration_t* delta);
+
 // Not thread safe: do not call these at the same time as each other or as changes of the clock.
 rcl_ret_t rcl_clock_add_jump_callback(rcl_clock_t* clock, rcl_jump_threshold_t threshold, rcl_jump_callback_t callback,
                                       void* user_data);

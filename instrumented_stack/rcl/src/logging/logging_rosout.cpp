@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <map>
 #include <mutex>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -33,6 +34,7 @@ struct Publishers {
   std::mutex mutex;
   std::condition_variable unused;
   std::map<std::string, Entry, std::less<>> by_logger;
+  std::multiset<std::string> subloggers;
 };
 
 // Never destroyed, because nodes in static storage may be destroyed later.
@@ -55,6 +57,10 @@ Entry* find_for(Publishers& all, std::string_view name) {
     name = separator == std::string_view::npos ? std::string_view() : name.substr(0, separator);
   }
   return nullptr;
+}
+
+std::string full_name(const char* logger_name, const char* sublogger_name) {
+  return std::string(logger_name) + RCUTILS_LOGGING_SEPARATOR_CHAR + sublogger_name;
 }
 
 std::string formatted(const char* format, va_list* args) {
@@ -111,6 +117,35 @@ rcl_ret_t rcl_logging_rosout_fini_publisher_for_node(rcl_node_t* node) {
   all.unused.wait(lock, [&] { return ending.mapped().users == 0; });
   lock.unlock();
   return rcl_publisher_fini(&ending.mapped().publisher, node);
+}
+
+rcl_ret_t rcl_logging_rosout_add_sublogger(const char* logger_name, const char* sublogger_name) {
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(logger_name, RCL_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(sublogger_name, RCL_RET_INVALID_ARGUMENT);
+  std::string name = full_name(logger_name, sublogger_name);
+  Publishers& all = publishers();
+  const std::lock_guard lock(all.mutex);
+  if (all.by_logger.count(std::string_view(logger_name)) == 0 && all.subloggers.count(logger_name) == 0) {
+    RCL_SET_ERROR_MSG_WITH_FORMAT_STRING("no node has logger '%s'", logger_name);
+    return RCL_RET_NOT_FOUND;
+  }
+  all.subloggers.insert(std::move(name));
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rcl_logging_rosout_remove_sublogger(const char* logger_name, const char* sublogger_name) {
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(logger_name, RCL_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(sublogger_name, RCL_RET_INVALID_ARGUMENT);
+  const std::string name = full_name(logger_name, sublogger_name);
+  Publishers& all = publishers();
+  const std::lock_guard lock(all.mutex);
+  const auto found = all.subloggers.find(name);
+  if (found == all.subloggers.end()) {
+    RCL_SET_ERROR_MSG_WITH_FORMAT_STRING("logger '%s' is not in use", name.c_str());
+    return RCL_RET_NOT_FOUND;
+  }
+  all.subloggers.erase(found);
+  return RCL_RET_OK;
 }
 
 void rcl_logging_rosout_output_handler(const rcutils_log_location_t* location, int severity, const char* name,

@@ -6,6 +6,8 @@
 #include "rcl/expand_topic_name.h"
 #include "rcl/validate_topic_name.h"
 #include "rmw/validate_full_topic_name.h"
+#include "rmw/validate_namespace.h"
+#include "rmw/validate_node_name.h"
 
 namespace {
 
@@ -87,7 +89,8 @@ std::string fully_qualified_name(std::string_view node_namespace, std::string_vi
   return result.append(node_name);
 }
 
-std::string expand_topic_name(std::string_view name, std::string_view node_name, std::string_view node_namespace) {
+std::string expand_topic_name(std::string_view name, std::string_view node_name, std::string_view node_namespace,
+                              const rcutils_string_map_t* substitutions) {
   if (const Verdict verdict = check_topic_name(name); verdict.result != RCL_TOPIC_NAME_VALID) {
     throw NameError(RCL_RET_TOPIC_NAME_INVALID, "invalid topic name '" + std::string(name) + "', at character " +
                                                     std::to_string(verdict.index + 1) + ": " +
@@ -111,6 +114,10 @@ std::string expand_topic_name(std::string_view name, std::string_view node_name,
       result += node_name;
     } else if (key == "ns" || key == "namespace") {
       result += node_namespace;
+    } else if (const char* value = substitutions == nullptr
+                                       ? nullptr
+                                       : rcutils_string_map_getn(substitutions, key.data(), key.size())) {
+      result += value;
     } else {
       throw NameError(RCL_RET_UNKNOWN_SUBSTITUTION, "unknown substitution '{" + std::string(key) +
                                                         "}' in topic name: it may be {node}, {ns} or {namespace}");
@@ -130,19 +137,40 @@ void check_full_topic_name(const std::string& name) {
   }
 }
 
+void check_node_names(const std::string& name, const std::string& node_namespace) {
+  int verdict = RMW_NODE_NAME_VALID;
+  if (rmw_validate_node_name(name.c_str(), &verdict, nullptr) != RMW_RET_OK || verdict != RMW_NODE_NAME_VALID) {
+    throw NameError(RCL_RET_NODE_INVALID_NAME,
+                    "invalid node name '" + name + "': " + rmw_node_name_validation_result_string(verdict));
+  }
+  if (rmw_validate_namespace(node_namespace.c_str(), &verdict, nullptr) != RMW_RET_OK ||
+      verdict != RMW_NAMESPACE_VALID) {
+    throw NameError(RCL_RET_NODE_INVALID_NAMESPACE,
+                    "invalid namespace '" + node_namespace + "': " + rmw_namespace_validation_result_string(verdict));
+  }
+}
+
 }  // namespace rcl
 
 rcl_ret_t rcl_expand_topic_name(const char* input_topic_name, const char* node_name, const char* node_namespace,
-                                rcl_allocator_t allocator, char** output_topic_name) try {
+                                const rcutils_string_map_t* substitutions, rcl_allocator_t allocator,
+                                char** output_topic_name) try {
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(input_topic_name, RCL_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(node_name, RCL_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(node_namespace, RCL_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(substitutions, RCL_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(output_topic_name, RCL_RET_INVALID_ARGUMENT);
-  return rcl::hand_out(rcl::expand_topic_name(input_topic_name, node_name, node_namespace), allocator,
+  rcl::check_node_names(node_name, node_namespace);
+  return rcl::hand_out(rcl::expand_topic_name(input_topic_name, node_name, node_namespace, substitutions), allocator,
                        output_topic_name);
 } catch (const rcl::NameError& error) {
   RCL_SET_ERROR_MSG(error.what());
   return error.code();
+}
+
+rcl_ret_t rcl_get_default_topic_name_substitutions(rcutils_string_map_t* string_map) {
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(string_map, RCL_RET_INVALID_ARGUMENT);
+  return RCL_RET_OK;
 }
 
 rcl_ret_t rcl_validate_topic_name(const char* topic_name, int* validation_result, size_t* invalid_index) {

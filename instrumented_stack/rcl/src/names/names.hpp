@@ -11,6 +11,7 @@
 #include "rcl/allocator.h"
 #include "rcl/error_handling.h"
 #include "rcl/types.h"
+#include "rcutils/types/string_map.h"
 
 namespace rcl {
 
@@ -24,11 +25,15 @@ class NameError : public std::invalid_argument {
   rcl_ret_t code_;
 };
 
-// Expands the name but does not check the result. Throws NameError.
-std::string expand_topic_name(std::string_view name, std::string_view node_name, std::string_view node_namespace);
+// Expands the name but does not check the result. `substitutions` may be null. Throws NameError.
+std::string expand_topic_name(std::string_view name, std::string_view node_name, std::string_view node_namespace,
+                              const rcutils_string_map_t* substitutions = nullptr);
 
 // Throws NameError unless `name` is a full topic name.
 void check_full_topic_name(const std::string& name);
+
+// Throws NameError unless both are valid.
+void check_node_names(const std::string& name, const std::string& node_namespace);
 
 // `/node` or `/ns/node`
 std::string fully_qualified_name(std::string_view node_namespace, std::string_view node_name);

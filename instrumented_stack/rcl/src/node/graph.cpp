@@ -34,6 +34,11 @@ rcl_ret_t rcl_get_node_names(const rcl_node_t* node, rcl_allocator_t, rcutils_st
   return ask(rmw_get_node_names, node, node_names, node_namespaces);
 }
 
+rcl_ret_t rcl_get_node_names_with_enclaves(const rcl_node_t* node, rcl_allocator_t, rcutils_string_array_t* node_names,
+                                           rcutils_string_array_t* node_namespaces, rcutils_string_array_t* enclaves) {
+  return ask(rmw_get_node_names_with_enclaves, node, node_names, node_namespaces, enclaves);
+}
+
 rcl_ret_t rcl_get_topic_names_and_types(const rcl_node_t* node, rcl_allocator_t* allocator, bool no_demangle,
                                         rcl_names_and_types_t* topic_names_and_types) {
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(allocator, RCL_RET_INVALID_ARGUMENT);

@@ -11,8 +11,6 @@
 #include "rcl/logging_rosout.h"
 #include "rcl/remap.h"
 #include "rmw/rmw.h"
-#include "rmw/validate_namespace.h"
-#include "rmw/validate_node_name.h"
 #include "tracetools/tracetools.h"
 
 struct rcl_node_impl_s {
@@ -42,19 +40,12 @@ rcl_ret_t remap(RemapNode function, const rcl_node_options_t& options, const rcl
   return result;
 }
 
-rcl_ret_t check_names(const std::string& name, const std::string& namespace_) {
-  int verdict = RMW_NODE_NAME_VALID;
-  if (rmw_validate_node_name(name.c_str(), &verdict, nullptr) != RMW_RET_OK || verdict != RMW_NODE_NAME_VALID) {
-    RCL_SET_ERROR_MSG_WITH_FORMAT_STRING("invalid node name '%s': %s", name.c_str(),
-                                         rmw_node_name_validation_result_string(verdict));
-    return RCL_RET_NODE_INVALID_NAME;
-  }
-  if (rmw_validate_namespace(namespace_.c_str(), &verdict, nullptr) != RMW_RET_OK || verdict != RMW_NAMESPACE_VALID) {
-    RCL_SET_ERROR_MSG_WITH_FORMAT_STRING("invalid namespace '%s': %s", namespace_.c_str(),
-                                         rmw_namespace_validation_result_string(verdict));
-    return RCL_RET_NODE_INVALID_NAMESPACE;
-  }
+rcl_ret_t check_names(const std::string& name, const std::string& namespace_) try {
+  rcl::check_node_names(name, namespace_);
   return RCL_RET_OK;
+} catch (const rcl::NameError& error) {
+  RCL_SET_ERROR_MSG(error.what());
+  return error.code();
 }
 
 std::string absolute(const char* namespace_) {

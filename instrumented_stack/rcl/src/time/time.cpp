@@ -104,6 +104,18 @@ rcl_ret_t rcl_clock_get_now(rcl_clock_t* clock, rcl_time_point_value_t* time_poi
                                         : rcutils_system_time_now(time_point_value);
 }
 
+rcl_ret_t rcl_difference_times(const rcl_time_point_t* start, const rcl_time_point_t* finish, rcl_duration_t* delta) {
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(start, RCL_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(finish, RCL_RET_INVALID_ARGUMENT);
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(delta, RCL_RET_INVALID_ARGUMENT);
+  if (start->clock_type != finish->clock_type) {
+    RCL_SET_ERROR_MSG("two times of different clocks have no difference");
+    return RCL_RET_ERROR;
+  }
+  delta->nanoseconds = finish->nanoseconds - start->nanoseconds;
+  return RCL_RET_OK;
+}
+
 rcl_ret_t rcl_enable_ros_time_override(rcl_clock_t* clock) {
   return switch_simulation(clock, true);
 }

@@ -39,17 +39,6 @@ typedef struct rcl_action_server_options_s {
   rcl_duration_t result_timeout;
 } rcl_action_server_options_t;
 
-// Selects the goals to cancel: this one; with an all zero id every one, or all that were accepted until a time.
-typedef struct rcl_action_cancel_request_s {
-  rcl_action_goal_info_t goal_info;
-} rcl_action_cancel_request_t;
-
-typedef struct rcl_action_cancel_response_s {
-  rcl_action_cancel_state_t return_code;
-  rcl_action_goal_info_t* goals_canceling;  // the goals that can be canceled; from new[]
-  size_t num_goals;
-} rcl_action_cancel_response_t;
-
 rcl_action_server_t rcl_action_get_zero_initialized_server(void);
 rcl_action_server_options_t rcl_action_server_get_default_options(void);
 
@@ -85,8 +74,9 @@ rcl_ret_t rcl_action_server_set_cancel_service_callback(const rcl_action_server_
 rcl_ret_t rcl_action_server_set_result_service_callback(const rcl_action_server_t* action_server,
                                                         rcl_event_callback_t callback, const void* user_data);
 
-// Creates a goal in state accepted. The caller owns it, and must fini and delete it once it is no longer among the
-// goals of the server. Returns null if a goal with this id exists already.
+// Creates a goal in state accepted, which must be finalized once it is no longer among the goals of the server. The
+// structure belongs to the server and lives until the goal expires or the server ends: copy it. Returns null if a goal
+// with this id exists already.
 rcl_action_goal_handle_t* rcl_action_accept_new_goal(rcl_action_server_t* action_server,
                                                      const rcl_action_goal_info_t* goal_info);
 
@@ -101,11 +91,15 @@ rcl_ret_t rcl_action_expire_goals(const rcl_action_server_t* action_server, rcl_
 // Nanoseconds of the server's clock until the next result expires; 0 if one has expired, -1 if none will.
 rcl_ret_t rcl_action_server_get_time_until_expiry(const rcl_action_server_t* action_server, int64_t* nanoseconds);
 
-// Finds the goals that `request` selects and that can be canceled. Changes no goal. The response must be finalized.
+// Finds the goals that `request` selects and that can be canceled. Changes no goal. The response must be zero
+// initialized, and be finalized afterwards.
 rcl_ret_t rcl_action_process_cancel_request(const rcl_action_server_t* action_server,
                                             const rcl_action_cancel_request_t* request,
                                             rcl_action_cancel_response_t* response);
-rcl_ret_t rcl_action_cancel_response_fini(rcl_action_cancel_response_t* response);
+
+// The states of all goals of the server. The array must be zero initialized, and be finalized afterwards.
+rcl_ret_t rcl_action_get_goal_status_array(const rcl_action_server_t* action_server,
+                                           rcl_action_goal_status_array_t* status_array);
 
 bool rcl_action_server_goal_exists(const rcl_action_server_t* action_server, const rcl_action_goal_info_t* goal_info);
 

@@ -18,9 +18,12 @@ rcl_ret_t rcl_action_client_wait_set_get_num_entities(const rcl_action_client_t*
                                                       size_t* num_subscriptions, size_t* num_guard_conditions,
                                                       size_t* num_timers, size_t* num_clients, size_t* num_services);
 
-// Returns RCL_RET_WAIT_SET_FULL if there is no room.
-rcl_ret_t rcl_action_wait_set_add_action_server(rcl_wait_set_t* wait_set, const rcl_action_server_t* action_server);
-rcl_ret_t rcl_action_wait_set_add_action_client(rcl_wait_set_t* wait_set, const rcl_action_client_t* action_client);
+// An index (may be null) gets the place of the first of the services, clients or subscriptions. Returns
+// RCL_RET_WAIT_SET_FULL if there is no room.
+rcl_ret_t rcl_action_wait_set_add_action_server(rcl_wait_set_t* wait_set, const rcl_action_server_t* action_server,
+                                                size_t* service_index);
+rcl_ret_t rcl_action_wait_set_add_action_client(rcl_wait_set_t* wait_set, const rcl_action_client_t* action_client,
+                                                size_t* client_index, size_t* subscription_index);
 
 // The entities that are ready after rcl_wait().
 rcl_ret_t rcl_action_server_wait_set_get_entities_ready(const rcl_wait_set_t* wait_set,

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A state machine that publishes its transitions.
-//
-// Unlike in ROS 2, rclcpp_lifecycle creates its services, because it answers them. Not thread safe.
+// A state machine that publishes its transitions, and has the services of a managed node. Not thread safe.
 #pragma once
 
 #include "rcl_lifecycle/data_types.h"
@@ -12,13 +10,22 @@ extern "C" {
 #endif
 
 rcl_lifecycle_state_machine_t rcl_lifecycle_get_zero_initialized_state_machine(void);
-// The default includes the topic.
+// The default includes the com interface.
 rcl_lifecycle_state_machine_options_t rcl_lifecycle_get_default_state_machine_options(void);
 
-// Creates topic ~/transition_event, unless the options disable it, and starts in `unconfigured`. Fires
+// Creates topic ~/transition_event and services ~/change_state, ~/get_state, ~/get_available_states,
+// ~/get_available_transitions and ~/get_transition_graph, unless the options disable them, and starts in
+// `unconfigured`. The node must live until the state machine is finalized. `ts_pub_notify` is for messages of C or C++,
+// those of services are what their requests are taken with. Type supports may be null without com interface. Fires
 // rcl_lifecycle_state_machine_init. Returns RCL_RET_INVALID_ARGUMENT, RCL_RET_ALREADY_INIT or RCL_RET_NODE_INVALID on
-// errors.
+// errors; then nothing is left.
 rcl_ret_t rcl_lifecycle_state_machine_init(rcl_lifecycle_state_machine_t* state_machine, rcl_node_t* node_handle,
+                                           const rosidl_message_type_support_t* ts_pub_notify,
+                                           const rosidl_service_type_support_t* ts_srv_change_state,
+                                           const rosidl_service_type_support_t* ts_srv_get_state,
+                                           const rosidl_service_type_support_t* ts_srv_get_available_states,
+                                           const rosidl_service_type_support_t* ts_srv_get_available_transitions,
+                                           const rosidl_service_type_support_t* ts_srv_get_transition_graph,
                                            const rcl_lifecycle_state_machine_options_t* options);
 rcl_ret_t rcl_lifecycle_state_machine_fini(rcl_lifecycle_state_machine_t* state_machine, rcl_node_t* node_handle);
 rcl_ret_t rcl_lifecycle_state_machine_is_initialized(const rcl_lifecycle_state_machine_t* state_machine);
@@ -38,6 +45,9 @@ rcl_ret_t rcl_lifecycle_trigger_transition_by_id(rcl_lifecycle_state_machine_t* 
                                                  bool publish_notification);
 rcl_ret_t rcl_lifecycle_trigger_transition_by_label(rcl_lifecycle_state_machine_t* state_machine, const char* label,
                                                     bool publish_notification);
+
+// Logs all states with the labels of their transitions, as logger rcl_lifecycle with severity info.
+void rcl_print_state_machine(const rcl_lifecycle_state_machine_t* state_machine);
 
 #ifdef __cplusplus
 }

@@ -36,6 +36,15 @@ class Service : public ServiceBase, public std::enable_shared_from_this<Service<
     send_type_erased_response(request_id, &response);
   }
 
+  // Takes over a service that exists already, for requests in C++.
+  Service(std::shared_ptr<rcl_node_t> node_handle, std::shared_ptr<rcl_service_t> service_handle,
+          AnyServiceCallback<ServiceT> any_callback)
+      : ServiceBase(std::move(node_handle), std::move(service_handle),
+                    *rosidl_typesupport_cpp::get_service_type_support_handle<ServiceT>()),
+        any_callback_(std::move(any_callback)) {
+    trace_creation(any_callback_);
+  }
+
  protected:
   std::shared_ptr<void> create_request() override { return std::make_shared<Request>(); }
 

@@ -31,6 +31,9 @@ class ServiceBase {
   // Throws exceptions::InvalidServiceNameError or exceptions::RCLError.
   ServiceBase(node_interfaces::NodeBaseInterface* node_base, const rosidl_service_type_support_t& type_support,
               const std::string& service_name, const QoS& qos);
+  // Takes over a service that exists already, of this type. Throws std::runtime_error unless rcl has initialised it.
+  ServiceBase(std::shared_ptr<rcl_node_t> node_handle, std::shared_ptr<rcl_service_t> service_handle,
+              const rosidl_service_type_support_t& type_support);
   virtual ~ServiceBase();
   RCLCPP_DISABLE_COPY(ServiceBase)
 

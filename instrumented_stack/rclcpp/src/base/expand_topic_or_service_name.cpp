@@ -39,9 +39,10 @@ std::string expand_topic_or_service_name(const std::string& name, const std::str
   require_valid<exceptions::InvalidNamespaceError>(rmw_validate_namespace, rmw_namespace_validation_result_string,
                                                    namespace_);
   const rcl_allocator_t allocator = rcl_get_default_allocator();
+  const rcutils_string_map_t no_more_substitutions = rcutils_get_zero_initialized_string_map();
   char* expanded = nullptr;
-  const rcl_ret_t ret =
-      rcl_expand_topic_name(name.c_str(), node_name.c_str(), namespace_.c_str(), allocator, &expanded);
+  const rcl_ret_t ret = rcl_expand_topic_name(name.c_str(), node_name.c_str(), namespace_.c_str(),
+                                              &no_more_substitutions, allocator, &expanded);
   if (ret == RCL_RET_TOPIC_NAME_INVALID || ret == RCL_RET_UNKNOWN_SUBSTITUTION) {
     is_service ? detail::throw_invalid_service_name(name) : detail::throw_invalid_topic_name(name);
   }

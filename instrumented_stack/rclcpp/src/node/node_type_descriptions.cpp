@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/node_interfaces/node_type_descriptions.hpp"
 
-#include <rcl/node_type_cache.h>
-
-#include <map>
-#include <string_view>
+#include <rcl/described_types.hpp>
 #include <type_description_interfaces/srv/get_type_description.hpp>
 
 #include "rclcpp/create_service.hpp"
-#include "rclcpp/detail/require_ok.hpp"
 
 namespace rclcpp::node_interfaces {
 
@@ -21,18 +17,6 @@ using type_description_interfaces::msg::IndividualTypeDescription;
 using type_description_interfaces::msg::TypeSource;
 
 constexpr const char* kParameter = "start_type_description_service";
-
-// Sorted by name, as in a TypeDescription.
-using Types = std::map<std::string_view, const rosidl_type_description_t*>;
-
-void add_nested_types(const rosidl_type_description_t& type, Types& types) {
-  for (size_t i = 0; i < type.field_count; ++i) {
-    const rosidl_type_description_t* nested = type.fields[i].nested_type;
-    if (nested != nullptr && types.emplace(nested->type_name, nested).second) {
-      add_nested_types(*nested, types);
-    }
-  }
-}
 
 IndividualTypeDescription to_message(const rosidl_type_description_t& type) {
   IndividualTypeDescription message;
@@ -59,45 +43,21 @@ TypeSource source_of(const rosidl_type_description_t& type) {
   return message;
 }
 
-bool is_type_hash(const std::string& text) {
-  constexpr std::string_view kPrefix = "RIHS01_";
-  return text.size() == kPrefix.size() + 64 && text.compare(0, kPrefix.size(), kPrefix) == 0 &&
-         text.find_first_not_of("0123456789abcdef", kPrefix.size()) == std::string::npos;
-}
-
-void describe(const rosidl_type_description_t& type, const GetTypeDescription::Request& request,
-              GetTypeDescription::Response& response) {
-  Types nested;
-  add_nested_types(type, nested);
-  response.type_description.type_description = to_message(type);
-  for (const auto& [name, nested_type] : nested) {
-    response.type_description.referenced_type_descriptions.push_back(to_message(*nested_type));
-  }
-  if (request.include_type_sources) {
-    response.type_sources.push_back(source_of(type));
-    for (const auto& [name, nested_type] : nested) {
-      response.type_sources.push_back(source_of(*nested_type));
-    }
-  }
-  response.successful = true;
-}
-
 void answer(const rcl_node_t* node, const GetTypeDescription::Request& request,
             GetTypeDescription::Response& response) {
-  response.successful = false;
-  // Nodes of ROS 2 give the same two reasons.
-  if (!is_type_hash(request.type_hash)) {
-    response.failure_reason = "Failed to parse type hash";
-    return;
+  const rcl::DescribedTypes described = rcl::describe_type(node, request.type_hash);
+  response.successful = !described.types.empty();
+  response.failure_reason = described.failure_reason;
+  for (const rosidl_type_description_t* type : described.types) {
+    if (type == described.types.front()) {
+      response.type_description.type_description = to_message(*type);
+    } else {
+      response.type_description.referenced_type_descriptions.push_back(to_message(*type));
+    }
+    if (request.include_type_sources) {
+      response.type_sources.push_back(source_of(*type));
+    }
   }
-  const rosidl_type_description_t* type = nullptr;
-  detail::require_ok(rcl_node_type_cache_get_type_info(node, request.type_hash.c_str(), &type),
-                     "could not look up a type");
-  if (type == nullptr) {
-    response.failure_reason = "Type not currently in use by this node";
-    return;
-  }
-  describe(*type, request, response);
 }
 
 }  // namespace

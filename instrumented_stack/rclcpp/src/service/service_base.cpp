@@ -33,6 +33,17 @@ ServiceBase::ServiceBase(node_interfaces::NodeBaseInterface* node_base,
       detail::shared_entity(std::move(service), node_handle_, rcl_service_fini, "failed to finalize a service");
 }
 
+ServiceBase::ServiceBase(std::shared_ptr<rcl_node_t> node_handle, std::shared_ptr<rcl_service_t> service_handle,
+                         const rosidl_service_type_support_t& type_support)
+    : node_handle_(std::move(node_handle)),
+      service_handle_(std::move(service_handle)),
+      introspected_type_(&type_support) {
+  if (!rcl_service_is_valid(service_handle_.get())) {
+    rcl_reset_error();
+    throw std::runtime_error("rcl_service_t in constructor argument must be initialized beforehand.");
+  }
+}
+
 ServiceBase::~ServiceBase() {
   clear_on_new_request_callback();
   if (traced_callback_) {

@@ -166,8 +166,8 @@ class Server : public ServerBase, public std::enable_shared_from_this<Server<Act
   std::shared_ptr<void> create_goal_response(bool accepted, const rcl_action_goal_info_t& info) override {
     auto response = std::make_shared<typename ActionT::Impl::SendGoalService::Response>();
     response->accepted = accepted;
-    response->stamp.sec = info.stamp_sec;
-    response->stamp.nanosec = info.stamp_nanosec;
+    response->stamp.sec = info.stamp.sec;
+    response->stamp.nanosec = info.stamp.nanosec;
     return response;
   }
 
