@@ -101,7 +101,19 @@ rcl_ret_t rcl_action_notify_goal_done(const rcl_action_server_t* action_server) 
   if (!rcl_action_server_is_valid(action_server)) {
     return RCL_RET_ACTION_SERVER_INVALID;
   }
-  return set_timer(*action_server->impl);
+  rcl_action_server_impl_t& impl = *action_server->impl;
+  rcl_time_point_value_t now = 0;
+  if (const rcl_ret_t result = rcl_clock_get_now(impl.clock, &now); result != RCL_RET_OK) {
+    return result;
+  }
+  for (rcl_action_goal_handle_t* goal : impl.goals) {
+    int64_t ended = -1;
+    (void)rcl_action_goal_handle_get_goal_terminal_timestamp(goal, &ended);
+    if (ended < 0 && !rcl_action_goal_handle_is_active(goal)) {
+      (void)rcl_action_goal_handle_set_goal_terminal_timestamp(goal, now);
+    }
+  }
+  return set_timer(impl);
 }
 
 rcl_ret_t rcl_action_expire_goals(const rcl_action_server_t* action_server, rcl_action_goal_info_t* expired_goals,

@@ -184,7 +184,7 @@ rcutils_ret_t rcutils_logging_set_logger_level(const char* name, int level) {
     return RCUTILS_RET_INVALID_ARGUMENT;
   }
   if (*name == '\0') {
-    rcutils_logging_set_default_logger_level(level);
+    logging().default_level = level;  // UNSET lets every message pass
     return RCUTILS_RET_OK;
   }
   Logging& log = logging();

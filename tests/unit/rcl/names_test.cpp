@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(
         Invalid{"a/", RCL_TOPIC_NAME_INVALID_ENDS_WITH_FORWARD_SLASH, 1,
                 "invalid topic name 'a/', at character 2: topic name must not end with a '/'"},
         Invalid{"a b", RCL_TOPIC_NAME_INVALID_CONTAINS_UNALLOWED_CHARACTERS, 1,
-                "invalid topic name 'a b', at character 2: topic name may only have letters, digits, '_', '/', '~', "
+                "invalid topic name 'a b', at character 2: topic name must not contain characters other than letters, digits, '_', '/', '~', "
                 "'{' and '}'"},
         Invalid{"1a", RCL_TOPIC_NAME_INVALID_NAME_TOKEN_STARTS_WITH_NUMBER, 0,
                 "invalid topic name '1a', at character 1: a part of a topic name must not begin with a digit"},
@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(
         Invalid{"~a", RCL_TOPIC_NAME_INVALID_TILDE_NOT_FOLLOWED_BY_FORWARD_SLASH, 1,
                 "invalid topic name '~a', at character 2: a '~' must be followed by a '/'"},
         Invalid{"{a-b}", RCL_TOPIC_NAME_INVALID_SUBSTITUTION_CONTAINS_UNALLOWED_CHARACTERS, 2,
-                "invalid topic name '{a-b}', at character 3: a substitution may only have letters, digits and '_'"},
+                "invalid topic name '{a-b}', at character 3: a substitution must not contain characters other than letters, digits and '_'"},
         Invalid{"{1a}", RCL_TOPIC_NAME_INVALID_SUBSTITUTION_STARTS_WITH_NUMBER, 1,
                 "invalid topic name '{1a}', at character 2: a substitution must not begin with a digit"}));
 

@@ -158,7 +158,7 @@ TEST_F(ServiceTest, HasTheQosThatItWasMadeWith) {
 TEST_F(ServiceTest, NameAndTypeMustFit) {
   EXPECT_EQ(rmw_create_service(server_.handle, type_support<AddTwoInts>(), "add", &rmw_qos_profile_services_default),
             nullptr);
-  EXPECT_EQ(take_error(), "invalid topic name 'add': topic name must begin with a '/'");
+  EXPECT_EQ(take_error(), "invalid topic name 'add': topic name must be absolute: it must begin with a '/'");
   Service service(server_, "/add");
   EXPECT_EQ(rmw_create_client(server_.handle, type_support<std_srvs::srv::Trigger>(), "/add",
                               &rmw_qos_profile_services_default),

@@ -260,7 +260,7 @@ TEST_F(Topic, RefusesAWrongNameAndAnUnknownPolicy) {
   const rmw_publisher_options_t options = rmw_get_default_publisher_options();
   const auto* type_support = rosidl_typesupport_cpp::get_message_type_support_handle<String>();
   EXPECT_EQ(rmw_create_publisher(sender_.handle, type_support, "chatter", &rmw_qos_profile_default, &options), nullptr);
-  EXPECT_EQ(take_error(), "invalid topic name 'chatter': topic name must begin with a '/'");
+  EXPECT_EQ(take_error(), "invalid topic name 'chatter': topic name must be absolute: it must begin with a '/'");
   EXPECT_EQ(rmw_create_publisher(sender_.handle, type_support, "/chatter", &rmw_qos_profile_unknown, &options),
             nullptr);
   EXPECT_EQ(take_error(), "history 'unknown' cannot be asked for");

@@ -193,7 +193,7 @@ const char* rcl_topic_name_validation_result_string(int validation_result) {
     case RCL_TOPIC_NAME_INVALID_ENDS_WITH_FORWARD_SLASH:
       return "topic name must not end with a '/'";
     case RCL_TOPIC_NAME_INVALID_CONTAINS_UNALLOWED_CHARACTERS:
-      return "topic name may only have letters, digits, '_', '/', '~', '{' and '}'";
+      return "topic name must not contain characters other than letters, digits, '_', '/', '~', '{' and '}'";
     case RCL_TOPIC_NAME_INVALID_NAME_TOKEN_STARTS_WITH_NUMBER:
       return "a part of a topic name must not begin with a digit";
     case RCL_TOPIC_NAME_INVALID_UNMATCHED_CURLY_BRACE:
@@ -203,7 +203,7 @@ const char* rcl_topic_name_validation_result_string(int validation_result) {
     case RCL_TOPIC_NAME_INVALID_TILDE_NOT_FOLLOWED_BY_FORWARD_SLASH:
       return "a '~' must be followed by a '/'";
     case RCL_TOPIC_NAME_INVALID_SUBSTITUTION_CONTAINS_UNALLOWED_CHARACTERS:
-      return "a substitution may only have letters, digits and '_'";
+      return "a substitution must not contain characters other than letters, digits and '_'";
     case RCL_TOPIC_NAME_INVALID_SUBSTITUTION_STARTS_WITH_NUMBER:
       return "a substitution must not begin with a digit";
     default:

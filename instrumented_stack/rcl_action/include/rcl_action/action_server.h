@@ -80,8 +80,8 @@ rcl_ret_t rcl_action_server_set_result_service_callback(const rcl_action_server_
 rcl_action_goal_handle_t* rcl_action_accept_new_goal(rcl_action_server_t* action_server,
                                                      const rcl_action_goal_info_t* goal_info);
 
-// Call it after a goal has ended and has its terminal timestamp; then it will expire. A goal without a timestamp is
-// kept.
+// Call it after a goal has ended; then it will expire. Goals that have ended and have no terminal timestamp get the
+// current time. A goal without a timestamp is kept.
 rcl_ret_t rcl_action_notify_goal_done(const rcl_action_server_t* action_server);
 
 // Forgets goals whose results have expired, and returns at most `capacity` of them.

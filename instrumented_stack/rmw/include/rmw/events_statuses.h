@@ -31,7 +31,11 @@ typedef struct rmw_offered_deadline_missed_status_s {
   int32_t total_count;
   int32_t total_count_change;
 } rmw_offered_deadline_missed_status_t;
-typedef rmw_offered_deadline_missed_status_t rmw_requested_deadline_missed_status_t;
+
+typedef struct rmw_requested_deadline_missed_status_s {
+  int32_t total_count;
+  int32_t total_count_change;
+} rmw_requested_deadline_missed_status_t;
 
 // Endpoints of the topic that cannot match. The policy is the first one that the last of them violates.
 typedef struct rmw_qos_incompatible_event_status_s {

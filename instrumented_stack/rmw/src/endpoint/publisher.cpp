@@ -147,7 +147,7 @@ const EndpointIdentity& identity_of(const rmw_publisher_t& publisher) {
                                    rmw_publisher_allocation_t*) {
   RMW_CHECK_HANDLE(publisher, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(ros_message, RMW_RET_INVALID_ARGUMENT);
-  OutgoingMessage outgoing{ros_message, nullptr};
+  OutgoingMessage outgoing{ros_message, nullptr, publisher_of(*publisher).type};
   return write(publisher, &outgoing, ros_message);
 }
 
@@ -156,7 +156,7 @@ rmw_ret_t rmw_publish_serialized_message(const rmw_publisher_t* publisher,
                                          rmw_publisher_allocation_t*) {
   RMW_CHECK_HANDLE(publisher, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(serialized_message, RMW_RET_INVALID_ARGUMENT);
-  OutgoingMessage outgoing{nullptr, serialized_message};
+  OutgoingMessage outgoing{nullptr, serialized_message, nullptr};
   return write(publisher, &outgoing, serialized_message);
 }
 

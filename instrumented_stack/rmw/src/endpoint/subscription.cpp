@@ -59,7 +59,7 @@ namespace {
                                     rmw_message_info_t* message_info) {
   Subscription& subscription = subscription_of(*handle);
   const auto reader = [&](rmw_serialized_message_t& message, rmw_message_info_t& info) {
-    IncomingMessage bytes{nullptr, &message};
+    IncomingMessage bytes{nullptr, &message, nullptr};
     fdds::SampleInfo sample;
     bool taken = false;
     while (!taken && subscription.take_next(&bytes, sample)) {
@@ -83,6 +83,7 @@ namespace {
                             rmw_message_info_t* message_info) {
   Subscription& subscription = subscription_of(*handle);
   *taken = false;
+  incoming.callbacks = subscription.type;
   const std::shared_lock lock(subscription.reader_mutex);
   if (subscription.faults == nullptr) {
     fdds::SampleInfo sample;

@@ -79,7 +79,8 @@ class EndpointEvents {
       std::make_shared<StatusEventOf<rmw_incompatible_type_status_t>>();
   StatusEventOf<rmw_matched_status_t> matched_event_;
   StatusEventOf<rmw_offered_deadline_missed_status_t> deadline_missed_;  // requested, for a reader
-  StatusEventOf<rmw_qos_incompatible_event_status_t> incompatible_qos_;
+  StatusEventOf<rmw_qos_incompatible_event_status_t> incompatible_qos_{
+      rmw_qos_incompatible_event_status_t{0, 0, RMW_QOS_POLICY_INVALID}};
 };
 
 // The listener of a reader, for the statuses of mask().

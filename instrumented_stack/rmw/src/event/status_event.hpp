@@ -58,6 +58,8 @@ void reset_changes(StatusT& status) {
 template <typename StatusT>
 class StatusEventOf final : public StatusEvent {
  public:
+  explicit StatusEventOf(const StatusT& status = {}) : status_(status) {}
+
   template <typename UpdateT>
   void update(UpdateT update) {
     {
@@ -75,7 +77,7 @@ class StatusEventOf final : public StatusEvent {
   }
 
  private:
-  StatusT status_{};
+  StatusT status_;
 };
 
 }  // namespace rmw_fastrtps

@@ -45,7 +45,7 @@ bool PublishFaults::write(std::vector<std::uint8_t>& bytes, rtps::WriteParams pa
   rmw_serialized_message_t serialized = rmw_get_zero_initialized_serialized_message();
   serialized.buffer = bytes.data();
   serialized.buffer_length = serialized.buffer_capacity = bytes.size();
-  OutgoingMessage message{nullptr, &serialized};
+  OutgoingMessage message{nullptr, &serialized, nullptr};
   return write_sample(writer_, &message, params);
 }
 

@@ -106,11 +106,11 @@ const char* rmw_full_topic_name_validation_result_string(int validation_result) 
     case RMW_TOPIC_INVALID_IS_EMPTY_STRING:
       return "topic name must not be empty";
     case RMW_TOPIC_INVALID_NOT_ABSOLUTE:
-      return "topic name must begin with a '/'";
+      return "topic name must be absolute: it must begin with a '/'";
     case RMW_TOPIC_INVALID_ENDS_WITH_FORWARD_SLASH:
       return "topic name must not end with a '/'";
     case RMW_TOPIC_INVALID_CONTAINS_UNALLOWED_CHARACTERS:
-      return "topic name may only have letters, digits, '_' and '/'";
+      return "topic name must not contain characters other than letters, digits, '_' and '/'";
     case RMW_TOPIC_INVALID_CONTAINS_REPEATED_FORWARD_SLASH:
       return "topic name must not have '//'";
     case RMW_TOPIC_INVALID_NAME_TOKEN_STARTS_WITH_NUMBER:
@@ -133,11 +133,11 @@ const char* rmw_namespace_validation_result_string(int validation_result) {
     case RMW_NAMESPACE_INVALID_IS_EMPTY_STRING:
       return "namespace must not be empty";
     case RMW_NAMESPACE_INVALID_NOT_ABSOLUTE:
-      return "namespace must begin with a '/'";
+      return "namespace must be absolute: it must begin with a '/'";
     case RMW_NAMESPACE_INVALID_ENDS_WITH_FORWARD_SLASH:
       return "namespace must not end with a '/', unless it is only that";
     case RMW_NAMESPACE_INVALID_CONTAINS_UNALLOWED_CHARACTERS:
-      return "namespace may only have letters, digits, '_' and '/'";
+      return "namespace must not contain characters other than letters, digits, '_' and '/'";
     case RMW_NAMESPACE_INVALID_CONTAINS_REPEATED_FORWARD_SLASH:
       return "namespace must not have '//'";
     case RMW_NAMESPACE_INVALID_NAME_TOKEN_STARTS_WITH_NUMBER:
@@ -160,7 +160,7 @@ const char* rmw_node_name_validation_result_string(int validation_result) {
     case RMW_NODE_NAME_INVALID_IS_EMPTY_STRING:
       return "node name must not be empty";
     case RMW_NODE_NAME_INVALID_CONTAINS_UNALLOWED_CHARACTERS:
-      return "node name may only have letters, digits and '_'";
+      return "node name must not contain characters other than letters, digits and '_'";
     case RMW_NODE_NAME_INVALID_STARTS_WITH_NUMBER:
       return "node name must not begin with a digit";
     case RMW_NODE_NAME_INVALID_TOO_LONG:

@@ -45,8 +45,12 @@ void configure_discovery(const rmw_discovery_options_t& options, std::uint32_t d
   auto& builtin = qos.wire_protocol().builtin;
   switch (options.automatic_discovery_range) {
     case RMW_AUTOMATIC_DISCOVERY_RANGE_OFF: {
-      using Protocol = decltype(builtin.discovery_config.discoveryProtocol);
-      builtin.discovery_config.discoveryProtocol = Protocol::NONE;
+      // There is room for this participant alone, whose own endpoints find each other.
+      qos.allocation().participants.initial = 1;
+      qos.allocation().participants.maximum = 1;
+      qos.allocation().participants.increment = 0;
+      builtin.metatrafficMulticastLocatorList.clear();
+      builtin.metatrafficUnicastLocatorList.push_back(rtps::Locator());
       return;
     }
     case RMW_AUTOMATIC_DISCOVERY_RANGE_LOCALHOST:

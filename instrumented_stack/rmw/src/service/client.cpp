@@ -96,7 +96,7 @@ rmw_ret_t rmw_send_request(const rmw_client_t* client, const void* ros_request, 
   Client& owned = client_of(*client);
   rtps::WriteParams params;
   params.related_sample_identity().writer_guid() = owned.reader->guid();
-  OutgoingMessage outgoing{ros_request, nullptr};
+  OutgoingMessage outgoing{ros_request, nullptr, owned.writer_type};
   ++owned.unanswered;
   if (!rmw_fastrtps::write_sample(*owned.writer, &outgoing, params)) {
     --owned.unanswered;
@@ -116,7 +116,7 @@ rmw_ret_t rmw_take_response(const rmw_client_t* client, rmw_service_info_t* requ
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(taken, RMW_RET_INVALID_ARGUMENT);
   Client& owned = client_of(*client);
   *taken = false;
-  IncomingMessage incoming{ros_response, nullptr};
+  IncomingMessage incoming{ros_response, nullptr, owned.reader_type};
   fdds::SampleInfo sample;
   bool valid = false;
   // An invalid sample announces the end of a service. It is no response.

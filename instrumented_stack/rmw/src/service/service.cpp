@@ -102,7 +102,7 @@ bool write_when_matched(Service& service, const rmw_fastrtps::Gid& client, const
            rmw_serialized_message_t serialized = rmw_get_zero_initialized_serialized_message();
            serialized.buffer = bytes.data();
            serialized.buffer_length = serialized.buffer_capacity = bytes.size();
-           (void)write(service, {nullptr, &serialized}, params);
+           (void)write(service, {nullptr, &serialized, nullptr}, params);
          });
 }
 
@@ -180,12 +180,12 @@ rmw_ret_t rmw_take_request(const rmw_service_t* service, rmw_service_info_t* req
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(ros_request, RMW_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(taken, RMW_RET_INVALID_ARGUMENT);
   Service& owned = service_of(*service);
-  const IncomingMessage incoming{ros_request, nullptr};
+  const IncomingMessage incoming{ros_request, nullptr, owned.reader_type};
   if (owned.request_faults == nullptr) {
     *taken = take_from_reader(owned, incoming, *request_header);
   } else {
     const auto reader = [&](rmw_serialized_message_t& request, rmw_service_info_t& info) {
-      return take_from_reader(owned, {nullptr, &request}, info);
+      return take_from_reader(owned, {nullptr, &request, nullptr}, info);
     };
     *taken = owned.request_faults->take(reader, incoming, *request_header);
   }
@@ -215,7 +215,7 @@ rmw_ret_t rmw_send_response(const rmw_service_t* service, rmw_request_id_t* requ
   params.source_timestamp().from_ns(now);
   TRACETOOLS_TRACEPOINT(rmw_send_response, static_cast<const void*>(service), ros_response, client.data(),
                         request_header->sequence_number, now);
-  const OutgoingMessage outgoing{ros_response, nullptr};
+  const OutgoingMessage outgoing{ros_response, nullptr, owned.writer_type};
   if (presence == ServiceClients::Presence::kUnmatched) {
     if (!write_when_matched(owned, client, outgoing, params)) {
       RMW_SET_ERROR_MSG_WITH_FORMAT_STRING("the client of service '%s' that a response is for cannot receive it yet",

@@ -71,7 +71,7 @@ MessageType::MessageType(const message_type_support_callbacks_t& callbacks)
     : MessageType(callbacks, Layout(callbacks)) {}
 
 MessageType::MessageType(const message_type_support_callbacks_t& callbacks, const Layout& layout)
-    : TopicTypeOf(dds_type_name(callbacks), layout.largest_size), callbacks_(callbacks), layout_(layout) {}
+    : TopicTypeOf(dds_type_name(callbacks), layout.largest_size), layout_(layout) {}
 
 [[gnu::hot]] bool MessageType::write(const void* data, rtps::SerializedPayload_t& payload) const {
   const auto& outgoing = *static_cast<const OutgoingMessage*>(data);
@@ -84,7 +84,7 @@ MessageType::MessageType(const message_type_support_callbacks_t& callbacks, cons
     std::memcpy(payload.data, outgoing.serialized->buffer, payload.length);
     return true;
   }
-  payload.length = to_cdr(callbacks_, outgoing.message, payload.data, payload.max_size);
+  payload.length = to_cdr(*outgoing.callbacks, outgoing.message, payload.data, payload.max_size);
   return payload.length != 0;
 }
 
@@ -93,7 +93,7 @@ MessageType::MessageType(const message_type_support_callbacks_t& callbacks, cons
   if (incoming.serialized != nullptr) {
     return assign(*incoming.serialized, payload.data, payload.length);
   }
-  return from_cdr(callbacks_, payload.data, payload.length, incoming.message);
+  return from_cdr(*incoming.callbacks, payload.data, payload.length, incoming.message);
 }
 
 [[gnu::hot]] std::uint32_t MessageType::size_of(const void* data) const {
@@ -102,7 +102,7 @@ MessageType::MessageType(const message_type_support_callbacks_t& callbacks, cons
     return static_cast<std::uint32_t>(outgoing.serialized->buffer_length);
   }
   return layout_.is_bounded ? layout_.largest_size
-                            : kEncapsulationSize + callbacks_.get_serialized_size(outgoing.message);
+                            : kEncapsulationSize + outgoing.callbacks->get_serialized_size(outgoing.message);
 }
 
 std::vector<std::uint8_t> to_bytes(const message_type_support_callbacks_t& callbacks, const OutgoingMessage& message) {

@@ -13,16 +13,19 @@
 
 namespace rmw_fastrtps {
 
-// The `data` of a write: exactly one of the two is set.
+// The `data` of a write: a message and the callbacks of its type support, or its bytes. Endpoints of one type may have
+// messages of C and of C++, but Fast DDS knows one MessageType for them.
 struct OutgoingMessage {
   const void* message = nullptr;
   const rmw_serialized_message_t* serialized = nullptr;
+  const message_type_support_callbacks_t* callbacks = nullptr;
 };
 
-// The `data` of a take: exactly one of the two is set.
+// The `data` of a take, likewise.
 struct IncomingMessage {
   void* message = nullptr;
   rmw_serialized_message_t* serialized = nullptr;
+  const message_type_support_callbacks_t* callbacks = nullptr;
 };
 
 class MessageType final : public TopicTypeOf<MessageType> {
@@ -48,7 +51,6 @@ class MessageType final : public TopicTypeOf<MessageType> {
 
   bool has_plain_memory() const override { return layout_.is_plain; }
 
-  const message_type_support_callbacks_t& callbacks_;
   const Layout layout_;
 };
 
