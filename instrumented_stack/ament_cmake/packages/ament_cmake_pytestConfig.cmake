@@ -27,7 +27,9 @@ endfunction()
 
 # ament_add_pytest_test(<name> <file or folder> [SKIP_TEST] [PYTHON_EXECUTABLE <file>] [TIMEOUT <seconds>]
 #                       [WORKING_DIRECTORY <dir>] [ENV <name=value>...] [APPEND_ENV <name=value>...]
-#                       [APPEND_LIBRARY_DIRS <dir>...])
+#                       [APPEND_LIBRARY_DIRS <dir>...] [WERROR ON])
+#
+# With WERROR, warnings of Python fail the test.
 function(ament_add_pytest_test name path)
   cmake_parse_arguments(PARSE_ARGV 2 ARG "SKIP_TEST" "PYTHON_EXECUTABLE;RUNNER;TIMEOUT;WORKING_DIRECTORY;WERROR"
     "ENV;APPEND_ENV;APPEND_LIBRARY_DIRS")
@@ -47,11 +49,15 @@ function(ament_add_pytest_test name path)
   if(ARG_SKIP_TEST)
     set(skip SKIP_TEST)
   endif()
+  set(warnings "")
+  if(ARG_WERROR)
+    set(warnings -W error)
+  endif()
   set(results ${CMAKE_BINARY_DIR}/test_results/${PROJECT_NAME})
   file(MAKE_DIRECTORY ${results})
   # 5 is pytest's code for a file without tests.
   ament_add_test(${name} ${skip}
-    COMMAND ${ARG_PYTHON_EXECUTABLE} -u -m pytest "${path}" -o cache_dir=${CMAKE_CURRENT_BINARY_DIR}/pytest_cache
+    COMMAND ${ARG_PYTHON_EXECUTABLE} -u -m pytest "${path}" ${warnings} -o cache_dir=${CMAKE_CURRENT_BINARY_DIR}/pytest_cache
       --junit-xml=${results}/${name}.xunit.xml --junit-prefix=${PROJECT_NAME}
     TIMEOUT ${ARG_TIMEOUT} WORKING_DIRECTORY ${ARG_WORKING_DIRECTORY} SKIP_RETURN_CODE 5
     ENV ${ARG_ENV} APPEND_ENV ${ARG_APPEND_ENV} APPEND_LIBRARY_DIRS ${ARG_APPEND_LIBRARY_DIRS})

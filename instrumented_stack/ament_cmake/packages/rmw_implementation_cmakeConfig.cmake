@@ -21,3 +21,14 @@ macro(call_for_each_rmw_implementation function)
   set(target_suffix "")
   cmake_language(CALL ${function})
 endmacro()
+
+# get_rmw_typesupport(<variable> <middleware> [LANGUAGE <language>]): the type supports that the middleware uses, for c,
+# cpp or both.
+function(get_rmw_typesupport variable middleware)
+  cmake_parse_arguments(PARSE_ARGV 2 ARG "" "LANGUAGE" "")
+  set(supports rosidl_typesupport_fastrtps_c rosidl_typesupport_fastrtps_cpp)
+  if(ARG_LANGUAGE)
+    list(FILTER supports INCLUDE REGEX "_${ARG_LANGUAGE}$")
+  endif()
+  set(${variable} ${supports} PARENT_SCOPE)
+endfunction()

@@ -121,6 +121,14 @@ TEST_F(Logging, RefusesAWrongSwitch) {
   EXPECT_EQ(rcl_test::take_error(), "RCUTILS_COLORIZED_OUTPUT is 'yes', but must be 0 or 1");
 }
 
+TEST_F(Logging, WithoutALevelTheRootLetsEveryMessagePass) {
+  ASSERT_EQ(rcutils_logging_set_logger_level("", RCUTILS_LOG_SEVERITY_UNSET), RCUTILS_RET_OK);
+  EXPECT_EQ(rcutils_logging_get_logger_effective_level("a"), RCUTILS_LOG_SEVERITY_UNSET);
+  EXPECT_TRUE(rcutils_logging_logger_is_enabled_for("a", RCUTILS_LOG_SEVERITY_DEBUG));
+  rcutils_logging_set_default_logger_level(RCUTILS_LOG_SEVERITY_UNSET);
+  EXPECT_EQ(rcutils_logging_get_logger_effective_level("a"), RCUTILS_LOG_SEVERITY_INFO);
+}
+
 TEST_F(Logging, LevelsAreInheritedAlongTheName) {
   EXPECT_EQ(rcutils_logging_get_logger_effective_level("a.b.c"), RCUTILS_LOG_SEVERITY_INFO);
   ASSERT_EQ(rcutils_logging_set_logger_level("a", RCUTILS_LOG_SEVERITY_ERROR), RCUTILS_RET_OK);

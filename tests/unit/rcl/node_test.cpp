@@ -59,7 +59,7 @@ TEST_F(RclNode, RefusesWrongNames) {
   Context context;
   Node wrong_name(context, "1talker");
   EXPECT_EQ(wrong_name.result, RCL_RET_NODE_INVALID_NAME);
-  EXPECT_EQ(wrong_name.error, "invalid node name '1talker': node name must not begin with a digit");
+  EXPECT_EQ(wrong_name.error, "invalid node name '1talker': node name must not start with a number");
   Node wrong_namespace(context, "talker", "a//b");
   EXPECT_EQ(wrong_namespace.result, RCL_RET_NODE_INVALID_NAMESPACE);
   EXPECT_EQ(wrong_namespace.error, "invalid namespace '/a//b': namespace must not have '//'");

@@ -73,7 +73,8 @@ TEST(RclService, WrongNamesAndASecondInitAreRefused) {
   Service wrong(node, "a b");
   EXPECT_EQ(wrong.result, RCL_RET_SERVICE_NAME_INVALID);
   EXPECT_EQ(take_error(),
-            "invalid topic name 'a b', at character 2: topic name must not contain characters other than letters, digits, '_', '/', '~', '{' "
+            "invalid topic name 'a b', at character 2: topic name must not contain characters other than letters, "
+            "digits, '_', '/', '~', '{' "
             "and '}'");
   Client client(node, "{what}");
   EXPECT_EQ(client.result, RCL_RET_SERVICE_NAME_INVALID);

@@ -205,4 +205,38 @@ TEST(SteadyTimer, EndsAWaitThatWouldLastForever) {
   EXPECT_EQ(rcl_clock_fini(&clock), RCL_RET_OK);
 }
 
+TEST_F(Timer, TellsOfResetsAndOfJumpsOnlyWhoAsksForThem) {
+  start(10 * kMillisecond);
+  size_t told = 0;
+  const auto count = [](const void* user_data, size_t number) {
+    *static_cast<size_t*>(const_cast<void*>(user_data)) += number;
+  };
+  ASSERT_EQ(rcl_timer_set_on_reset_callback(&timer_, count, &told), RCL_RET_OK);
+  set_time(1005 * kMillisecond);
+  EXPECT_EQ(told, 0u);
+  EXPECT_EQ(rcl_timer_reset(&timer_), RCL_RET_OK);
+  EXPECT_EQ(told, 1u);
+  ASSERT_EQ(rcl_timer_set_on_change_callback(&timer_, count, &told), RCL_RET_OK);
+  set_time(1006 * kMillisecond);
+  EXPECT_EQ(told, 2u);
+  EXPECT_EQ(rcl_timer_reset(&timer_), RCL_RET_OK);
+  EXPECT_EQ(told, 3u);
+  ASSERT_EQ(rcl_timer_set_on_change_callback(&timer_, nullptr, nullptr), RCL_RET_OK);
+  EXPECT_EQ(rcl_timer_reset(&timer_), RCL_RET_OK);
+  EXPECT_EQ(told, 3u);
+}
+
+TEST(Time, HasADifferenceOnOneClock) {
+  const rcl_time_point_t start{5, RCL_ROS_TIME};
+  rcl_time_point_t finish{3, RCL_ROS_TIME};
+  rcl_duration_t difference{};
+  EXPECT_EQ(rcl_difference_times(&start, &finish, &difference), RCL_RET_OK);
+  EXPECT_EQ(difference.nanoseconds, -2);
+  finish.clock_type = RCL_STEADY_TIME;
+  EXPECT_EQ(rcl_difference_times(&start, &finish, &difference), RCL_RET_ERROR);
+  EXPECT_EQ(take_error(), "two times of different clocks have no difference");
+  EXPECT_EQ(rcl_difference_times(&start, nullptr, &difference), RCL_RET_INVALID_ARGUMENT);
+  rcl_reset_error();
+}
+
 }  // namespace

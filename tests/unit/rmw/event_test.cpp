@@ -87,6 +87,12 @@ TEST_F(EventTest, MatchesAreCountedAndTakenOnce) {
   EXPECT_EQ(status.current_count_change, -1);
 }
 
+TEST_F(EventTest, NoPolicyIsIncompatibleBeforeOneIs) {
+  Publisher<String> publisher(node_, "/chatter");
+  const rmw_event_t offered = event_of(publisher, RMW_EVENT_OFFERED_QOS_INCOMPATIBLE);
+  EXPECT_EQ(take<rmw_offered_qos_incompatible_event_status_t>(offered).last_policy_kind, RMW_QOS_POLICY_INVALID);
+}
+
 TEST_F(EventTest, BothSidesTellOfIncompatibleQos) {
   Publisher<String> publisher(node_, "/chatter", rmw_qos_profile_sensor_data);
   Subscription<String> subscription(node_, "/chatter");

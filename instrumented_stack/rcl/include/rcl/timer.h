@@ -67,11 +67,14 @@ rcl_ret_t rcl_timer_reset(rcl_timer_t* timer);
 // Triggered by a reset or a jump of simulated time, so that a wait set computes its timeout again. Owned by the timer.
 rcl_guard_condition_t* rcl_timer_get_guard_condition(const rcl_timer_t* timer);
 
-// `callback` is called for every reset, and for every jump of simulated time, because it may make the timer due. It
-// serves code that waits for timers without a wait set. Null ends the calls: none is running any more when this
-// returns. Must not be called from the callback.
+// `callback` is called for every reset. It serves code that waits for timers without a wait set. Null ends the calls:
+// none is running any more when this returns. Must not be called from the callback.
 rcl_ret_t rcl_timer_set_on_reset_callback(const rcl_timer_t* timer, rcl_event_callback_t callback,
                                           const void* user_data);
+// Replaces that callback by one that is also called for every jump of simulated time, because it may make the timer
+// due. Not in ROS 2, where such code asks the clock for jumps.
+rcl_ret_t rcl_timer_set_on_change_callback(const rcl_timer_t* timer, rcl_event_callback_t callback,
+                                           const void* user_data);
 
 #ifdef __cplusplus
 }

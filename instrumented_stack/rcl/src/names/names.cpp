@@ -195,7 +195,7 @@ const char* rcl_topic_name_validation_result_string(int validation_result) {
     case RCL_TOPIC_NAME_INVALID_CONTAINS_UNALLOWED_CHARACTERS:
       return "topic name must not contain characters other than letters, digits, '_', '/', '~', '{' and '}'";
     case RCL_TOPIC_NAME_INVALID_NAME_TOKEN_STARTS_WITH_NUMBER:
-      return "a part of a topic name must not begin with a digit";
+      return "a part of a topic name must not start with a number";
     case RCL_TOPIC_NAME_INVALID_UNMATCHED_CURLY_BRACE:
       return "topic name has a curly brace without its counterpart";
     case RCL_TOPIC_NAME_INVALID_MISPLACED_TILDE:
@@ -205,7 +205,7 @@ const char* rcl_topic_name_validation_result_string(int validation_result) {
     case RCL_TOPIC_NAME_INVALID_SUBSTITUTION_CONTAINS_UNALLOWED_CHARACTERS:
       return "a substitution must not contain characters other than letters, digits and '_'";
     case RCL_TOPIC_NAME_INVALID_SUBSTITUTION_STARTS_WITH_NUMBER:
-      return "a substitution must not begin with a digit";
+      return "a substitution must not start with a number";
     default:
       return "unknown result of the check of a topic name";
   }

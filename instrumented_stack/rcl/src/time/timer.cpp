@@ -19,6 +19,7 @@ struct rcl_timer_impl_s {
   // Time left until the next call when simulated time is turned on or off. It carries over to the new time.
   std::atomic<int64_t> time_left{0};
   std::mutex on_reset_mutex{};
+  bool is_told_of_jumps = false;
   rcl_event_callback_t on_reset = nullptr;
   const void* on_reset_user_data = nullptr;
 };
@@ -29,10 +30,10 @@ namespace {
 constexpr rcl_jump_threshold_t kEveryJump = {true, {1}, {-1}};
 
 // A waiting thread has already computed its timeout, so wake it.
-rcl_ret_t wake_waiting(rcl_timer_impl_t& timer) {
+rcl_ret_t wake_waiting(rcl_timer_impl_t& timer, bool is_jump = false) {
   {
     const std::lock_guard lock(timer.on_reset_mutex);
-    if (timer.on_reset != nullptr) {
+    if (timer.on_reset != nullptr && (!is_jump || timer.is_told_of_jumps)) {
       timer.on_reset(timer.on_reset_user_data, 1);
     }
   }
@@ -63,7 +64,7 @@ void on_time_jump(const rcl_time_jump_t* jump, bool before_jump, void* user_data
     timer.last_call_time = now;
     timer.next_call_time = now + timer.period;
   }
-  if (wake_waiting(timer) != RCL_RET_OK) {
+  if (wake_waiting(timer, true) != RCL_RET_OK) {
     rcl_reset_error();
   }
 }
@@ -71,6 +72,18 @@ void on_time_jump(const rcl_time_jump_t* jump, bool before_jump, void* user_data
 rcl_ret_t check(const rcl_timer_t* timer) {
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(timer, RCL_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_FOR_NULL_WITH_MSG(timer->impl, "the timer is not initialized", return RCL_RET_TIMER_INVALID);
+  return RCL_RET_OK;
+}
+
+rcl_ret_t set_callback(const rcl_timer_t* timer, rcl_event_callback_t callback, const void* user_data,
+                       bool is_told_of_jumps) {
+  if (const rcl_ret_t result = check(timer); result != RCL_RET_OK) {
+    return result;
+  }
+  const std::lock_guard lock(timer->impl->on_reset_mutex);
+  timer->impl->on_reset = callback;
+  timer->impl->on_reset_user_data = user_data;
+  timer->impl->is_told_of_jumps = is_told_of_jumps;
   return RCL_RET_OK;
 }
 
@@ -299,13 +312,12 @@ rcl_ret_t rcl_timer_reset(rcl_timer_t* timer) {
 
 rcl_ret_t rcl_timer_set_on_reset_callback(const rcl_timer_t* timer, rcl_event_callback_t callback,
                                           const void* user_data) {
-  if (const rcl_ret_t result = check(timer); result != RCL_RET_OK) {
-    return result;
-  }
-  const std::lock_guard lock(timer->impl->on_reset_mutex);
-  timer->impl->on_reset = callback;
-  timer->impl->on_reset_user_data = user_data;
-  return RCL_RET_OK;
+  return set_callback(timer, callback, user_data, false);
+}
+
+rcl_ret_t rcl_timer_set_on_change_callback(const rcl_timer_t* timer, rcl_event_callback_t callback,
+                                           const void* user_data) {
+  return set_callback(timer, callback, user_data, true);
 }
 
 rcl_guard_condition_t* rcl_timer_get_guard_condition(const rcl_timer_t* timer) {

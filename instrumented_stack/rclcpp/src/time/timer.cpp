@@ -109,14 +109,14 @@ void TimerBase::trace_callback(const void* callback, const detail::CallbackSymbo
 void TimerBase::set_on_reset_callback(std::function<void(size_t)> callback) {
   on_ready_.set(std::move(callback), "set_on_reset_callback", "timer",
                 [this](rcl_event_callback_t function, const void* user_data) {
-                  require_ok(rcl_timer_set_on_reset_callback(timer_handle_.get(), function, user_data),
+                  require_ok(rcl_timer_set_on_change_callback(timer_handle_.get(), function, user_data),
                              "failed to set the callback of a timer");
                 });
 }
 
 void TimerBase::clear_on_reset_callback() {
   on_ready_.clear([this](rcl_event_callback_t function, const void* user_data) {
-    detail::ignore_error(rcl_timer_set_on_reset_callback(timer_handle_.get(), function, user_data));
+    detail::ignore_error(rcl_timer_set_on_change_callback(timer_handle_.get(), function, user_data));
   });
 }
 

@@ -114,7 +114,7 @@ const char* rmw_full_topic_name_validation_result_string(int validation_result) 
     case RMW_TOPIC_INVALID_CONTAINS_REPEATED_FORWARD_SLASH:
       return "topic name must not have '//'";
     case RMW_TOPIC_INVALID_NAME_TOKEN_STARTS_WITH_NUMBER:
-      return "a part of a topic name must not begin with a digit";
+      return "a part of a topic name must not start with a number";
     case RMW_TOPIC_INVALID_TOO_LONG:
       return "topic name must not be longer than 247 characters";
     default:
@@ -141,7 +141,7 @@ const char* rmw_namespace_validation_result_string(int validation_result) {
     case RMW_NAMESPACE_INVALID_CONTAINS_REPEATED_FORWARD_SLASH:
       return "namespace must not have '//'";
     case RMW_NAMESPACE_INVALID_NAME_TOKEN_STARTS_WITH_NUMBER:
-      return "a part of a namespace must not begin with a digit";
+      return "a part of a namespace must not start with a number";
     case RMW_NAMESPACE_INVALID_TOO_LONG:
       return "namespace must not be longer than 245 characters";
     default:
@@ -162,7 +162,7 @@ const char* rmw_node_name_validation_result_string(int validation_result) {
     case RMW_NODE_NAME_INVALID_CONTAINS_UNALLOWED_CHARACTERS:
       return "node name must not contain characters other than letters, digits and '_'";
     case RMW_NODE_NAME_INVALID_STARTS_WITH_NUMBER:
-      return "node name must not begin with a digit";
+      return "node name must not start with a number";
     case RMW_NODE_NAME_INVALID_TOO_LONG:
       return "node name must not be longer than 255 characters";
     default:

@@ -146,7 +146,8 @@ TEST_F(ServiceTest, WrongNamesAreShown) {
     FAIL() << "the name was accepted";
   } catch (const rclcpp::exceptions::InvalidServiceNameError& error) {
     EXPECT_STREQ(error.what(),
-                 "Invalid service name: topic name must not contain characters other than letters, digits, '_', '/', '~', '{' and '}':\n"
+                 "Invalid service name: topic name must not contain characters other than letters, digits, '_', '/', "
+                 "'~', '{' and '}':\n"
                  "  'a dd'\n"
                  "    ^\n");
   }
