@@ -119,17 +119,22 @@ bool load_provider_later(const AwaitedDaemons& daemons) {
   return started;
 }
 
-// There are no objects yet.
-bool load_provider_now() {
-  begin_state_dumps();
-  const RegistrationWatch watch;
-  return load_provider();
-}
-
 // Whether a library that the program was linked with, or that is preloaded, has brought lttng-ust. Then its threads are
 // there.
 bool lttng_is_loaded() {
   return dlsym(RTLD_DEFAULT, "lttng_ust_probe_register") != nullptr;
+}
+
+// There are no objects yet.
+bool load_provider_now() {
+  begin_state_dumps();
+  const bool lttng_was_first = lttng_is_loaded();
+  const RegistrationWatch watch;
+  const bool loaded = load_provider();
+  if (loaded && lttng_was_first) {
+    dump_to_sessions_before();
+  }
+  return loaded;
 }
 
 // A provider that is missing is told at once.

@@ -261,6 +261,20 @@ TEST_F(OtherRos2, NodesOfAllDistributionsAreInOneTrace) {
   EXPECT_THAT(sizes, ElementsAre(testing::Pair(16, 2 * kOfEach), testing::Pair(24, 3 * kOfEach)));
 }
 
+// There lttng-ust has registered the process before our tracetools is asked for anything.
+TEST_F(OtherRos2, ANodeThatWasLinkedWithLttngIsReachedFromItsBeginningOn) {
+  const CommandResult result =
+      run_command({LAUNCH_PROGRAM, write("<trace session-name=\"run\"/>\n" +
+                                         node(prefix_of("humble"), "100 100", "talker", "lttng_node"))});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  const json told = verdict();
+  EXPECT_EQ(told["complete"], true) << told["absent"];
+  ASSERT_THAT(told["processes"], SizeIs(1));
+  EXPECT_GE(told["processes"][0]["recorded_after_s"], 0);
+  EXPECT_EQ(told["processes"][0]["missed_events"], 0);
+  EXPECT_EQ(told["processes"][0]["callbacks"], 200);
+}
+
 TEST_F(OtherRos2, ADistributionThatWasBuiltWithoutLttngIsRecorded) {
   const CommandResult result =
       run_command({LAUNCH_PROGRAM, write("<trace session-name=\"run\"/>\n" + node(prefix_of("silent"), "100 100"))});

@@ -129,6 +129,44 @@ TEST_F(OlderRecordings, SayWhichPublishersCameLate) {
   EXPECT_EQ(results.unknown_in_whole, 1u) << "the process began within the trace";
 }
 
+TEST(OlderRecordingsInPart, HaveTheLogsOfANodeWhosePublisherRclCopies) {
+  Feed feed;
+  feed.in(71, 71)(ros2::RclInit{1, "4.1.1"})(ros2::RclNodeInit{1, 0, "one", "/"})(ros2::RmwPublisherInit{1, {}});
+  feed(ros2::RclPublisherInit{0x7ffd01, 1, 1, "/rosout", 1000});
+  feed.at(kMs)(ros2::RclPublish{0x7ffd55, 9})(ros2::RmwPublish{0, 9, 0});
+  feed.at(2 * kMs)(ros2::RclcppPublish{8})(ros2::RclPublish{0x7ffd55, 8})(ros2::RmwPublish{0, 8, 0});
+  Ros2Results results = feed.results();
+  EXPECT_EQ(topic(results, "/rosout").published, 1u);
+  EXPECT_EQ(results.unknown_messages, 1u) << "rclcpp publishes no logs";
+}
+
+TEST(OlderRecordingsInPart, SayThatTheLogsOfSeveralNodesAreNotTold) {
+  Feed feed;
+  feed.in(71, 71)(ros2::RclInit{1, "4.1.1"});
+  for (const ros2::Handle node : {1, 2}) {
+    feed(ros2::RclNodeInit{node, 0, node == 1 ? "one" : "two", "/"})(ros2::RmwPublisherInit{node, {}});
+    feed(ros2::RclPublisherInit{0x7ffd00 + node, node, node, "/rosout", 1000});
+  }
+  feed.at(kMs)(ros2::RclPublish{0x7ffd55, 9})(ros2::RmwPublish{0, 9, 0});
+  const Ros2Results results = feed.results();
+  EXPECT_EQ(results.unknown_messages, 0u);
+  EXPECT_THAT(results.remarks,
+              ::testing::ElementsAre("1 message of a process with several nodes went to /rosout (tracetools 4.1.1): "
+                                     "before 8.0, ros2_tracing does not tell which of the nodes has logged it, and the "
+                                     "topic does not count it."));
+}
+
+TEST(OlderRecordingsInPart, SayThatCallsOfServicesAreNotTold) {
+  Feed feed;
+  feed.in(71, 71)(ros2::RclInit{1, "8.2.4"})(ros2::RclNodeInit{1, 0, "one", "/"});
+  feed(ros2::RclServiceInit{5, 1, 6, "/add"})(ros2::RclcppServiceCallbackAdded{5, 0xaa});
+  feed.at(kMs)(ros2::CallbackStart{0xaa, false}).at(2 * kMs)(ros2::CallbackEnd{0xaa});
+  EXPECT_THAT(feed.results().remarks,
+              ::testing::ElementsAre("Services were called, and the trace has neither requests nor responses "
+                                     "(tracetools 8.2.4): ros2_tracing records them from 8.5 on. Who called, how long "
+                                     "calls took, and which goals actions had is not known."));
+}
+
 TEST(OlderRecordingsInPart, DoNotBlameTheSessionForMessagesWithoutRclPublish) {
   Feed feed;
   feed(ros2::RclInit{1, "4.1.1"})(ros2::RmwPublisherInit{1, {}})(ros2::RclPublisherInit{11, 0, 1, "/topic", 10});

@@ -26,6 +26,7 @@ struct Ros2Results {
   std::uint64_t unknown_messages = 0;       // published or taken by objects whose initialisation is not in the trace
   std::uint64_t unknown_in_whole = 0;       // part of unknown_messages: of processes that began within the trace
   std::uint64_t unnamed_messages = 0;       // published without a publisher, by ros2_tracing before 8.0 (MessageCounts)
+  std::uint64_t logs = 0;                   // on /rosout, by one of several nodes of a process (MessageCounts)
   std::vector<std::string> tracetools;      // the versions that processes have named in rcl_init, in order, once each
   bool is_older = false;                    // some of it was recorded by ros2_tracing before 8.0
   bool lacks_middleware = false;            // rcl_publish is in the trace, and no event of rmw that it leads to

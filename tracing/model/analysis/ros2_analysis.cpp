@@ -63,6 +63,7 @@ Ros2Results Ros2Analysis::finish(std::vector<std::optional<ProcessIndex>> places
   results.unknown_in_whole = join_.messages().counts().unknown_in_whole;
   results.tracetools.assign(join_.messages().versions().begin(), join_.messages().versions().end());
   results.unnamed_messages = join_.messages().counts().unnamed;
+  results.logs = join_.messages().counts().logs;
   results.is_older = is_older(results);
   results.lacks_middleware = join_.messages().lacks_middleware();
   results.remarks = recording_remarks(results);

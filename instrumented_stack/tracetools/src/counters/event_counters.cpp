@@ -43,6 +43,7 @@ std::atomic<bool> taken[kCounterBlocks];
 // A session has reached this process. The mutex is held while tracepoints are switched for that.
 std::atomic<bool> reached{false};
 std::mutex reaching;
+bool counts_missed = false;
 
 std::uint64_t nanoseconds(clockid_t clock) {
   timespec time{};
@@ -205,6 +206,7 @@ void begin_counting() noexcept {
 void count_missed_events() noexcept {
   const std::lock_guard lock(reaching);
   if (file != nullptr && !reached) {
+    counts_missed = true;
     enable_without_probes(true);
   }
 }
@@ -218,7 +220,9 @@ bool session_reaches_process() noexcept {
   if (counters == nullptr) {
     return false;
   }
-  enable_without_probes(false);
+  if (counts_missed) {
+    enable_without_probes(false);
+  }
   counters->reached = nanoseconds(CLOCK_MONOTONIC);
   return true;
 }

@@ -5,9 +5,12 @@
 // need no thread and no polling.
 #include "state/state_dump_request.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <mutex>
 #include <vector>
+
+#include "counters/stack_tracepoints.hpp"
 
 namespace tracetools {
 namespace {
@@ -48,6 +51,25 @@ void begin_state_dumps() {
     sessions.swap(early().sessions);
   }
   // A session that has ended meanwhile has no probes, so nothing is done for it.
+  for (Session* const session : sessions) {
+    dump_state.load()(session);
+  }
+}
+
+void dump_to_sessions_before() {
+  std::vector<Session*> sessions;
+  {
+    const ProbesInUse probes;
+    for (const StackTracepoint& each : stack_tracepoints()) {
+      for_each_probe(probes, *each.tracepoint, [&](const Probe& probe) {
+        Session* const session = session_of(probe);
+        if (session != nullptr && records(*session) &&
+            std::find(sessions.begin(), sessions.end(), session) == sessions.end()) {
+          sessions.push_back(session);
+        }
+      });
+    }
+  }
   for (Session* const session : sessions) {
     dump_state.load()(session);
   }

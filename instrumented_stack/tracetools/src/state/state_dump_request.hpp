@@ -17,4 +17,8 @@ bool on_state_dump(void (*dump)(Session* session));
 // and would get nothing.
 void begin_state_dumps();
 
+// Calls `dump` for the sessions that record events of this process now. A program that was linked with lttng-ust loads
+// it before this library, and then sessions have asked before on_state_dump(). Call it when the provider is loaded.
+void dump_to_sessions_before();
+
 }  // namespace tracetools

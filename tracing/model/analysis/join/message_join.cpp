@@ -33,6 +33,25 @@ RmwLookup MessageJoin::publisher_of(const Origin& origin, const ThreadState& thr
   return publisher;
 }
 
+// What a node logs is published by rcl itself, with a copy of the publisher of /rosout. Its handle is the address of
+// that copy, which no publisher was created with. Of several nodes of the process it is unknown which one has logged.
+MessageJoin::LogPublisher MessageJoin::log_publisher(const Origin& origin, const ThreadState& thread,
+                                                     ros2::Handle message) const {
+  LogPublisher found;
+  if (thread.rcl_message != message || thread.rclcpp_message == message || !begun_.contains(origin.process)) {
+    return found;
+  }
+  for (ObjectId id = 0; id < model_.publishers().size(); ++id) {
+    const EndpointObject& publisher = model_.publishers()[id];
+    const bool logs = publisher.node != kNoObject && model_.nodes()[publisher.node].process == origin.process &&
+                      publisher.topic != kNoObject && model_.topics()[publisher.topic].name == "/rosout";
+    if (logs) {
+      found = {.id = found.exists ? kNoObject : id, .exists = true};
+    }
+  }
+  return found;
+}
+
 void MessageJoin::count_unknown(const Origin& origin) {
   ++counts_.unknown;
   counts_.unknown_in_whole += begun_.contains(origin.process) ? 1 : 0;
@@ -46,12 +65,19 @@ void MessageJoin::close(const Origin& origin, ThreadState& thread) {
 void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::RmwPublish& event) {
   go_on(origin, thread);
   tells_middleware_ = true;
-  const RmwLookup publisher = publisher_of(origin, thread, event);
+  RmwLookup publisher = publisher_of(origin, thread, event);
+  LogPublisher log;
+  if (publisher.kind == RmwHandle::kUnknown && event.rmw_publisher_handle == 0) {
+    log = log_publisher(origin, thread, event.message);
+    publisher = log.id == kNoObject ? publisher : RmwLookup{RmwHandle::kKnown, log.id};
+  }
   if (publisher.kind == RmwHandle::kInternal) {
     ++counts_.internal;
   } else if (publisher.kind == RmwHandle::kUnknown) {
     if (event.rmw_publisher_handle == 0 && thread.rcl_message != event.message) {
       ++counts_.unnamed;
+    } else if (log.exists) {
+      ++counts_.logs;
     } else {
       count_unknown(origin);
       ++counts_.unknown_publications;

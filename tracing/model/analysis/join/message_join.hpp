@@ -30,6 +30,7 @@ struct MessageCounts {
   // Published without a publisher, as ros2_tracing before 8.0 records it, and the trace has no rcl_publish that tells
   // it.
   std::uint64_t unnamed = 0;
+  std::uint64_t logs = 0;  // on /rosout, by one of several nodes of a process
 };
 
 class MessageJoin {
@@ -93,6 +94,11 @@ class MessageJoin {
  private:
   // The publisher of a message that is published; `id` is that of a known one.
   RmwLookup publisher_of(const Origin& origin, const ThreadState& thread, const ros2::RmwPublish& event) const;
+  struct LogPublisher {
+    ObjectId id = kNoObject;  // kNoObject: one of several
+    bool exists = false;
+  };
+  LogPublisher log_publisher(const Origin& origin, const ThreadState& thread, ros2::Handle message) const;
   void count_unknown(const Origin& origin);
   void close(const Origin& origin, ThreadState& thread);
   // A callback begins that gets a message, if it is that of a subscription, and the trace has no take of it.

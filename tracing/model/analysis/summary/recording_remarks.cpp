@@ -2,6 +2,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
+#include <charconv>
+
 #include "tracing/model/analysis/summary/summary.hpp"
 
 namespace tracing {
@@ -10,6 +14,25 @@ namespace {
 
 std::string messages_text(std::uint64_t count) {
   return count == 1 ? "1 message" : fmt::format("{} messages", count);
+}
+
+// A version of tracetools is "8.2.4".
+bool is_before(const std::string& version, const std::array<int, 2>& other) {
+  std::array<int, 2> numbers{};
+  const char* const end = version.data() + version.size();
+  const auto [dot, error] = std::from_chars(version.data(), end, numbers[0]);
+  return error == std::errc() && dot != end && std::from_chars(dot + 1, end, numbers[1]).ec == std::errc() &&
+         numbers < other;
+}
+
+// Services were called, and no event of the trace tells by whom.
+bool lacks_calls(const Ros2Results& results) {
+  const auto serves = [](const CallbackResult& callback) {
+    return callback.owner == CallbackResult::Owner::kService && callback.durations.count > 0;
+  };
+  const auto without = [](const std::string& version) { return is_before(version, {8, 5}); };
+  return results.calls.empty() && std::any_of(results.callbacks.begin(), results.callbacks.end(), serves) &&
+         std::any_of(results.tracetools.begin(), results.tracetools.end(), without);
 }
 
 }  // namespace
@@ -51,6 +74,20 @@ std::vector<std::string> recording_remarks(const Ros2Results& results) {
         "{} have no publisher{}: before 8.0, ros2_tracing names it in rcl_publish alone, which the trace does "
         "not hold.",
         messages_text(results.unnamed_messages), recorder));
+  }
+  if (results.logs > 0) {
+    remarks.push_back(
+        fmt::format("{} of a process with several nodes went to /rosout{}: before 8.0, ros2_tracing does not tell "
+                    "which of the nodes "
+                    "has logged it, and the topic does not count it.",
+                    messages_text(results.logs), recorder));
+  }
+  if (lacks_calls(results)) {
+    remarks.push_back(
+        fmt::format("Services were called, and the trace has neither requests nor responses{}: ros2_tracing records "
+                    "them from 8.5 on. "
+                    "Who called, how long calls took, and which goals actions had is not known.",
+                    recorder));
   }
   if (results.lacks_middleware) {
     remarks.push_back(
