@@ -116,6 +116,60 @@ TEST(SharedMemory, AMessageEndsWhereItEnds) {
   expect_whole_messages(*qos.transport().user_transports.back());
 }
 
+// A reader that is as slow as can be.
+class HeldReader final : public rtps::TransportReceiverInterface {
+ public:
+  void OnDataReceived(const rtps::octet*, std::uint32_t, const rtps::Locator_t&, const rtps::Locator_t&) override {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return released_; });
+    ++number_;
+    changed_.notify_all();
+  }
+  void release() {
+    const std::lock_guard lock(mutex_);
+    released_ = true;
+    changed_.notify_all();
+  }
+  bool wait_for(int number) {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, std::chrono::seconds(30), [&] { return number_ >= number; });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool released_ = false;
+  int number_ = 0;
+};
+
+// A message of 16 MiB has so many parts. One that finds no place is lost, and the message with it.
+TEST(SharedMemory, ALargeMessageHasPlaceAlthoughNobodyReads) {
+  if (!rmw_fastrtps::has_room_in_shared_memory(std::uint64_t{512} << 20)) {
+    GTEST_SKIP() << "skipped, because /dev/shm has less than 512 MiB";
+  }
+  constexpr int kParts = 257;
+  fdds::DomainParticipantQos qos;
+  const auto traffic = std::make_shared<DiscoveryTraffic>();
+  traffic->introduce({});
+  rmw_fastrtps::use_default_transports({.udp4 = false}, 0, traffic, qos);
+  const std::unique_ptr<rtps::TransportInterface> transport(qos.transport().user_transports.at(0)->create_transport());
+  ASSERT_TRUE(transport->init());
+  const rtps::Locator_t here = own_port();
+  HeldReader reader;
+  ASSERT_TRUE(transport->OpenInputChannel(here, &reader, kLargestMessage));
+  rtps::SendResourceList senders;
+  ASSERT_TRUE(transport->OpenOutputChannel(senders, here));
+  const std::string part(kLargestMessage, 'p');
+  for (int i = 0; i < kParts; ++i) {
+    send(*senders.front(), here, as_fast_dds_sends(part));
+  }
+  reader.release();
+  EXPECT_TRUE(reader.wait_for(kParts));
+  senders.clear();
+  EXPECT_TRUE(transport->CloseInputChannel(here));
+  transport->shutdown();
+}
+
 // The kinds of the submessages, and 0 for what is none.
 std::vector<int> submessages(const std::string& message) {
   std::vector<int> kinds;

@@ -26,8 +26,23 @@
 namespace rmw_fastrtps {
 namespace {
 
-// Its segment of 512 KiB, and its ports.
+// What small messages need of its segment, and its ports.
 constexpr std::uint64_t kMemoryOfParticipant = 1024 * 1024;
+
+// A writer that is not reliable loses the parts of a message that have no place in its segment, and with one of them the
+// message. Fast DDS takes 512 KiB, so large messages came only if their reader was as fast as their writer. The memory
+// is taken page by page when it is used, and who publishes nothing large never takes it. Where /dev/shm is small, as in
+// containers, a few participants must not fill it: a page that is not to be had ends the process.
+std::uint32_t segment_size() {
+  constexpr std::uint64_t kLeast = 512 * 1024;
+  constexpr std::uint64_t kMost = 32 * 1024 * 1024;
+  constexpr std::uint64_t kShare = 16;
+  struct statvfs room {};
+  if (statvfs("/dev/shm", &room) != 0 || room.f_blocks == 0) {
+    return static_cast<std::uint32_t>(kLeast);
+  }
+  return static_cast<std::uint32_t>(std::clamp(room.f_bavail * room.f_frsize / kShare, kLeast, kMost));
+}
 
 using rtps::Locator;
 
@@ -280,6 +295,7 @@ void use_default_transports(const BuiltinTransports& wanted, std::uint32_t local
   if (is_alone || has_room_in_shared_memory(kMemoryOfParticipant)) {
     auto shared_memory = std::make_shared<Filtered<rtps::SharedMemTransportDescriptor>>(traffic, ports);
     shared_memory->max_message_size(udp.max_message_size());
+    shared_memory->segment_size(segment_size());
     transports.push_back(shared_memory);
   } else {
     rcutils_log(nullptr, RCUTILS_LOG_SEVERITY_WARN, "rmw_fastrtps",
