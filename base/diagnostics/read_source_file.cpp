@@ -61,6 +61,7 @@ std::shared_ptr<const SourceFile> read_source_file(const std::string& path, Sour
   }
   std::string text;
   constexpr std::size_t kChunk = 64 * 1024;
+  constexpr std::size_t kLargest = 64UL << 20U;  // a device such as /dev/zero has no end
   while (true) {
     const std::size_t size = text.size();
     text.resize(size + kChunk);
@@ -72,6 +73,10 @@ std::shared_ptr<const SourceFile> read_source_file(const std::string& path, Sour
     }
     if (count < 0 && error != EINTR) {
       fail(error);
+    }
+    if (text.size() > kLargest) {
+      throw LaunchError(fmt::format("'{}' is larger than {} MiB", path, kLargest >> 20U), included_from,
+                        "no launch file is so large; is it another file?", Finding::kUnreadableFile);
     }
   }
   text.shrink_to_fit();  // the text stays as long as the launch, and each process of `launch test` inherits it

@@ -77,16 +77,26 @@ LaunchError no_launch_file(const std::string& path, const std::vector<std::strin
   const fs::path directory = fs::path(path).parent_path();
   const std::string name = fs::path(path).filename();
   const std::string ending = name.substr(std::min(name.find('.'), name.size()));
+  const std::string beginning = name.substr(0, name.size() - ending.size());
   std::vector<std::string> names;
+  std::vector<std::string> endings;  // of launch files with this beginning
   for (const fs::directory_entry& entry : fs::directory_iterator(directory.empty() ? "." : directory, unreadable)) {
     const std::string other = entry.path().filename();
     if (other.ends_with(ending) && !entry.is_directory(unreadable)) {
       names.push_back(other.substr(0, other.size() - ending.size()));
     }
+    if (!beginning.empty() && other.starts_with(beginning + ".") && is_launch_file(entry.path())) {
+      endings.push_back(other.substr(beginning.size()));
+    }
   }
-  const std::string nearest = nearest_name(name.substr(0, name.size() - ending.size()), names);
+  std::string nearest = nearest_name(beginning, names);
+  if (!nearest.empty()) {
+    nearest += ending;
+  } else if (const std::string other = nearest_name(ending, endings); !other.empty()) {
+    nearest = beginning + other;
+  }
   std::string help = nearest.empty() ? did_you_mean_command(path, commands)
-                                     : fmt::format("did you mean '{}'?", (directory / (nearest + ending)).string());
+                                     : fmt::format("did you mean '{}'?", (directory / nearest).string());
   if (help.empty()) {
     help = "a file of a package is named by two words: launch PACKAGE FILE";
   }

@@ -152,7 +152,7 @@ class CPython : public launch::python::Runtime {
     start();
     return launch::python::run_python(host, [&] {
       find_packages();
-      return launch::python::read_entities(py::module_::import("launch._load").attr("load")(path, text));
+      return launch::python::read_entities(py::module_::import("launch._load").attr("load")(path, py::bytes(text)));
     });
   }
 

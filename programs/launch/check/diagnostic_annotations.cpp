@@ -54,13 +54,16 @@ std::string diagnostics_for_github(const std::vector<Diagnostic>& diagnostics) {
     if (const SourceRange& where = diagnostic.where) {
       const auto begin = where.file->position(where.begin);
       const auto end = where.file->position(where.end);
-      text += fmt::format("file={},line={},endLine={},", escaped(from_here(where.file->path()), true), begin.line, end.line);
+      text += fmt::format("file={},line={},endLine={},", escaped(from_here(where.file->path()), true), begin.line,
+                          end.line);
       if (begin.line == end.line) {  // GitHub takes columns within one line only
         text += fmt::format("col={},endColumn={},", begin.column, end.column);
       }
     }
-    text += fmt::format("title={}::{}\n", escaped(fmt::format("{} {}", finding_id(diagnostic.finding), finding_info(diagnostic.finding).title), true),
-                        escaped(diagnostic.message + (diagnostic.help.empty() ? "" : "\n" + diagnostic.help), false));
+    text += fmt::format(
+        "title={}::{}\n",
+        escaped(fmt::format("{} {}", finding_id(diagnostic.finding), finding_info(diagnostic.finding).title), true),
+        escaped(diagnostic.message + (diagnostic.help.empty() ? "" : "\n" + diagnostic.help), false));
   }
   return text;
 }

@@ -69,7 +69,8 @@ ComparedWithBaseline leave_out_known(const std::string& path, std::vector<Diagno
     }
     for (const Json& one : root.at("findings")) {
       const auto count = one.at("count").get<std::size_t>();
-      left[{one.at("file").get<std::string>(), one.at("id").get<std::string>(), one.at("message").get<std::string>()}] += count;
+      left[{one.at("file").get<std::string>(), one.at("id").get<std::string>(),
+            one.at("message").get<std::string>()}] += count;
       compared.gone += count;
     }
   } catch (const Json::exception&) {

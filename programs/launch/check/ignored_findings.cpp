@@ -98,7 +98,8 @@ class Reader {
       ++ids;
       const std::string id(text_.substr(id_begin, id_end - id_begin));
       if (const std::optional<Finding> finding = find_finding(id)) {
-        comments_.ignored.push_back({*finding, file_->position(begin).line, alone ? line + 1 : line, range(id_begin, id_end)});
+        comments_.ignored.push_back(
+            {*finding, file_->position(begin).line, alone ? line + 1 : line, range(id_begin, id_end)});
       } else {
         const LaunchError error = unknown_finding(id);
         wrong(error.diagnostics().front().message, id_begin, id_end, error.diagnostics().front().help);
@@ -147,8 +148,9 @@ void leave_out_ignored(const std::shared_ptr<const SourceFile>& file, std::vecto
   found.insert(found.end(), own.wrong.begin(), own.wrong.end());
   for (const Ignored& one : own.ignored) {
     if (!one.used) {
-      found.push_back({Severity::kWarning, fmt::format("there is no {} here to ignore", finding_id(one.finding)), one.where,
-                       "a comment is for its own line and for the next one; remove it", Finding::kUselessIgnore});
+      found.push_back({Severity::kWarning, fmt::format("there is no {} here to ignore", finding_id(one.finding)),
+                       one.where, "a comment is for its own line and for the next one; remove it",
+                       Finding::kUselessIgnore});
     }
   }
 }

@@ -2,8 +2,10 @@
 """A mistake in a command line is told in one form by every command and verb, with exit code 2."""
 
 import os
+import pathlib
 import re
 import subprocess
+import tempfile
 import unittest
 
 LAUNCH = os.environ['LAUNCH_PROGRAM']
@@ -44,7 +46,7 @@ class CommandErrors(unittest.TestCase):
 
     def test_a_value_that_is_none_of_a_list(self):
         for words, message, meant in (
-                (('check', '--format', 'jsn', 'x'), '--format jsn is unknown, expected text, json, sarif', 'json'),
+                (('check', '--format', 'jsn', 'x'), '--format jsn is unknown, expected text, json, sarif, github, gitlab', 'json'),
                 (('graph', '--format', 'sgv', 'x'), '--format sgv is unknown, expected dot, svg', 'svg'),
                 (('schema', 'dryrun'), 'format dryrun is unknown, expected xsd, json, dry-run', 'dry-run'),
                 (('report', '--sort', 'nme', 'x'), None, 'name')):
@@ -84,6 +86,22 @@ class CommandErrors(unittest.TestCase):
                 result = launch(*words, option)
                 self.assertEqual((words, result.returncode, result.stderr), (words, 0, ''))
                 self.assertIn(f'Usage: {" ".join(["launch", *words])}', result.stdout)
+
+
+    def test_a_launch_file_whose_ending_is_mistyped_is_suggested(self):
+        with tempfile.TemporaryDirectory() as directory:
+            for name in ('a.launch.py', 'a.launch.xml', 'b.launch.xml'):
+                (pathlib.Path(directory) / name).write_text('<launch/>')
+            for typed, meant in (('a.lauch.xml', 'a.launch.xml'), ('a.launch.yp', 'a.launch.py'), ('a.launchxml', 'a.launch.xml')):
+                result = subprocess.run([LAUNCH, 'check', typed], cwd=directory, capture_output=True, text=True, check=False)
+                self.assertEqual(result.stdout, f"error: launch file '{typed}' does not exist [LF0001]\n"
+                                                f"      = help: did you mean '{meant}'?\n0 files: 1 error, 0 warnings\n")
+
+    def test_a_file_without_an_end_is_an_error(self):
+        result = launch('check', '/dev/zero')
+        self.assertEqual(result.stdout, "error: '/dev/zero' is larger than 64 MiB [LF0001]\n"
+                                        '      = help: no launch file is so large; is it another file?\n'
+                                        '1 file: 1 error, 0 warnings\n')
 
 
 if __name__ == '__main__':

@@ -27,10 +27,10 @@ class ActionServer : public testing::Test {
     set_time(100 * kSecond);
     rcl_action_server_options_t options = rcl_action_server_get_default_options();
     options.result_timeout.nanoseconds = kSecond;
-    EXPECT_EQ(rcl_action_server_init(&server_, &node_.handle, &clock_,
-                                     ROSIDL_GET_ACTION_TYPE_SUPPORT(example_interfaces, Fibonacci), "fibonacci",
-                                     &options),
-              RCL_RET_OK)
+    EXPECT_EQ(
+        rcl_action_server_init(&server_, &node_.handle, &clock_,
+                               ROSIDL_GET_ACTION_TYPE_SUPPORT(example_interfaces, Fibonacci), "fibonacci", &options),
+        RCL_RET_OK)
         << take_error();
   }
   ~ActionServer() override {
@@ -128,10 +128,10 @@ TEST_F(ActionServer, ForgetsGoalsThatHaveEndedSomeTimeAgo) {
 TEST_F(ActionServer, HasItsServicesFromAnIndexInAWaitSet) {
   rcl_action_client_t client = rcl_action_get_zero_initialized_client();
   const rcl_action_client_options_t options = rcl_action_client_get_default_options();
-  ASSERT_EQ(rcl_action_client_init(&client, &node_.handle,
-                                   ROSIDL_GET_ACTION_TYPE_SUPPORT(example_interfaces, Fibonacci), "fibonacci",
-                                   &options),
-            RCL_RET_OK);
+  ASSERT_EQ(
+      rcl_action_client_init(&client, &node_.handle, ROSIDL_GET_ACTION_TYPE_SUPPORT(example_interfaces, Fibonacci),
+                             "fibonacci", &options),
+      RCL_RET_OK);
   rcl_wait_set_t wait_set = rcl_get_zero_initialized_wait_set();
   ASSERT_EQ(rcl_wait_set_init(&wait_set, 4, 0, 1, 3, 3, 0, &context_.handle, rcl_get_default_allocator()), RCL_RET_OK);
   size_t service = 99;

@@ -29,10 +29,10 @@ namespace {
 // What small messages need of its segment, and its ports.
 constexpr std::uint64_t kMemoryOfParticipant = 1024 * 1024;
 
-// A writer that is not reliable loses the parts of a message that have no place in its segment, and with one of them the
-// message. Fast DDS takes 512 KiB, so large messages came only if their reader was as fast as their writer. The memory
-// is taken page by page when it is used, and who publishes nothing large never takes it. Where /dev/shm is small, as in
-// containers, a few participants must not fill it: a page that is not to be had ends the process.
+// A writer that is not reliable loses the parts of a message that have no place in its segment, and with one of them
+// the message. Fast DDS takes 512 KiB, so large messages came only if their reader was as fast as their writer. The
+// memory is taken page by page when it is used, and who publishes nothing large never takes it. Where /dev/shm is
+// small, as in containers, a few participants must not fill it: a page that is not to be had ends the process.
 std::uint32_t segment_size() {
   constexpr std::uint64_t kLeast = 512 * 1024;
   constexpr std::uint64_t kMost = 32 * 1024 * 1024;

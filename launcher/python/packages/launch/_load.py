@@ -29,9 +29,18 @@ def load(path, source):
     return load_file(path, source)
 
 
+def _decoded(source):
+    if isinstance(source, str):
+        return source
+    try:
+        return source.decode('utf-8-sig')
+    except UnicodeDecodeError:
+        return source.decode('latin-1')  # for the places of errors; compile() follows a `coding:` line
+
+
 def load_file(path, source):
     """The entities that generate_launch_description() of the file returns."""
-    note_source(path, source)
+    note_source(path, _decoded(source))
     code = compile(source, path, 'exec', dont_inherit=True)
     module = types.ModuleType('python_launch_file')
     module.__file__ = path
