@@ -94,7 +94,7 @@ class LaunchTest(unittest.TestCase):
         results = self.directory / 'results.xml'
         output = self.run_other(launcher, 'test', 'parametrized.py', 'greeting:=bonjour', '--junit', results)
         self.assertIn('OK', output)
-        self.assertEqual(int(ElementTree.parse(results).getroot().get('tests')), 6)
+        self.assertEqual(int(ElementTree.parse(results).getroot().get('tests')), 9)
         self.run_other(launcher, 'test', 'fails.py', code=1)
         self.assertEqual(self.run_other(launcher, 'test', 'good.py', '--repeat', '2', code=2).splitlines()[0],
                          "launch test: error: 'good.py' is a file of launch_testing: of the options only --junit goes with it")
@@ -124,11 +124,50 @@ class LaunchTest(unittest.TestCase):
         plain.write_text('def test_nothing():\n    pass\n')
         self.assertRegex(self.run_other(*pytest, plain, PYTHONPATH=str(plugins)), r'\n=* 1 passed in ')
 
+    RUNNER = """
+import importlib, sys, unittest
+from launch_testing.junitxml import unittestResultsToXml
+from launch_testing.loader import LoadTestsFromPythonModule
+from launch_testing.test_runner import LaunchTestRunner
+sys.path.insert(0, '.')
+module = importlib.import_module(sys.argv[1])
+runs = LoadTestsFromPythonModule(module, name=sys.argv[1])
+runner = LaunchTestRunner(runs, launch_file_arguments=sys.argv[2:])
+runner.validate()
+results = runner.run()
+for run, result in results.items():
+    print(run, result.wasSuccessful(), result.testsRun, len(result.failures), len(result.errors), len(result.skipped))
+root = unittestResultsToXml(name='all', test_results=results).getroot()
+print(root.attrib['tests'], sorted({case.get('classname') + '/' + case.get('name') for case in root.iter('testcase')}))
+"""
+
+    def run_in_a_program(self, *words):
+        """The last lines of what LaunchTestRunner tells."""
+        packages = str(Path(os.environ['LAUNCH_PROGRAM']).parent.parent / 'lib/launch/python')
+        return self.run_other(sys.executable, '-B', '-c', self.RUNNER, *words, PYTHONPATH=packages)
+
+    def test_a_program_may_run_them(self):
+        output = self.run_in_a_program('good')
+        self.assertIn('\ngood True 6 0 0 0\n', output)
+        self.assertIn("6 ['good.TestAfterShutdown/test_exit_codes', ", output)
+        output = self.run_in_a_program('parametrized', 'greeting:=bonjour')
+        self.assertIn('\nStarting test run parametrized[two]\n', output)
+        self.assertIn('\nparametrized[three] True 3 0 0 0\n', output)
+        self.assertIn("9 ['parametrized.TestArguments/test_arguments[one]', ", output)
+
+    def test_a_program_is_told_of_failures(self):
+        self.assertIn('\nfails False 3 2 1 0\n', self.run_in_a_program('fails'))
+        self.assertIn('\nskipped True 1 0 0 1\n', self.run_in_a_program('skipped'))
+        output = self.run_in_a_program('dies_early')
+        self.assertIn('\nProcesses under test stopped before tests completed\n', output)
+        self.assertRegex(output, r'\ndies_early False \d+ \d+ 0 0\n')
+
     def test_a_launch_for_each_parameter(self):
         _, cases = self.results('parametrized.py', 'greeting:=bonjour', '--package-name', 'words')
         self.assertEqual(cases, {f'words.parametrized.launch_tests[{word}]/TestArguments.{test}': 'passed'
                                  for word in ('one', 'two', 'three')
-                                 for test in ('test_arguments', 'test_with_more_than_one_try')})
+                                 for test in ('test_arguments', 'test_asks_outside_of_the_thread_of_the_launch',
+                                              'test_with_more_than_one_try')})
 
     def test_several_files(self):
         _, cases = self.results('kept_alive.py', 'xml_file.py')

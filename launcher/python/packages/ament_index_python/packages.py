@@ -17,11 +17,11 @@ class PackageNotFoundError(KeyError):
 
 
 def _launch_runs():
-    """Whether the launcher is to be asked: in launch files, and in a program while its launch runs."""
+    """Whether the launcher is to be asked, on the thread of the launch. Its environment may be another one."""
     if '_launch_engine' not in sys.modules and '_launch_engine' not in sys.builtin_module_names:
         return False  # a program that has not imported `launch`
     import _launch_engine
-    return not hasattr(_launch_engine, 'IS_PROGRAM') or _launch_engine.has_launch()
+    return _launch_engine.is_running()
 
 
 def _find(substitution, package_name):
@@ -38,7 +38,12 @@ def _find(substitution, package_name):
 def _find_in_index(package_name):
     if not package_name or not isinstance(package_name, str):
         raise ValueError(f"'{package_name}' is not the name of a package")
-    prefix = has_resource('packages', package_name)
+    try:
+        prefix = has_resource('packages', package_name)
+    except OSError:  # nothing is sourced: this installation has packages, too
+        prefix = os.path.abspath(os.path.join(os.path.dirname(__file__), *4 * ['..']))
+        if not os.path.isfile(os.path.join(prefix, 'share/ament_index/resource_index/packages', package_name)):
+            raise PackageNotFoundError(f"package '{package_name}' not found, searching: {[prefix]}") from None
     if not prefix:
         raise PackageNotFoundError(f"package '{package_name}' not found, searching: {get_search_paths()}")
     return prefix

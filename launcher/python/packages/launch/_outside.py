@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-What substitutions and simple actions do in a Python program where no launch runs, as in a test of a package.
+What substitutions and simple actions do where the launcher can't be asked: in a Python program without a launch, as in a test of a
+package, and on the thread of the tests of launch_test.
 
-While a launch runs, and in launch files, the launcher performs them.
+Everywhere else the launcher performs them.
 """
 
 import math
@@ -18,8 +19,10 @@ _TRUTH = {'true': True, '1': True, 'false': False, '0': False}
 
 
 def is_here():
-    """Whether this is a program of the user's, without a launch."""
-    return hasattr(_launch_engine, 'IS_PROGRAM') and not _launch_engine.has_launch()
+    """Whether the launcher can't be asked: in a program without a launch, and in the launcher on the thread of tests."""
+    if hasattr(_launch_engine, 'IS_PROGRAM'):
+        return not _launch_engine.has_launch()  # the launch of a program may be asked by any thread
+    return not _launch_engine.is_running()
 
 
 def perform(value, context):

@@ -19,14 +19,12 @@ from launch import LaunchDescription, _coroutines
 from launch._entities import entities
 from launch.action import Action
 from launch.actions import RegisterEventHandler
-from launch.event_handlers import OnProcessExit, OnProcessIO, OnProcessStart, OnShutdown
+from launch.event_handlers import OnShutdown
 from launch.events import IncludeLaunchDescription, Shutdown
 from launch.launch_context import LaunchContext
 from launch_testing import _loader, _results
-from launch_testing._known_process import ForeignProcess, command_line
 from launch_testing._time_to_end import TimeToEnd
-from launch_testing.io_handler import ActiveIoHandler
-from launch_testing.proc_info_handler import ActiveProcInfoHandler
+from launch_testing._watch import ProcessWatch
 
 
 class LaunchServiceOfTests:
@@ -63,12 +61,9 @@ class Conductor(Action):
         self._active_tests_ended = False
         self._loop = None
         self._requests = None
-        self._running = set()  # process ids
         self._none_is_left = threading.Event()  # some have run, and all of them have ended
-        self._foreign = {}  # processes of XML and YAML files, by name
         self._all_ended = None
-        self.proc_info = ActiveProcInfoHandler()
-        self.proc_output = ActiveIoHandler()
+        self._watch = ProcessWatch(self._on_change)
         self._run = self._load(order)
         self._has_active_tests = self._run.active.countTestCases() > 0
 
@@ -87,54 +82,32 @@ class Conductor(Action):
             self._told.update(completed=True, skipped=str(reason))
             self._tell()
             return LaunchDescription([])
-        attributes = {'proc_info': self.proc_info, 'proc_output': self.proc_output, 'test_args': test_arguments,
+        watch = self._watch
+        attributes = {'proc_info': watch.proc_info, 'proc_output': watch.proc_output, 'test_args': test_arguments,
                       'launch_service': LaunchServiceOfTests(self)}
         _loader.bind(self._run.active, attributes, {**objects, **self._run.arguments, **attributes})
-        attributes = {**attributes, 'proc_info': self.proc_info._proc_info_handler,
-                      'proc_output': self.proc_output._io_handler}
+        attributes = {**attributes, 'proc_info': watch.proc_info._proc_info_handler,
+                      'proc_output': watch.proc_output._io_handler}
         _loader.bind(self._run.post_shutdown, attributes, {**objects, **self._run.arguments, **attributes})
-        watchers = [OnProcessStart(on_start=self._on_start), OnProcessExit(on_exit=self._on_exit),
-                    OnProcessIO(on_stdout=self._on_line, on_stderr=self._on_line),
-                    OnShutdown(on_shutdown=self._on_shutdown)]
-        return LaunchDescription([*map(RegisterEventHandler, watchers), description, self])
+        at_shutdown = RegisterEventHandler(OnShutdown(on_shutdown=self._on_shutdown))
+        return LaunchDescription([*watch.handlers(), at_shutdown, description, self])
 
     # Events of processes, on the launcher's thread.
 
-    def _named(self, event):
-        if event.action is None:
-            event.action = self._foreign.setdefault(event.process_name, ForeignProcess(event.process_name))
-        return event
-
-    def _on_start(self, event, context):
-        words = command_line(event.pid)
-        if words is None and event.action is not None:
-            words = [context.perform_substitution(part) if not isinstance(part, list) else
-                     ''.join(map(context.perform_substitution, part)) for part in event.action.cmd]
-        self._named(event)
-        if words:
-            event.action._final_cmd = words
-            event.action.process_details['cmd'] = words
-        self._running.add(event.pid)
-        self._none_is_left.clear()
-        self.proc_output.track(event.action)
-        self.proc_info.append(event)
-
-    def _on_exit(self, event, _context):
-        self._running.discard(event.pid)
-        self.proc_info.append(self._named(event))
-        self._look_for_end()
-
-    def _on_line(self, event):
-        self.proc_output.append(self._named(event))
+    def _on_change(self, is_start):
+        if is_start:
+            self._none_is_left.clear()
+        else:
+            self._look_for_end()
 
     def _on_shutdown(self, _event, _context):
         if not self._active_tests_ended:
             self._tell_early_end()
 
     def _look_for_end(self):
-        if not self._running:
+        if not self._watch.running:
             self._none_is_left.set()
-        if self._all_ended is not None and not self._running:
+        if self._all_ended is not None and not self._watch.running:
             self._all_ended.set()
 
     # The coroutine, on the launcher's thread.
@@ -187,7 +160,7 @@ class Conductor(Action):
             self._active_tests_ended = True
             if not self._has_active_tests:
                 # The launch is shut down at once. A process that ends by itself, such as `echo`, may do so first.
-                TimeToEnd().wait(self._none_is_left, lambda: set(self._running))
+                TimeToEnd().wait(self._none_is_left, lambda: set(self._watch.running))
         self.ask(self._end)
 
     # Results.
@@ -196,13 +169,7 @@ class Conductor(Action):
         lines = []
         if self._is_ready.is_set():
             lines.append('Processes under test stopped before tests completed\n')
-        for event in self.proc_info:
-            if getattr(event, 'returncode', 0) == 0:
-                continue
-            lines.append(f"Process '{event.process_name}' exited with {event.returncode}\n")
-            lines.append(f"##### '{event.process_name}' output #####\n")
-            lines += (line.text.decode(errors='replace') for line in self.proc_output[event.action])
-            lines.append('#' * (len(event.process_name) + 21) + '\n')
+        lines.append(self._watch.output_of_failed())
         sys.stderr.write(''.join(lines))  # in one piece: the thread of the tests writes, too
         self._tell()
 

@@ -16,14 +16,13 @@ class ForeignProcess:
 def name_and_arguments(process):
     details = process.process_details
     if not details:
-        return 'Unknown - Process not launched yet'
+        words = [_literal(word) for word in getattr(process, 'cmd', None) or ()]
+        return ' '.join(words) if words and None not in words else 'Unknown - Process not launched yet'
     return ' '.join([details['name'], *map(str, details['cmd'][1:])])
 
 
-def command_line(pid):
-    """The words of the command line of a running process; None when it has ended."""
-    try:
-        with open(f'/proc/{pid}/cmdline', encoding='utf-8', errors='surrogateescape') as file:
-            return file.read().split('\0')[:-1] or None
-    except OSError:
-        return None
+def _literal(word):
+    """The text of a word of a command; None if only a launch knows it."""
+    parts = word if isinstance(word, (list, tuple)) else [word]
+    texts = [part if isinstance(part, str) else getattr(part, 'text', None) for part in parts]
+    return None if None in texts else ''.join(texts)

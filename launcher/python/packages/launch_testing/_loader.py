@@ -90,7 +90,7 @@ def runs_of(module):
 
 
 def tests_in(suite):
-    if not isinstance(suite, unittest.TestSuite):
+    if not isinstance(suite, (unittest.TestSuite, list, tuple)):
         yield suite
         return
     for part in suite:

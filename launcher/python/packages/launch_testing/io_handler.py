@@ -15,10 +15,14 @@ class IoHandler:
     def __init__(self):
         self._lines = []
         self._by_process = {}
+        self._names = set()  # of processes whose action is not known
 
     def track(self, process):
-        """A process that has started belongs to it even before it writes something."""
-        self._by_process.setdefault(process, [])
+        """A process that has started belongs to it even before it writes something: an action, or a name."""
+        if isinstance(process, str):
+            self._names.add(process)
+        else:
+            self._by_process.setdefault(process, [])
 
     def append(self, event):
         self._lines.append(event)
@@ -31,7 +35,8 @@ class IoHandler:
         return list(self._by_process)
 
     def process_names(self):
-        return [process.process_details['name'] for process in self._by_process]
+        names = [process.process_details['name'] for process in self._by_process]
+        return names + sorted(self._names.difference(names))
 
     def __getitem__(self, key):
         """The lines of a process, which is an action or the name of a process."""
@@ -40,6 +45,8 @@ class IoHandler:
         for process, lines in self._by_process.items():
             if process.process_details['name'] == key:
                 return list(lines)
+        if key in self._names:
+            return []
         raise KeyError(key)
 
 

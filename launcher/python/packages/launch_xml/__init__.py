@@ -5,5 +5,7 @@ from launch import _names
 from launch.launch_description_sources import XMLLaunchDescriptionSource
 from launch.frontend import Entity, Parser
 
-_names.same_module('launch.launch_description_sources', __name__ + '.launch_description_sources')
+_names.same_module('launch.launch_description_sources', __name__ + '.launch_description_sources',
+                   __name__ + '.launch_description_sources.xml_launch_description_source')
+_names.same_module('launch.frontend', __name__ + '.entity', __name__ + '.parser')
 __all__ = ['Entity', 'Parser', 'XMLLaunchDescriptionSource']

@@ -8,6 +8,8 @@ import launch
 import launch.actions
 import launch_testing
 import pytest
+from ament_index_python import PackageNotFoundError, get_package_prefix
+from launch.substitutions import TextSubstitution
 from launch.substitutions import LaunchConfiguration
 
 PROGRAM = os.path.join(os.path.dirname(__file__), 'program.py')
@@ -28,6 +30,13 @@ class TestArguments(unittest.TestCase):
     def test_arguments(self, proc_output, word, test_args):
         greeting = test_args.get('greeting', 'hello')
         proc_output.assertWaitFor(f"Called with arguments ['{word}', '{greeting}', '--wait']", timeout=60)
+
+    def test_asks_outside_of_the_thread_of_the_launch(self):
+        with self.assertRaisesRegex(PackageNotFoundError, "package 'no_such_package' not found, searching: "):
+            get_package_prefix('no_such_package')
+        context = launch.LaunchContext()
+        context.launch_configurations['name'] = 'value'
+        self.assertEqual(LaunchConfiguration('name', default=TextSubstitution(text='')).perform(context), 'value')
 
     @launch_testing.markers.retry_on_failure(times=3)
     def test_with_more_than_one_try(self):

@@ -16,6 +16,7 @@ from launch._script import _calls, _link, _program
 from launch.actions import _processes
 from launch.event_handlers import OnProcessExit, OnProcessStart
 from launch.events import IncludeLaunchDescription, Shutdown
+from launch.events.process import command_line
 from launch.launch_context import LaunchContext
 
 _SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGQUIT)
@@ -53,6 +54,10 @@ class ServiceContext(LaunchContext):
 
     def _on_start(self, event, _context):
         self._running.add(event.pid)
+        words = command_line(event.pid) if event.action is not None else None
+        if words:
+            event.action._final_cmd = words
+            event.action.process_details['cmd'] = words
 
     def _on_exit(self, event, _context):
         self._running.discard(event.pid)

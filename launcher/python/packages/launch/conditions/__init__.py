@@ -74,5 +74,6 @@ def evaluate_condition_expression(context, expression):
 
 
 _names.one_class_modules(__name__)
+_names.same_module(__name__, __name__ + '.evaluate_condition_expression_impl')
 __all__ = ['IfCondition', 'InvalidConditionExpressionError', 'LaunchConfigurationEquals',
            'LaunchConfigurationNotEquals', 'SubstitutionFailure', 'UnlessCondition', 'evaluate_condition_expression']

@@ -17,10 +17,20 @@ def action_named(values):
     return actions_by_name.get(values.get('action'))
 
 
-class ProcessEvent(Event):
-    """What happened to a process. `action` is None for a process of an XML or YAML file."""
+def command_line(pid):
+    """The words of the command line of a running process; None when it has ended."""
+    try:
+        with open(f'/proc/{pid}/cmdline', encoding='utf-8', errors='surrogateescape') as file:
+            return file.read().split('\0')[:-1] or None
+    except OSError:
+        return None
 
-    def __init__(self, action, values):
+
+class ProcessEvent(Event):
+    """What happened to a process. `action` is None for a process of an XML or YAML file. Tests make some with keywords of ROS 2."""
+
+    def __init__(self, action, values=None, **given):
+        values = values or _values_of(given)
         self.action = action
         self.execute_process_action = action
         self.process_name = values['process']
@@ -29,8 +39,18 @@ class ProcessEvent(Event):
         self.cmd = getattr(action, '_final_cmd', None) or getattr(action, 'cmd', None)
         self.cwd = None
         self.env = None
-        if action is not None:
+        if given:
+            self.cmd, self.cwd, self.env = given.get('cmd'), given.get('cwd'), given.get('env')
+        elif action is not None:
             action._details = {'action': action, 'name': self.process_name, 'pid': self.pid, 'cmd': self.cmd}
+
+
+def _values_of(given):
+    """What the launcher would tell of an event with these keywords."""
+    text = given.get('text', b'')
+    return {'process': given.get('name'), 'pid': given.get('pid'), 'exit_code': given.get('returncode', 0),
+            'text': text.decode(errors='surrogateescape') if isinstance(text, bytes) else text,
+            'stream': 'stderr' if given.get('fd') == 2 else 'stdout'}
 
 
 class ProcessStarted(ProcessEvent):
@@ -42,10 +62,10 @@ class ProcessExited(ProcessEvent):
 
     name = 'launch.events.process.ProcessExited'
 
-    def __init__(self, action, values):
-        super().__init__(action, values)
-        self.returncode = int(values['exit_code'])
-        if action is not None:
+    def __init__(self, action, values=None, **given):
+        super().__init__(action, values, **given)
+        self.returncode = int((values or _values_of(given))['exit_code'])
+        if action is not None and not given:
             action._return_code = self.returncode
 
 
@@ -54,9 +74,10 @@ class ProcessIO(ProcessEvent):
 
     name = 'launch.events.process.ProcessIO'
 
-    def __init__(self, action, values):
-        super().__init__(action, values)
-        self.text = values['text'].encode(errors='surrogateescape') + b'\n'
+    def __init__(self, action, values=None, **given):
+        super().__init__(action, values, **given)
+        values, end = (values, b'\n') if values else (_values_of(given), b'')
+        self.text = values['text'].encode(errors='surrogateescape') + end
         self.from_stdout = values['stream'] == 'stdout'
         self.from_stderr = not self.from_stdout
         self.from_stdin = False
@@ -182,3 +203,5 @@ def matches_executable(executable):
 
 
 _names.one_class_modules(__name__)
+_names.same_module(__name__, __name__ + '.process_matchers')
+__path__ = []  # so that `import launch.events.process.process_matchers` looks for it

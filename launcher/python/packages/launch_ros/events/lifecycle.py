@@ -82,3 +82,6 @@ class _Chosen(_Step):
 
 
 _names.one_class_modules(__name__)
+_names.same_module(__name__, __name__ + '.lifecycle_node_matchers', 'launch_ros.events.matchers',
+                   'launch_ros.events.matchers.matches_node_name')
+__path__ = []  # so that `import launch_ros.events.lifecycle.lifecycle_node_matchers` looks for it

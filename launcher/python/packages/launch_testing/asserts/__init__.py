@@ -100,12 +100,13 @@ class SequentialTextChecker:
         found = self._text.find(msg, self._at)
         if found < 0:
             raise AssertionError(f"'{msg}' not found in sequence after previous match.  "
-                                 f'The output near the last matched line:\n{self._nearby()}')
+                                 f'The output near the last matched line:\n{self.get_nearby_lines()}')
         self._at = found + len(msg)
 
     assertInStdout = assertInText  # noqa: N815
 
-    def _nearby(self):
+    def get_nearby_lines(self):
+        """The lines around the last match."""
         before = self._text[:self._at].splitlines(keepends=True)[-3:]
         after = self._text[self._at:].splitlines(keepends=True)[:3]
         return ''.join([*before, *after]).rstrip('\n')

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Event handlers of test descriptions."""
 
+from launch import _names
 from launch.event_handlers import OnProcessIO
 
 
@@ -18,3 +19,6 @@ class StdoutReadyListener(OnProcessIO):
             return None
         self._is_over = True
         return self._actions
+
+
+_names.one_class_modules(__name__)
