@@ -6,6 +6,8 @@ WaitForTopics works with the launcher's own tools. MessagePump and DataRepublish
 part of this launcher. docs/launch_testing.md lists the names.
 """
 
+from launch import _names
+from launch_testing.test_runner import LaunchTestRunner
 from launch_testing_ros import tools
 from launch_testing_ros.data_republisher import DataRepublisher
 from launch_testing_ros.message_pump import MessagePump
@@ -13,9 +15,4 @@ from launch_testing_ros.wait_for_topics import WaitForTopics
 
 __all__ = ['DataRepublisher', 'LaunchTestRunner', 'MessagePump', 'WaitForTopics', 'tools']
 
-
-class LaunchTestRunner:
-    """A name of ROS 2's. The program launch_test runs tests here."""
-
-    def __init__(self, *_args, **_kwargs):
-        raise RuntimeError('launch_testing_ros.LaunchTestRunner is not there: run the file with launch_test or pytest')
+_names.same_module('launch_testing.test_runner', __name__ + '.test_runner')
