@@ -23,6 +23,10 @@ constexpr std::chrono::milliseconds kQuiet{200};
 constexpr int kQuietOfLateness = 5;
 // Each participant tells its nodes on this topic of DDS.
 constexpr const char* kTopicOfParticipants = "ros_discovery_info";
+constexpr const char* kUnknownNode = "_NODE_NAME_UNKNOWN_";
+constexpr const char* kTopicsOfMostNodes[] = {"rt/rosout", "rt/parameter_events"};
+// It tells them a moment after it was found. One that has no node tells none.
+constexpr std::chrono::milliseconds kLongestSilence{1000};
 // Matches are no changes of the graph, and a signal may come just before a wait.
 constexpr std::chrono::milliseconds kPatience{50};
 
@@ -96,7 +100,7 @@ void GraphSession::discover(std::optional<Seconds> time) {
         std::max(last_change_ + kQuiet + kQuietOfLateness * lateness_, begin + kShortestLook);
     if (time || SessionClock::now() < quiet) {
       wait({}, time ? longest : std::min(quiet, longest));
-    } else if (has_found_host()) {
+    } else if (has_found_host() && (has_heard_nodes() || SessionClock::now() >= quiet + kLongestSilence)) {
       return;
     } else {
       wait({}, longest);
@@ -108,6 +112,23 @@ bool GraphSession::has_found_host() const {
   constexpr bool kNameOfDds = true;
   return node_->get_publishers_info_by_topic(kTopicOfParticipants, kNameOfDds).size() >=
          participants_of_host(node_->get_node_base_interface()->get_context()->get_domain_id());
+}
+
+bool GraphSession::has_heard_nodes() const {
+  constexpr bool kNameOfDds = true;
+  std::vector<EndpointGid> participants;
+  for (const auto& endpoint : node_->get_publishers_info_by_topic(kTopicOfParticipants, kNameOfDds)) {
+    participants.push_back(endpoint.endpoint_gid());
+  }
+  std::vector<EndpointOfNode> endpoints;
+  for (const char* const topic : kTopicsOfMostNodes) {
+    for (const auto& endpoint : node_->get_publishers_info_by_topic(topic, kNameOfDds)) {
+      if (endpoint.node_name() != kUnknownNode) {
+        endpoints.push_back({endpoint.endpoint_gid(), endpoint.node_namespace() + "/" + endpoint.node_name()});
+      }
+    }
+  }
+  return have_told_nodes(participants, endpoints, node_->get_node_names().size());
 }
 
 bool GraphSession::wait_until(const std::function<bool()>& holds, std::optional<Seconds> time) {

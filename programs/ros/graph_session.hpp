@@ -60,6 +60,7 @@ class GraphSession {
  private:
   std::shared_ptr<rclcpp::Node> node_;
   bool has_found_host() const;
+  bool has_heard_nodes() const;
 
   SessionClock::time_point last_change_;
   SessionClock::duration lateness_{0};  // the longest time that a busy machine has kept this thread waiting

@@ -233,6 +233,8 @@ void TraceStore::add_deliveries(const tracing::timeline::Timeline& timeline) {
       const tracing::timeline::Instance& instance = timeline.instances[message.receiving_instance];
       delivery.callback_start_ns = instance.start_ns;
       delivery.callback_end_ns = instance.finished ? instance.end_ns : 0;
+    } else if (message.needs_no_callback != 0) {
+      delivery.callback_start_ns = message.taken_ns;
     }
     deliveries.push_back(std::move(delivery));
   }

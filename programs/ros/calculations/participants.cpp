@@ -5,6 +5,7 @@
 #include <charconv>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <string>
 
 namespace launch {
@@ -42,6 +43,26 @@ std::size_t participants_of_host(std::size_t domain, const std::filesystem::path
     count += sockets_at(table, kBase + kOfDomain * static_cast<unsigned>(domain));
   }
   return count;
+}
+
+bool have_told_nodes(const std::vector<EndpointGid>& participants, const std::vector<EndpointOfNode>& endpoints,
+                     std::size_t nodes) {
+  using Prefix = std::array<std::uint8_t, 12>;
+  const auto prefix_of = [](const EndpointGid& gid) {
+    Prefix prefix{};
+    std::copy_n(gid.begin(), prefix.size(), prefix.begin());
+    return prefix;
+  };
+  std::set<Prefix> told;
+  std::set<std::string> named;
+  for (const EndpointOfNode& endpoint : endpoints) {
+    told.insert(prefix_of(endpoint.gid));
+    named.insert(endpoint.node);
+  }
+  const auto silent = static_cast<std::size_t>(
+      std::count_if(participants.begin(), participants.end(),
+                    [&](const EndpointGid& participant) { return told.count(prefix_of(participant)) == 0; }));
+  return nodes >= named.size() + silent;
 }
 
 }  // namespace launch

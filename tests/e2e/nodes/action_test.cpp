@@ -64,6 +64,8 @@ TEST(Action, ComputesASequence) {
   }
   // At least these: the goal, its response, the request for the result and the result.
   EXPECT_THAT(trace, HasEvents(event("ros2_ext:rclcpp_executor_execute_waitable"), at_least(4)));
+  // The client takes it itself, and no callback of the trace runs for it.
+  EXPECT_THAT(trace, Delivers({.topic = "/fibonacci/_action/feedback", .subscriber = "/client"}, at_least(1)));
 }
 
 TEST(Action, IsCanceledByItsClient) {

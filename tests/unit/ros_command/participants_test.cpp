@@ -7,6 +7,9 @@
 
 #include "tests/support/sandbox.hpp"
 
+using launch::EndpointGid;
+using launch::EndpointOfNode;
+using launch::have_told_nodes;
 using launch::participants_of_host;
 using launch::sockets_at;
 
@@ -31,6 +34,29 @@ TEST(Participants, AreNotInWhatIsNoTable) {
   for (const char* const text : {"", "\n\n", ":", "a: b", " 1: 00:", " 1: 00:xyz", "::::", kTitles}) {
     EXPECT_EQ(sockets_at(text, 0), 0) << text;
   }
+}
+
+// The endpoint `number` of a participant.
+EndpointGid gid(std::uint8_t participant, std::uint8_t number) {
+  EndpointGid gid{};
+  gid[11] = participant;
+  gid[15] = number;
+  return gid;
+}
+
+TEST(Participants, HaveToldTheirNodesWhenOneIsKnownOfEach) {
+  const std::vector<EndpointGid> participants = {gid(1, 1), gid(2, 1)};
+  EXPECT_FALSE(have_told_nodes(participants, {}, 0));
+  EXPECT_FALSE(have_told_nodes(participants, {{gid(1, 2), "/a"}}, 1));
+  EXPECT_TRUE(have_told_nodes(participants, {{gid(1, 2), "/a"}, {gid(2, 2), "/b"}}, 2));
+  EXPECT_TRUE(have_told_nodes({}, {}, 0));
+}
+
+TEST(Participants, MayHaveNodesWithoutAnyOfTheEndpoints) {
+  const std::vector<EndpointGid> participants = {gid(1, 1), gid(2, 1), gid(3, 1)};
+  const std::vector<EndpointOfNode> container = {{gid(1, 2), "/a"}, {gid(1, 3), "/a"}, {gid(1, 4), "/b"}};
+  EXPECT_FALSE(have_told_nodes(participants, container, 3)) << "one is known beside those of the container";
+  EXPECT_TRUE(have_told_nodes(participants, container, 4));
 }
 
 TEST(Participants, AreCountedByDomain) {

@@ -116,9 +116,10 @@ struct Message {
   Index taking_thread = kNone;
   Index receiving_instance = kNone;  // the instance that got it
   bool repeated = false;             // an earlier message is the same publication, taken by another subscription
-  // dds:write, after published_ns; 0: not in the trace, or later than this type can tell (16 ms). It takes the place of
-  // padding.
-  std::uint32_t written_after_ns : 24 = 0;
+  // dds:write, after published_ns; 0: not in the trace, or later than this type can tell (8 ms). It takes the place of
+  // padding, as does what follows.
+  std::uint32_t written_after_ns : 23 = 0;
+  std::uint32_t needs_no_callback : 1 = 0;  // MessageFlow::needs_no_callback
 };
 
 struct LifecycleState {

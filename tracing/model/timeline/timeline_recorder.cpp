@@ -136,7 +136,7 @@ Message TimelineRecorder::message_of(const Publication& publication) {
     message.called_ns = publication.rclcpp_ns;
   }
   // It is in the trace a little after rmw_publish.
-  constexpr std::int64_t kMostAfter = (1 << 24) - 1;
+  constexpr std::int64_t kMostAfter = (1 << 23) - 1;
   const std::int64_t after_ns = publication.written_ns - publication.published_ns;
   message.written_after_ns = after_ns > 0 && after_ns <= kMostAfter ? static_cast<std::uint32_t>(after_ns) : 0;
   message.topic = publication.topic;
@@ -189,6 +189,7 @@ void TimelineRecorder::on_message(const MessageFlow& flow) {
   message.taking_thread = thread_of(flow.taking_thread);
   message.taken_ns = flow.taken_ns;
   message.callback_ns = flow.callback_begin_ns;
+  message.needs_no_callback = flow.needs_no_callback ? 1 : 0;
   if (end_ns_ && message.published_ns >= *end_ns_) {
     return;
   }

@@ -65,6 +65,8 @@ struct Delivery {
   std::int64_t called_ns = 0;     // publish() was called
   std::int64_t published_ns = 0;  // the middleware, or a buffer of the process, got the message
   std::int64_t taken_ns = 0;
+  // Of a message that needs no callback, because what took it handles it itself, such as a client of an action: when it
+  // was taken.
   std::int64_t callback_start_ns = 0;
   std::int64_t callback_end_ns = 0;
 };
