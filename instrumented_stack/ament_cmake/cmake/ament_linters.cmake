@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # The linters of ROS 2. This stack contains none of them. Each is a program, ament_<linter>; where it is installed, the
-# function runs it as a test, and where it is not, the function does nothing and says so once.
+# function runs it as a test, and where it is not, the test is disabled, which is said once. For ament_lint_auto there is no
+# test then.
 include_guard(GLOBAL)
 cmake_policy(VERSION 3.20...3.25)
 
@@ -10,12 +11,19 @@ function(_ament_linter linter)
   find_program(AMENT_LINTER_${linter} ament_${linter})
   if(NOT AMENT_LINTER_${linter})
     _ament_left_out(linters "linters are left out where their programs, such as ament_${linter}, are not installed")
-    return()
   endif()
   cmake_parse_arguments(PARSE_ARGV 1 ARG "" "TESTNAME;TIMEOUT;MAX_LINE_LENGTH;CONFIG_FILE;LANGUAGE;ROOT;HEADER_FILTER"
     "EXCLUDE;FILTERS;LIBRARIES;INCLUDE_DIRS")
   if(NOT ARG_TESTNAME)
     set(ARG_TESTNAME ${linter})
+  endif()
+  if(NOT AMENT_LINTER_${linter})
+    if(NOT _ament_lint_auto)
+      # The package may set properties of this test.
+      add_test(NAME ${ARG_TESTNAME} COMMAND ${CMAKE_COMMAND} -E true)
+      set_tests_properties(${ARG_TESTNAME} PROPERTIES DISABLED TRUE)
+    endif()
+    return()
   endif()
   set(command ${AMENT_LINTER_${linter}} ${ARG_UNPARSED_ARGUMENTS})
   if(NOT "${ARG_MAX_LINE_LENGTH}" STREQUAL "")
