@@ -154,22 +154,23 @@ TEST_P(RefusedFile, SaysWhereAndWhy) {
   EXPECT_EQ(read(GetParam().text), GetParam().error) << GetParam().text;
 }
 
-INSTANTIATE_TEST_SUITE_P(Names, RefusedFile,
-                         testing::Values(Refused{"/foo**: {ros__parameters: {x: 1}}",
-                                                 "1: '/foo**' is no name of a node: node name must not contain characters other than "
-                                                 "letters, digits and '_'"},
-                                         Refused{"/f*o/node: {ros__parameters: {x: 1}}",
-                                                 "1: '/f*o/node' is no name of a node: namespace must not contain characters other than "
-                                                 "letters, digits, '_' and '/'"},
-                                         Refused{"/**/n*ode: {ros__parameters: {x: 1}}",
-                                                 "1: '/**/n*ode' is no name of a node: node name must not contain characters other than "
-                                                 "letters, digits and '_'"},
-                                         Refused{"ns//node: {ros__parameters: {x: 1}}",
-                                                 "1: 'ns//node' is no name of a node: it has two slashes in a row"},
-                                         Refused{"/foo:\n  /*:\n    ros__parameters: {x: 1}",
-                                                 "3: '/foo//*' is no name of a node: it has two slashes in a row"},
-                                         Refused{"/: {ros__parameters: {x: 1}}",
-                                                 "1: '/' is no name of a node: node name must not be empty"}));
+INSTANTIATE_TEST_SUITE_P(
+    Names, RefusedFile,
+    testing::Values(Refused{"/foo**: {ros__parameters: {x: 1}}",
+                            "1: '/foo**' is no name of a node: node name must not contain characters other than "
+                            "letters, digits and '_'"},
+                    Refused{"/f*o/node: {ros__parameters: {x: 1}}",
+                            "1: '/f*o/node' is no name of a node: namespace must not contain characters other than "
+                            "letters, digits, '_' and '/'"},
+                    Refused{"/**/n*ode: {ros__parameters: {x: 1}}",
+                            "1: '/**/n*ode' is no name of a node: node name must not contain characters other than "
+                            "letters, digits and '_'"},
+                    Refused{"ns//node: {ros__parameters: {x: 1}}",
+                            "1: 'ns//node' is no name of a node: it has two slashes in a row"},
+                    Refused{"/foo:\n  /*:\n    ros__parameters: {x: 1}",
+                            "3: '/foo//*' is no name of a node: it has two slashes in a row"},
+                    Refused{"/: {ros__parameters: {x: 1}}",
+                            "1: '/' is no name of a node: node name must not be empty"}));
 INSTANTIATE_TEST_SUITE_P(
     Nesting, RefusedFile,
     testing::Values(
