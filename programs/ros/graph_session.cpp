@@ -42,6 +42,12 @@ void require_ok(rcl_ret_t ret) {
   }
 }
 
+EndpointGid gid_of(const rclcpp::TopicEndpointInfo& endpoint) {
+  EndpointGid gid{};  // that of Humble is longer
+  std::copy_n(endpoint.endpoint_gid().begin(), gid.size(), gid.begin());
+  return gid;
+}
+
 class WaitSet {
  public:
   WaitSet(const GraphSession::WakeUps& wake_ups, rcl_context_t* context) {
@@ -118,13 +124,13 @@ bool GraphSession::has_heard_nodes() const {
   constexpr bool kNameOfDds = true;
   std::vector<EndpointGid> participants;
   for (const auto& endpoint : node_->get_publishers_info_by_topic(kTopicOfParticipants, kNameOfDds)) {
-    participants.push_back(endpoint.endpoint_gid());
+    participants.push_back(gid_of(endpoint));
   }
   std::vector<EndpointOfNode> endpoints;
   for (const char* const topic : kTopicsOfMostNodes) {
     for (const auto& endpoint : node_->get_publishers_info_by_topic(topic, kNameOfDds)) {
       if (endpoint.node_name() != kUnknownNode) {
-        endpoints.push_back({endpoint.endpoint_gid(), endpoint.node_namespace() + "/" + endpoint.node_name()});
+        endpoints.push_back({gid_of(endpoint), endpoint.node_namespace() + "/" + endpoint.node_name()});
       }
     }
   }

@@ -41,7 +41,8 @@ std::uint32_t segment_size() {
   if (statvfs("/dev/shm", &room) != 0 || room.f_blocks == 0) {
     return static_cast<std::uint32_t>(kLeast);
   }
-  return static_cast<std::uint32_t>(std::clamp(room.f_bavail * room.f_frsize / kShare, kLeast, kMost));
+  const std::uint64_t free = std::uint64_t{room.f_bavail} * room.f_frsize;
+  return static_cast<std::uint32_t>(std::clamp(free / kShare, kLeast, kMost));
 }
 
 using rtps::Locator;
