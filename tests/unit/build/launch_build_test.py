@@ -152,6 +152,8 @@ class Tests(InFolder):
         file = self.folder / 'pytest.xml'
         file.write_text('<testsuites><testsuite name="pytest" errors="1" failures="1" skipped="1" tests="5"/></testsuites>')
         self.assertEqual(str(read_counts(file)), '2 of 4 tests failed, 1 skipped')
+        file.write_text('<testsuite name="(empty)" tests="3" failures="0" disabled="1" skipped="1"/>')
+        self.assertEqual(str(read_counts(file)), '1 test passed, 1 skipped')
 
     def test_results_that_are_not_whole(self):
         file = self.folder / 'ctest.xml'
