@@ -131,8 +131,8 @@ TEST_F(OlderRecordings, SayWhichPublishersCameLate) {
 
 TEST(OlderRecordingsInPart, HaveTheLogsOfANodeWhosePublisherRclCopies) {
   Feed feed;
-  feed.in(71, 71)(ros2::RclInit{1, "4.1.1"})(ros2::RclNodeInit{1, 0, "one", "/"})(ros2::RmwPublisherInit{1, {}});
-  feed(ros2::RclPublisherInit{0x7ffd01, 1, 1, "/rosout", 1000});
+  feed.in(71, 71)(ros2::RclInit{1, "4.1.1"})(ros2::RmwPublisherInit{1, {}});
+  feed(ros2::RclPublisherInit{0x7ffd01, 1, 1, "/rosout", 1000})(ros2::RclNodeInit{1, 0, "one", "/"});
   feed.at(kMs)(ros2::RclPublish{0x7ffd55, 9})(ros2::RmwPublish{0, 9, 0});
   feed.at(2 * kMs)(ros2::RclcppPublish{8})(ros2::RclPublish{0x7ffd55, 8})(ros2::RmwPublish{0, 8, 0});
   Ros2Results results = feed.results();
@@ -144,8 +144,8 @@ TEST(OlderRecordingsInPart, SayThatTheLogsOfSeveralNodesAreNotTold) {
   Feed feed;
   feed.in(71, 71)(ros2::RclInit{1, "4.1.1"});
   for (const ros2::Handle node : {1, 2}) {
-    feed(ros2::RclNodeInit{node, 0, node == 1 ? "one" : "two", "/"})(ros2::RmwPublisherInit{node, {}});
-    feed(ros2::RclPublisherInit{0x7ffd00 + node, node, node, "/rosout", 1000});
+    feed(ros2::RmwPublisherInit{node, {}})(ros2::RclPublisherInit{0x7ffd01, node, node, "/rosout", 1000});
+    feed(ros2::RclNodeInit{node, 0, node == 1 ? "one" : "two", "/"});
   }
   feed.at(kMs)(ros2::RclPublish{0x7ffd55, 9})(ros2::RmwPublish{0, 9, 0});
   const Ros2Results results = feed.results();

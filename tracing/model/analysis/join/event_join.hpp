@@ -63,6 +63,11 @@ class EventJoin {
   const LifecycleTracker& lifecycle() const { return lifecycle_; }
 
  private:
+  void on(const Origin& origin, const ros2::RclPublisherInit& event) {
+    model_.on(origin, event);
+    messages_.on_publisher(origin, event);
+  }
+
   // An event goes to the functions below or to the first part that has an overload for it. Some events need neither.
   template <class Event>
   void handle(const Origin& origin, const Event& event) {

@@ -37,19 +37,17 @@ RmwLookup MessageJoin::publisher_of(const Origin& origin, const ThreadState& thr
 // that copy, which no publisher was created with. Of several nodes of the process it is unknown which one has logged.
 MessageJoin::LogPublisher MessageJoin::log_publisher(const Origin& origin, const ThreadState& thread,
                                                      ros2::Handle message) const {
-  LogPublisher found;
-  if (thread.rcl_message != message || thread.rclcpp_message == message || !begun_.contains(origin.process)) {
-    return found;
+  const auto logs = log_publishers_.find(origin.process);
+  if (thread.rcl_message != message || thread.rclcpp_message == message || logs == log_publishers_.end()) {
+    return {};
   }
-  for (ObjectId id = 0; id < model_.publishers().size(); ++id) {
-    const EndpointObject& publisher = model_.publishers()[id];
-    const bool logs = publisher.node != kNoObject && model_.nodes()[publisher.node].process == origin.process &&
-                      publisher.topic != kNoObject && model_.topics()[publisher.topic].name == "/rosout";
-    if (logs) {
-      found = {.id = found.exists ? kNoObject : id, .exists = true};
-    }
+  return {.id = logs->second.size() == 1 ? *logs->second.begin() : kNoObject, .exists = true};
+}
+
+void MessageJoin::on_publisher(const Origin& origin, const ros2::RclPublisherInit& event) {
+  if (event.topic_name == "/rosout") {
+    log_publishers_[origin.process].insert(model_.publisher(origin.process, event.publisher_handle));
   }
-  return found;
 }
 
 void MessageJoin::count_unknown(const Origin& origin) {

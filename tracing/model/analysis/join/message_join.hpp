@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -48,6 +49,8 @@ class MessageJoin {
     begun_.insert(origin.process);
     versions_.emplace(event.version);
   }
+  // Called when the model has the publisher.
+  void on_publisher(const Origin& origin, const ros2::RclPublisherInit& event);
   // `thread`: that of the event. The caller keeps it between events.
   void on(const Origin& origin, ThreadState& thread, const ros2::RclcppPublish& event);
   void on(const Origin& origin, ThreadState& thread, const ros2::RclPublish& event);
@@ -115,11 +118,12 @@ class MessageJoin {
   ExecutionSink& sink_;
   MessageMatcher messages_;
   IntraProcessMatcher buffers_{model_};
-  bool tells_executions_ = false;                // the trace has rclcpp_executor_execute
-  bool tells_publishers_ = false;                // the trace has rcl_publish
-  bool tells_middleware_ = false;                // rmw_publish or rmw_take
-  std::set<ProcessId> begun_;                    // processes with rcl_init
-  std::set<std::string, std::less<>> versions_;  // that these have named
+  bool tells_executions_ = false;                           // the trace has rclcpp_executor_execute
+  bool tells_publishers_ = false;                           // the trace has rcl_publish
+  bool tells_middleware_ = false;                           // rmw_publish or rmw_take
+  std::map<ProcessId, std::set<ObjectId>> log_publishers_;  // of /rosout, one of each node
+  std::set<ProcessId> begun_;                               // processes with rcl_init
+  std::set<std::string, std::less<>> versions_;             // that these have named
   MessageCounts counts_;
 };
 
