@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdlib>
 #include <stdexcept>
 #include <utility>
@@ -32,6 +33,9 @@ constexpr int kInternalError = -32603;
 constexpr int kServerNotInitialized = -32002;
 
 constexpr int kIncremental = 2;  // TextDocumentSyncKind
+
+// A check that takes longer while nothing else happens is given up, and the other documents have their turn.
+constexpr std::chrono::milliseconds kLongestCheck{60'000};
 
 struct UnknownMethod {};
 
@@ -71,8 +75,13 @@ int Server::run() {
       begin_check();
     }
     std::array<pollfd, 2> events = {{{in_, POLLIN, 0}, {check_ ? check_->result.get() : -1, POLLIN, 0}}};
-    if (::poll(events.data(), events.size(), -1) < 0 && errno != EINTR) {
+    const int longest = check_ ? static_cast<int>(kLongestCheck.count()) : -1;
+    const int ready = ::poll(events.data(), events.size(), longest);
+    if (ready < 0 && errno != EINTR) {
       return EXIT_FAILURE;
+    }
+    if (ready == 0) {
+      end_check();  // it waits for something: a file that is a pipe
     }
     if ((events[0].revents & (POLLIN | POLLHUP | POLLERR)) != 0) {
       const ssize_t count = ::read(in_, bytes.data(), bytes.size());
