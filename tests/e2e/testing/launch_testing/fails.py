@@ -16,7 +16,8 @@ class TestFailures(unittest.TestCase):
     def test_error(self):
         raise KeyError('nothing')
 
-    def test_failure(self, proc_output):
+    def test_failure(self, proc_info, proc_output):
+        proc_info.assertWaitForStartup('keep_alive_proc')
         proc_output.assertWaitFor('never', timeout=0.01)
 
 
