@@ -218,8 +218,13 @@ void become_guest(void (*report_deaths)(int descriptor)) {
     while (::waitpid(guest, &status, 0) < 0 && errno == EINTR) {
     }
     const std::string name = shared->call == 0 ? std::string() : shared->name.data();
-    if (shared->finished || name.empty() || comes_from_outside(status) || self.refused.contains(name)) {
+    if (shared->finished || comes_from_outside(status)) {
       end_like(status);
+    }
+    if (name.empty() || self.refused.contains(name)) {
+      // A thread, or a function that Python calls at its end. No line is to blame.
+      fmt::print(stderr, "launch: error: a Python launch file has ended the program that looks at it\n");
+      end_like(WIFSIGNALED(status) ? status : EXIT_FAILURE << 8);
     }
     GuestRefusal refusal = refusal_of(status, end, *shared, *self.wanted);
     refusal.line = line_of(content(traces.get()), name);

@@ -11,17 +11,34 @@
 #include <sstream>
 
 #include "actions/builtin_actions.hpp"
-#include "base/diagnostics/read_source_file.hpp"
 #include "base/environment/own_environment.hpp"
 #include "base/environment/own_prefix.hpp"
 #include "launcher/process/output/output_router.hpp"
 #include "launcher/substitution/package_index.hpp"
 #include "launcher/substitution/template_parser.hpp"
-#include "launcher/substitution/unrun_commands.hpp"
 
 namespace launch::lsp {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+// Whether all its substitutions are the launcher's own and run nothing. Others would run Python, or a program, in the
+// server.
+bool runs_nothing(std::string_view text) {
+  for (std::size_t at = text.find("$("); at != std::string_view::npos; at = text.find("$(", at + 2)) {
+    const std::size_t begin = at + 2;
+    const std::string_view name = text.substr(begin, std::min(text.find_first_of(" )", begin), text.size()) - begin);
+    const auto& types = substitution_types();
+    if (name == "eval" || name == "command" ||
+        std::none_of(types.begin(), types.end(), [&](const SubstitutionType& type) { return type.name == name; })) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
 
 Workspace::Workspace(bool runs_python)
     : runs_python_(runs_python),
@@ -123,7 +140,6 @@ Scope Workspace::scope_in(const std::string& path, const Outline& outline) const
   scope.environment = environment_;
   scope.packages = packages_;
   scope.log_directory = LogDirectory::choose(environment_);
-  scope.unrun_commands = std::make_shared<UnrunCommands>();
   const std::optional<Document> text = document(path);
   scope.current_file = std::make_shared<SourceFile>(path, text ? text->text() : std::string());
   for (const OutlineElement& element : outline.elements) {
@@ -132,7 +148,7 @@ Scope Workspace::scope_in(const std::string& path, const Outline& outline) const
     }
     const std::string_view value = value_of(element, element.tag == "arg" ? "default" : "value", text->text());
     const std::string name(value_of(element, "name", text->text()));
-    if (name.empty() || element.find(element.tag == "arg" ? "default" : "value") == nullptr) {
+    if (name.empty() || element.find(element.tag == "arg" ? "default" : "value") == nullptr || !runs_nothing(value)) {
       continue;
     }
     try {
@@ -146,6 +162,9 @@ Scope Workspace::scope_in(const std::string& path, const Outline& outline) const
 
 std::optional<std::string> Workspace::performed(const std::string& path, const Outline& outline,
                                                 std::string_view text) const {
+  if (!runs_nothing(text)) {
+    return std::nullopt;
+  }
   try {
     Scope scope = scope_in(path, outline);
     return parse_template(LocatedText(std::string(text))).perform(scope);
@@ -154,44 +173,46 @@ std::optional<std::string> Workspace::performed(const std::string& path, const O
   }
 }
 
-std::vector<Workspace::Argument> Workspace::written_arguments_of(const std::string& path) const {
+std::vector<Workspace::Argument> Workspace::arguments_of(const std::string& path) const {
   std::vector<Argument> arguments;
-  const std::optional<Document> file = document(path);
-  const Outline outline = file ? outline_of(file->text()) : Outline();
-  for (const OutlineElement& element : outline.elements) {
-    const bool declares = element.tag == "arg" && element.parent >= 0 &&
-                          outline.elements[static_cast<std::size_t>(element.parent)].tag != "include";
-    const auto value = [&](const char* attribute) { return std::string(value_of(element, attribute, file->text())); };
-    if (declares && !value("name").empty()) {
-      arguments.push_back({value("name"),
-                           value("description"),
-                           element.find("default") == nullptr ? std::nullopt : std::optional(value("default")),
-                           {}});
-    }
-  }
+  std::set<std::string> read;
+  add_arguments_of(path, read, arguments);
   return arguments;
 }
 
-std::vector<Workspace::Argument> Workspace::arguments_of(const std::string& path) const {
-  if (path.ends_with(".py") && !runs_python_) {
-    return {};
+void Workspace::add_arguments_of(const std::string& path, std::set<std::string>& read,
+                                 std::vector<Argument>& arguments) const {
+  const std::optional<Document> file =
+      path.ends_with(".py") || !read.insert(path).second ? std::nullopt : document(path);
+  if (!file) {
+    return;
   }
-  std::vector<Argument> arguments;
-  try {
-    set_unsaved_texts(texts());
-    Scope scope = scope_in(path, {});
-    const auto description = load_launch_description(path, registry_, scope);
-    for (const ArgumentInfo& info : find_arguments(*description, registry_, scope).arguments) {
-      const ArgumentDeclaration& declaration = *info.declaration;
-      arguments.push_back(
-          {declaration.name, declaration.description,
-           declaration.default_value ? std::optional(declaration.default_value->describe()) : std::nullopt,
-           declaration.choices});
+  const Outline outline = outline_of(file->text());
+  for (std::size_t i = 0; i < outline.elements.size(); ++i) {
+    const OutlineElement& element = outline.elements[i];
+    const auto value = [&](const char* attribute) { return std::string(value_of(element, attribute, file->text())); };
+    if (element.tag == "include") {
+      if (const std::optional<std::string> included = performed(path, outline, value("file"))) {
+        add_arguments_of((fs::path(path).parent_path() / *included).lexically_normal().string(), read, arguments);
+      }
+      continue;
     }
-  } catch (const LaunchError&) {
-    return written_arguments_of(path);  // its own diagnostics tell why
+    const bool declares = element.tag == "arg" && element.parent >= 0 &&
+                          outline.elements[static_cast<std::size_t>(element.parent)].tag != "include";
+    if (!declares || value("name").empty()) {
+      continue;
+    }
+    Argument argument = {value("name"),
+                         value("description"),
+                         element.find("default") == nullptr ? std::nullopt : std::optional(value("default")),
+                         {}};
+    for (const OutlineElement& choice : outline.elements) {
+      if (choice.tag == "choice" && choice.parent == static_cast<int>(i)) {
+        argument.choices.emplace_back(value_of(choice, "value", file->text()));
+      }
+    }
+    arguments.push_back(std::move(argument));
   }
-  return arguments;
 }
 
 }  // namespace launch::lsp

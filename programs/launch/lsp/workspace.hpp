@@ -6,11 +6,11 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "launcher/language/introspection.hpp"
 #include "launcher/language/registry.hpp"
 #include "launcher/substitution/scope.hpp"
 #include "programs/launch/lsp/document.hpp"
@@ -45,21 +45,21 @@ class Workspace {
   std::string executable(const std::string& package, const std::string& name) const;
 
   // The text with its substitutions performed, as far as they are known without a visit: packages, the environment,
-  // $(dirname), and arguments with a default. nullopt when something is unknown.
+  // $(dirname), and arguments with a default. nullopt when something is unknown, or would run code.
   std::optional<std::string> performed(const std::string& path, const Outline& outline, std::string_view text) const;
 
-  // The arguments that a launch file declares: those of the files that it includes, too, if it can be loaded.
+  // The arguments that a launch file and the files that it includes declare, by their texts. Python files count as
+  // empty.
   struct Argument {
     std::string name;
     std::string description;
-    std::optional<std::string> default_value;  // as --show-args shows it
+    std::optional<std::string> default_value;  // as it is written
     std::vector<std::string> choices;
   };
   std::vector<Argument> arguments_of(const std::string& path) const;
 
  private:
-  // Those that stand in its text.
-  std::vector<Argument> written_arguments_of(const std::string& path) const;
+  void add_arguments_of(const std::string& path, std::set<std::string>& read, std::vector<Argument>& arguments) const;
   Scope scope_in(const std::string& path, const Outline& outline) const;
 
   bool runs_python_;

@@ -246,6 +246,20 @@ class LanguageServer(unittest.TestCase):
         self.assertEqual((found['range']['start'], found['message'].split('\n')[0]),
                          ({'line': 2, 'character': 0}, 'Python ends here by SIGABRT'))
 
+    def test_the_server_itself_runs_nothing(self):
+        text = ('<launch>\n<arg name="a" default="$(eval \'__import__(&quot;os&quot;).abort()\')"/>\n'
+                '<log level="INFO" message="$(eval \'__import__(&quot;os&quot;).abort()\') $(command true)"/>\n</launch>\n')
+        editor = self.editor()
+        editor.open('a.launch.xml', text)
+        self.assertIsNotNone(editor.at('hover', 'a.launch.xml', 2, text.split('\n')[2].index('eval')))
+        self.assertEqual(editor.ask('textDocument/inlayHint', {
+            'textDocument': {'uri': editor.uri('a.launch.xml')},
+            'range': {'start': {'line': 0, 'character': 0}, 'end': {'line': 3, 'character': 0}}}), [])
+        self.assertIn('Python ends here by SIGABRT', json.dumps(editor.diagnostics('a.launch.xml')))
+        editor.open('b.launch.xml', text.replace('eval', 'of-a-package'))  # packages in Python offer substitutions
+        self.assertIsNone(editor.at('hover', 'b.launch.xml', 2, text.split('\n')[2].index('eval')))
+        self.assertEqual(editor.end(), 0)
+
     def test_wrong_messages_have_answers(self):
         editor = self.editor()
         self.assertEqual(editor.answer('textDocument/nothing', {'textDocument': {'uri': editor.uri('a')}})['error']['code'], -32602)

@@ -120,6 +120,13 @@ class PythonGuest(unittest.TestCase):
                                                 '      = help: it would end a launch in the same way\n')
                 self.assertEqual(result.returncode, 1)
 
+    def test_a_thread_that_ends_the_program_is_an_error(self):
+        self.write('import os, threading\nrest = threading.Thread(target=lambda: os._exit(0))\n'
+                   'rest.start()\nrest.join()\n' + GOOD)
+        result = self.launch('check', 'a.launch.py')
+        self.assertEqual(result.returncode, 1)
+        self.assertIn('a.launch.py:2:1: error: Python ends the program here, with exit code 0', result.stdout)
+
     def test_a_signal_from_outside_ends_the_command_itself(self):
         self.write('import os, signal\nprint("here", flush=True)\nwhile True:\n    signal.pause()\n')
         with subprocess.Popen([LAUNCH, 'check', 'a.launch.py'], cwd=self.directory, stderr=subprocess.PIPE) as command:
