@@ -13,6 +13,7 @@
 #include "actions/builtin_actions.hpp"
 #include "base/environment/own_environment.hpp"
 #include "base/environment/own_prefix.hpp"
+#include "launcher/language/launch_description.hpp"
 #include "launcher/process/output/output_router.hpp"
 #include "launcher/substitution/package_index.hpp"
 #include "launcher/substitution/template_parser.hpp"
