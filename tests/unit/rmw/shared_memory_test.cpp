@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "fastdds_versions/separate_memory.hpp"
 #include "fastdds_versions/transport.hpp"
 #include "participant/default_transports.hpp"
 #include "tests/support/emulated.hpp"
@@ -248,14 +249,16 @@ TEST(SharedMemory, APortThatIsTakenAwayIsOpenedAgain) {
   const std::unique_ptr<rtps::TransportInterface> udp_of_others(rtps::UDPv4TransportDescriptor().create_transport());
   ASSERT_TRUE(others->init() && udp_of_others->init());
   rtps::SendResourceList senders;
-  ASSERT_TRUE(others->OpenOutputChannel(senders, here));
+  rtps::Locator_t there = here;
+  there.port = rmw_fastrtps::shared_memory_file_number(here.port);
+  ASSERT_TRUE(others->OpenOutputChannel(senders, there));
   ASSERT_TRUE(udp_of_others->OpenOutputChannel(senders, network));
   ASSERT_GE(senders.size(), 2U);
   const std::string announcement = announcement_of_a_participant();
   constexpr int kTries = 40;
   int tries = 0;
   for (; tries < kTries && !arrived.next(std::chrono::milliseconds(250)); ++tries) {
-    send(*senders.front(), here, {"found"});
+    send(*senders.front(), there, {"found"});
     send(*senders[1], network, {announcement});
   }
   EXPECT_LT(tries, kTries);

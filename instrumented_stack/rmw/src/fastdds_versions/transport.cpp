@@ -10,6 +10,8 @@
 #include <typeinfo>
 #include <vector>
 
+#include "fastdds_versions/separate_memory.hpp"
+
 namespace rmw_fastrtps {
 
 namespace {
@@ -51,15 +53,24 @@ struct SenderOfWholeMessages : rtps::SenderResource {
 #endif
 
 // Stays a descriptor of its kind, because Fast DDS looks for it.
-struct ForwardedSharedMemory final : rtps::SharedMemTransportDescriptor {
-  explicit ForwardedSharedMemory(const SharedMemTransportDescriptor& of_profile)
-      : SharedMemTransportDescriptor(of_profile) {}
+template <typename Descriptor>
+struct Forwarded final : Descriptor {
+  explicit Forwarded(const Descriptor& of_profile) : Descriptor(of_profile) {}
 
   rtps::TransportInterface* create_transport() const override {
     return new ForwardingTransport(
-        std::unique_ptr<rtps::TransportInterface>(SharedMemTransportDescriptor::create_transport()));
+        with_separate_memory(std::unique_ptr<rtps::TransportInterface>(Descriptor::create_transport())));
   }
 };
+
+// Replaces a descriptor that is of this kind, and not of one that is derived from it.
+template <typename Descriptor>
+void forward(std::shared_ptr<rtps::TransportDescriptorInterface>& descriptor) {
+  const auto& kept = *descriptor;
+  if (typeid(kept) == typeid(Descriptor)) {
+    descriptor = std::make_shared<Forwarded<Descriptor>>(static_cast<const Descriptor&>(kept));
+  }
+}
 
 // The transports that Fast DDS would add, with the sizes of the profile for UDP.
 void add_builtin_transports(fdds::TransportConfigQos& transports) {
@@ -102,10 +113,10 @@ void forward_shared_memory(fdds::DomainParticipantQos& qos) {
     add_builtin_transports(transports);
   }
   for (auto& descriptor : transports.user_transports) {
-    const auto& kept = *descriptor;
-    if (typeid(kept) == typeid(rtps::SharedMemTransportDescriptor)) {
-      descriptor =
-          std::make_shared<ForwardedSharedMemory>(static_cast<const rtps::SharedMemTransportDescriptor&>(kept));
+    forward<rtps::SharedMemTransportDescriptor>(descriptor);
+    if (RMW_FASTDDS_HAS_MEMORY_OF_ITS_OWN) {  // announcements come by UDP, too
+      forward<rtps::UDPv4TransportDescriptor>(descriptor);
+      forward<rtps::UDPv6TransportDescriptor>(descriptor);
     }
   }
 }
@@ -119,7 +130,8 @@ bool ForwardingTransport::is_reachable(const rtps::Locator& locator) const {
 }
 
 std::string shared_memory_port_file(std::uint32_t port) {
-  return (RMW_FASTDDS_MAJOR >= 3 ? "/dev/shm/fastdds_port" : "/dev/shm/fastrtps_port") + std::to_string(port);
+  return (RMW_FASTDDS_MAJOR >= 3 ? "/dev/shm/fastdds_port" : "/dev/shm/fastrtps_port") +
+         std::to_string(shared_memory_file_number(port));
 }
 
 }  // namespace rmw_fastrtps

@@ -184,10 +184,10 @@ class ForwardingTransport : public rtps::TransportInterface {
   std::unique_ptr<TransportInterface> inner_;
 };
 
-// Puts a ForwardingTransport before the shared memory of a profile.
+// Puts a ForwardingTransport before the shared memory of a profile, and before UDP where announcements need it.
 void forward_shared_memory(fdds::DomainParticipantQos& qos);
 
-// The file of a port in shared memory.
+// The file of the port of a locator in shared memory.
 std::string shared_memory_port_file(std::uint32_t port);
 
 }  // namespace rmw_fastrtps

@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "fastdds_versions/separate_memory.hpp"
 #include "fastdds_versions/transport.hpp"
 #include "participant/own_ports.hpp"
 #include "rcutils/logging.h"
@@ -186,8 +187,9 @@ struct Filtered final : Descriptor {
       : traffic(std::move(of_participant)), ports(std::move(ports_of_participant)) {}
 
   rtps::TransportInterface* create_transport() const override {
-    return new FilteredTransport(std::unique_ptr<rtps::TransportInterface>(Descriptor::create_transport()), traffic,
-                                 ports);
+    return new FilteredTransport(
+        with_separate_memory(std::unique_ptr<rtps::TransportInterface>(Descriptor::create_transport())), traffic,
+        ports);
   }
 
   std::shared_ptr<DiscoveryTraffic> traffic;
