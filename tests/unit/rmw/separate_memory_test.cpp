@@ -150,23 +150,27 @@ std::string sent_between(const rtps::TransportDescriptorInterface& sender,
   return found;
 }
 
-// Whoever takes a locator of shared memory for one of this host opens its port.
-TEST(SeparateMemory, IsOfAnotherHostForAllThatAreNotOfThisStack) {
-  NEEDS_NETWORK_DEVICES();
+// One that has heard nothing yet.
+std::shared_ptr<rtps::TransportDescriptorInterface> our_udp() {
   fdds::DomainParticipantQos qos;
   const auto traffic = std::make_shared<DiscoveryTraffic>();
   traffic->introduce({});
   rmw_fastrtps::use_default_transports({}, 0, traffic, qos);
-  const rtps::TransportDescriptorInterface& ours = *qos.transport().user_transports.front();
+  return qos.transport().user_transports.front();
+}
+
+// Whoever takes a locator of shared memory for one of this host opens its port.
+TEST(SeparateMemory, IsOfAnotherHostForAllThatAreNotOfThisStack) {
+  NEEDS_NETWORK_DEVICES();
   const rtps::UDPv4TransportDescriptor theirs;
   Message message;
   message.data(kParticipants).locator(kDefaultUnicast, 16, 2).end();
   std::string changed = message.bytes();
   changed[message.places()[0]] ^= 0x29;
   changed[message.places()[0] + 1] = static_cast<char>(changed[message.places()[0] + 1] ^ 0x91);
-  EXPECT_EQ(sent_between(ours, ours, message.bytes()), message.bytes());
-  EXPECT_EQ(sent_between(ours, theirs, message.bytes()), changed);
-  EXPECT_EQ(sent_between(theirs, ours, message.bytes()), changed);
+  EXPECT_EQ(sent_between(*our_udp(), *our_udp(), message.bytes()), message.bytes());
+  EXPECT_EQ(sent_between(*our_udp(), theirs, message.bytes()), changed);
+  EXPECT_EQ(sent_between(theirs, *our_udp(), message.bytes()), changed);
 }
 
 // The ports in shared memory that this process has opened.
