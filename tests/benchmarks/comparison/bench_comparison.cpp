@@ -2,13 +2,14 @@
 // How reliable `launch report --diff` is with real runs of twenty callbacks, half of them beside other busy programs:
 // how often it finds a change between two runs of one system, and how often it names exactly the callback that takes
 // 2 ms or 20 % longer in the second run. Usage:
-//   bench_comparison [TRIALS [SECONDS [DIRECTORY]]]
-// Each trial has four runs of SECONDS. DIRECTORY keeps them as baselines, and those that it has are not recorded again,
-// so that a change of the method can be judged by the same runs.
+//   bench_comparison [TRIALS [SECONDS [DIRECTORY [RUNS]]]]
+// Each trial has four times RUNS runs of SECONDS, by default one: RUNS on each side. DIRECTORY keeps them as baselines,
+// and those that it has are not recorded again, so that a change of the method can be judged by the same runs.
 #include <fmt/format.h>
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -89,17 +90,19 @@ std::string name_of(int callback) {
                            : fmt::format("/sink_{0}, subscription /topic_{0}", callback / 2);
 }
 
-// One trial: the runs before and after, all of them baselines.
+using Side = std::vector<fs::path>;  // runs, each a baseline
+
+// One trial: the runs before and after.
 struct Trial {
   bool busy;
   std::string shape;  // of the work
   int slow;
-  fs::path before, same, by_time, by_part;
+  Side before, same, by_time, by_part;
 };
 
 class Runs {
  public:
-  Runs(fs::path directory, int seconds) : directory_(std::move(directory)), seconds_(seconds) {
+  Runs(fs::path directory, int seconds, int runs) : directory_(std::move(directory)), seconds_(seconds), runs_(runs) {
     fs::create_directories(directory_);
   }
 
@@ -107,14 +110,19 @@ class Runs {
     Trial trial{number % 2 == 1, number / 2 % 2 == 0 ? "equal" : "varied", number * 7 % kCallbacks, {}, {}, {}, {}};
     std::optional<OtherPrograms> others;
     const auto record = [&](const char* name, int slow, const char* more) {
-      const fs::path file = directory_ / fmt::format("{}_{}.json", number, name);
-      if (!fs::exists(file)) {
+      Side side;
+      for (int run = 0; run < runs_; ++run) {
+        const std::string which = run == 0 ? "" : fmt::format("_{}", run);
+        side.push_back(directory_ / fmt::format("{}_{}{}.json", number, name, which));
+        if (fs::exists(side.back())) {
+          continue;
+        }
         if (trial.busy && !others) {
           others.emplace();
         }
-        record_run(file, trial.shape, slow, more);
+        record_run(side.back(), trial.shape, slow, more);
       }
-      return file;
+      return side;
     };
     trial.before = record("before", -1, "0ms");
     trial.same = record("same", -1, "0ms");
@@ -136,6 +144,7 @@ class Runs {
 
   fs::path directory_;
   int seconds_;
+  int runs_;
 };
 
 // What a method names: the callbacks, and whether anything else has changed.
@@ -147,18 +156,22 @@ struct Named {
   bool only(int callback) const { return callbacks == std::set{name_of(callback)}; }
 };
 
-Named named_by_report(const std::vector<fs::path>& before, const fs::path& after) {
-  const tracing::testing::TemporaryDirectory directory;
-  json all = parsed(before.front());
-  for (auto one = before.begin() + 1; one != before.end(); ++one) {
+fs::path joined(const Side& side, const fs::path& file) {
+  json all = parsed(side.front());
+  for (auto one = side.begin() + 1; one != side.end(); ++one) {
     all["runs"].push_back(parsed(*one)["runs"][0]);
   }
-  const fs::path sides = directory.path() / "before.json";
-  std::ofstream(sides) << all;
+  std::ofstream(file) << all;
+  return file;
+}
+
+Named named_by_report(const Side& before, const Side& after) {
+  const tracing::testing::TemporaryDirectory directory;
   const fs::path result = directory.path() / "result.json";
   Named named;
-  if (!succeeds(fmt::format("{} --diff {} {} --json >{} 2>&1", LAUNCH_REPORT, sides.native(), after.native(),
-                            result.native()))) {
+  if (!succeeds(fmt::format("{} --diff {} {} --json >{} 2>&1", LAUNCH_REPORT,
+                            joined(before, directory.path() / "before.json").native(),
+                            joined(after, directory.path() / "after.json").native(), result.native()))) {
     return named;  // too few samples
   }
   const json comparison = parsed(result);
@@ -215,7 +228,7 @@ Named named_by_plain_rule(const fs::path& before, const fs::path& after) {
   return named;
 }
 
-// The trials of one condition by one method.
+// The trials of one condition by one method, which is given both sides.
 struct Count {
   int trials = 0;
   int alarms = 0;
@@ -241,16 +254,19 @@ void count(int trials, const Runs& runs) {
     recorded.push_back(runs.trial(number));
     fmt::print(stderr, "trial {} of {}\n", number + 1, trials);
   }
-  std::map<std::pair<bool, std::string>, std::vector<fs::path>> earlier;
+  std::map<std::pair<bool, std::string>, Side> earlier;
   for (const Trial& trial : recorded) {
     const std::size_t busy = trial.busy ? 1 : 0;
-    counts[0][busy].add(trial, named_by_report({trial.before}, trial.same),
-                        named_by_report({trial.before}, trial.by_time), named_by_report({trial.before}, trial.by_part));
-    counts[2][busy].add(trial, named_by_plain_rule(trial.before, trial.same),
-                        named_by_plain_rule(trial.before, trial.by_time),
-                        named_by_plain_rule(trial.before, trial.by_part));
-    std::vector<fs::path>& before = earlier[{trial.busy, trial.shape}];
-    before.push_back(trial.before);
+    counts[0][busy].add(trial, named_by_report(trial.before, trial.same), named_by_report(trial.before, trial.by_time),
+                        named_by_report(trial.before, trial.by_part));
+    if (trial.before.size() > 1) {
+      continue;
+    }
+    counts[2][busy].add(trial, named_by_plain_rule(trial.before[0], trial.same[0]),
+                        named_by_plain_rule(trial.before[0], trial.by_time[0]),
+                        named_by_plain_rule(trial.before[0], trial.by_part[0]));
+    Side& before = earlier[{trial.busy, trial.shape}];
+    before.push_back(trial.before[0]);
     if (before.size() > 3) {
       before.erase(before.begin());
     }
@@ -259,10 +275,12 @@ void count(int trials, const Runs& runs) {
                           named_by_report(before, trial.by_part));
     }
   }
-  constexpr const char* kMethods[] = {"one run before", "three runs before", "plain rule, one run"};
-  for (std::size_t method = 0; method < 3; ++method) {
-    counts[method][0].print(kMethods[method], "quiet");
-    counts[method][1].print(kMethods[method], "busy");
+  const bool is_single = recorded.empty() || recorded.front().before.size() == 1;
+  const std::array<const char*, 3> methods = {is_single ? "one run before" : "all runs of both sides",
+                                              "three runs before", "plain rule, one run"};
+  for (std::size_t method = 0; method < (is_single ? methods.size() : 1); ++method) {
+    counts[method][0].print(methods[method], "quiet");
+    counts[method][1].print(methods[method], "busy");
   }
 }
 
@@ -272,7 +290,8 @@ int main(int argc, char** argv) {
   try {
     const tracing::testing::TemporaryDirectory directory;
     count(argc > 1 ? std::atoi(argv[1]) : 40,
-          Runs(argc > 3 ? fs::path(argv[3]) : directory.path(), argc > 2 ? std::atoi(argv[2]) : 6));
+          Runs(argc > 3 ? fs::path(argv[3]) : directory.path(), argc > 2 ? std::atoi(argv[2]) : 6,
+               argc > 4 ? std::atoi(argv[4]) : 1));
   } catch (const std::exception& error) {
     fmt::print(stderr, "bench_comparison: error: {}\n", error.what());
     return 1;

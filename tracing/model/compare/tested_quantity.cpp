@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "tracing/model/compare/many_runs.hpp"
 #include "tracing/model/compare/peers.hpp"
 #include "tracing/model/compare/rank_test.hpp"
 
@@ -68,7 +69,7 @@ double delay_of(const TestedQuantity& tested, const PairTest& pair, bool certain
 double in_the_way_of(const TestedQuantity& tested, const PairTest& pair, bool certainly) {
   const bool is_delayed = !tested.is_undisturbed() && std::get<2>(tested.key) != "interval";
   constexpr std::size_t kSeveral = 3;
-  if (!is_delayed || std::min(tested.before->size(), tested.after->size()) >= kSeveral) {
+  if (!is_delayed || tested.runs() >= kSeveral) {
     return 0;
   }
   return certainly ? pair.disturbance.longest_two_ns : pair.disturbance.longest_ns;
@@ -86,8 +87,7 @@ void test_pair(const std::vector<TestedQuantity*>& sort, std::size_t place, cons
   const std::vector<PeerShift> peers = shifts_of_peers(shifts);
   for (std::size_t i = 0; i < sort.size(); ++i) {
     const PairTest& pair = sort[i]->pairs[place];
-    const double least =
-        std::log1p(std::max(options.least_ratio, static_cast<double>(options.least_ns) / std::max(pair.before, 1.0)));
+    const double least = least_change(pair.before, options);
     const double spread = kSpreads * peers[i].spread;
     const double ns = kSpreads * peers[i].spread_ns;
     const double certain = std::max({spread, delay_of(*sort[i], pair, true), pair.blocks.own_ratio});
@@ -137,15 +137,23 @@ bool cut(TestedQuantity& tested, const std::map<const Measurement*, const Distur
   return true;
 }
 
+double least_change(double before, const CompareOptions& options) {
+  return std::log1p(std::max(options.least_ratio, static_cast<double>(options.least_ns) / std::max(before, 1.0)));
+}
+
 void test_all(std::vector<TestedQuantity>& tests, const CompareOptions& options) {
-  // Quantities of one sort that were cut into the same number of pairs.
-  std::map<std::tuple<Kind, std::string, Statistic, std::size_t>, std::vector<TestedQuantity*>> sorts;
+  // Quantities of one sort that as many runs of each side have.
+  std::map<std::tuple<Kind, std::string, Statistic, std::size_t, std::size_t>, std::vector<TestedQuantity*>> sorts;
   for (TestedQuantity& tested : tests) {
     const auto& [kind, subject, quantity] = tested.key;
-    sorts[{kind, quantity, tested.statistic, tested.pairs.size()}].push_back(&tested);
+    sorts[{kind, quantity, tested.statistic, tested.before->size(), tested.after->size()}].push_back(&tested);
   }
   for (const auto& [sort, members] : sorts) {
-    for (std::size_t place = 0; place < std::get<3>(sort); ++place) {
+    if (has_many_runs(*members.front())) {
+      test_many_runs(members, options);
+      continue;
+    }
+    for (std::size_t place = 0; place < members.front()->pairs.size(); ++place) {
       test_pair(members, place, options);
     }
   }

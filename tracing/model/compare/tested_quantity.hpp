@@ -49,6 +49,7 @@ struct TestedQuantity {
   bool is_undisturbed() const {
     return std::get<Kind>(key) == Kind::kCallback && (statistic == Statistic::kP10 || std::get<2>(key) == kRunning);
   }
+  std::size_t runs() const { return std::min(before->size(), after->size()); }  // of the side that has fewer
 };
 
 // The share of the samples below the statistic: 0.1, 0.5, 0.9.
@@ -61,6 +62,9 @@ std::vector<Statistic> statistics_of(const std::string& quantity);
 // Cuts all pairs of runs into blocks. Returns false when a run has too few samples. `disturbances`: of the run of each
 // measurement.
 bool cut(TestedQuantity& tested, const std::map<const Measurement*, const Disturbances*>& disturbances);
+
+// What counts for the user, as the logarithm of a ratio. `before`: nanoseconds.
+double least_change(double before, const CompareOptions& options);
 
 // Sets the probabilities of all that were cut. Each needs the others of its sort, which tell how runs differ.
 void test_all(std::vector<TestedQuantity>& tests, const CompareOptions& options);

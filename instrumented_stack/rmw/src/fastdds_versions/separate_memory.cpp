@@ -33,9 +33,9 @@ Locator with_file_number(Locator locator) {
 struct SeparateSender : rtps::SenderResource {
   static void become(rtps::SenderResource& sender, bool is_shared_memory) {
     auto& function = sender.*&SeparateSender::send_lambda_;
-    function = [send = function, is_shared_memory](
-                   const rtps::octet* data, std::uint32_t size, rtps::LocatorsIterator* begin,
-                   rtps::LocatorsIterator* end, const std::chrono::steady_clock::time_point& deadline) {
+    function = [send = function, is_shared_memory](const rtps::octet* data, std::uint32_t size,
+                                                   rtps::LocatorsIterator* begin, rtps::LocatorsIterator* end,
+                                                   const std::chrono::steady_clock::time_point& deadline) {
       const std::vector<std::size_t> hosts = announced_hosts({data, size});
       std::vector<rtps::octet> changed;
       if (!hosts.empty()) {

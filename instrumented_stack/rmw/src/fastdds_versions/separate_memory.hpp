@@ -2,13 +2,13 @@
 // Keeps processes of different releases of Fast DDS out of each other's shared memory.
 //
 // Release 2.9.1, which Debian 12 has, lays out its ports like no other one: their condition variables are 16 bytes
-// longer. Yet all releases of version 2 give their ports the same names, and every process opens the port of its domain's
-// multicast. So 2.9.1 and another release 2 on one host, such as those of ROS 2, read each other's memory wrongly, and
-// mostly one of them aborts at once (a failed assertion in Boost).
+// longer. Yet all releases of version 2 give their ports the same names, and every process opens the port of its
+// domain's multicast. So 2.9.1 and another release 2 on one host, such as those of ROS 2, read each other's memory
+// wrongly, and mostly one of them aborts at once (a failed assertion in Boost).
 //
 // With 2.9.1 the ports of this stack therefore have other numbers than their locators say. And the locators that it
-// announces name another host, in a way that the processes of this stack alone understand: for all others this process is
-// on another host as far as shared memory is concerned, and the other way round, so that UDP is between them.
+// announces name another host, in a way that the processes of this stack alone understand: for all others this process
+// is on another host as far as shared memory is concerned, and the other way round, so that UDP is between them.
 #pragma once
 
 #include <cstddef>
