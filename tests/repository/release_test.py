@@ -77,6 +77,14 @@ class Prepared(unittest.TestCase):
         self.assertIn(f'find_package(launch_trace_reader {minor})', self.read('docs/trace_reader.md'))
         self.assertIn(f'`.so.{minor}`', self.read('docs/stability.md'))
 
+    def test_who_hands_out_a_version_may_be_told_later(self):
+        self.assertEqual(self.prepare(self.next).returncode, 0)
+        self.assertIn('maintainers@launch.example', self.read('debian/changelog'))
+        self.assertEqual(self.prepare(PEOPLE).returncode, 0)
+        parts = [self.read(name) for name in ('debian/control', 'debian/changelog', 'launch_examples/package.xml')]
+        self.assertEqual([text.count('maintainers@launch.example') for text in parts], [0, 0, 0])
+        self.assertRegex(parts[1], rf'(?s)\Alaunch \({re.escape(self.next)}\) unstable.*\n -- {PEOPLE}  \w+, \d+ \w+ \d+ [\d:]+ [+-]\d+\n\Z')
+
     def test_a_release_before_stays_in_the_packages_changelog(self):
         self.write('debian/changelog', self.read('debian/changelog').replace('launch.example', 'robots.org'))
         self.assertEqual(self.prepare(self.next, PEOPLE).returncode, 0)
@@ -85,7 +93,7 @@ class Prepared(unittest.TestCase):
     def test_a_mistake_changes_nothing(self):
         before = self.contents()
         for words, told in (((self.version, PEOPLE), 'does not come after'), (('1.0', PEOPLE), 'MAJOR.MINOR.PATCH'), ((self.next, 'Some Robots'), 'NAME <MAIL>'),
-                            ((self.next,), 'wants the version and the maintainer'), ((self.next, 'A <a@b.example>'), 'domain for examples'),
+                            ((), 'wants a version, a maintainer, or both'), ((self.next, 'A <a@b.example>'), 'domain for examples'),
                             ((self.next, 'A <a@example.com>'), 'domain for examples'), ((self.next, 'A <root@localhost>'), 'domain for examples')):
             with self.subTest(words):
                 done = self.prepare(*words)
