@@ -98,7 +98,9 @@ TEST_F(AbandonedMemory, WhatAKilledNodeLeavesGoesAndTheNextNodeIsNotTouched) {
   const std::set<std::string> after = files_in("/dev/shm");
   for (const std::string& name : before) {
     // The port that all participants share, in place of the multicast port of UDP, is a well-known one.
-    const bool is_well_known = std::regex_search(name, std::regex("_port[0-9]{1,5}([^0-9]|$)"));
+    std::smatch port;
+    const bool is_well_known =
+        std::regex_search(name, port, std::regex("_port([0-9]+)")) && (std::stoull(port[1]) & 0x7fffffffU) <= 65535;
     const bool is_of_dds = std::regex_search(name, std::regex("fast(rtps|dds)_"));
     if (!is_of_dds || is_well_known) {
       continue;
