@@ -16,7 +16,8 @@
 #include <string>
 #include <vector>
 
-#include "fastdds_versions/separate_memory.hpp"
+#include "fastdds_versions/profile_transports.hpp"
+#include "fastdds_versions/shared_memory_layout.hpp"
 #include "fastdds_versions/transport.hpp"
 #include "participant/default_transports.hpp"
 #include "tests/support/emulated.hpp"

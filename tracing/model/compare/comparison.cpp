@@ -13,6 +13,7 @@
 
 #include "tracing/model/compare/change_cause.hpp"
 #include "tracing/model/compare/disturbance.hpp"
+#include "tracing/model/compare/quantity_tests.hpp"
 #include "tracing/model/compare/tested_quantity.hpp"
 
 namespace tracing::compare {

@@ -34,8 +34,8 @@ RunValues values_of(const Found& side, Statistic statistic) {
   return values;
 }
 
-// The probability that `higher` is not higher than `lower` by this ratio, whose logarithm it is: 1, unless three quarters
-// of all pairs of runs differ by it. A run that is unlike all others is in a quarter of them at most.
+// The probability that `higher` is not higher than `lower` by this ratio, whose logarithm it is: 1, unless three
+// quarters of all pairs of runs differ by it. A run that is unlike all others is in a quarter of them at most.
 double probability(const RunValues& lower, const RunValues& higher, double ratio) {
   std::size_t pairs = 0;
   for (const double low : lower.runs) {

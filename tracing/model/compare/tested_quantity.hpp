@@ -66,7 +66,4 @@ bool cut(TestedQuantity& tested, const std::map<const Measurement*, const Distur
 // What counts for the user, as the logarithm of a ratio. `before`: nanoseconds.
 double least_change(double before, const CompareOptions& options);
 
-// Sets the probabilities of all that were cut. Each needs the others of its sort, which tell how runs differ.
-void test_all(std::vector<TestedQuantity>& tests, const CompareOptions& options);
-
 }  // namespace tracing::compare

@@ -184,9 +184,6 @@ class ForwardingTransport : public rtps::TransportInterface {
   std::unique_ptr<TransportInterface> inner_;
 };
 
-// Puts a ForwardingTransport before the shared memory of a profile, and before UDP where announcements need it.
-void forward_shared_memory(fdds::DomainParticipantQos& qos);
-
 // The file of the port of a locator in shared memory.
 std::string shared_memory_port_file(std::uint32_t port);
 

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "fastdds_versions/discovery_listener.hpp"
+#include "fastdds_versions/profile_transports.hpp"
 #include "fastdds_versions/transport.hpp"
 #include "participant/default_transports.hpp"
 #include "participant/discovery_range.hpp"
