@@ -25,6 +25,7 @@
 
 #include "base/files/unique_fd.hpp"
 #include "base/processes/ending_signals.hpp"
+#include "base/processes/left_behind.hpp"
 #include "base/processes/spawn.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/testing/checks/check.hpp"

@@ -26,6 +26,7 @@
 #include "base/environment/own_environment.hpp"
 #include "base/environment/test_run_variables.hpp"
 #include "base/files/unique_fd.hpp"
+#include "base/processes/left_behind.hpp"
 #include "base/processes/spawn.hpp"
 #include "launch_trace_testing/event_query.hpp"
 #include "tracing/expect/wrapper_file.hpp"
@@ -212,6 +213,7 @@ struct LaunchRun::State {
     }
     result.out = read_file(out());
     result.err = read_file(err());
+    result.left = launch::left_behind(result.err);
     return result;
   }
 };

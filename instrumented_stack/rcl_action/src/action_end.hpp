@@ -42,7 +42,8 @@ struct rcl_action_client_impl_s : rcl_action::ActionEnd<rcl_action_client_option
 
 struct rcl_action_server_impl_s : rcl_action::ActionEnd<rcl_action_server_options_t, rcl_service_t, rcl_publisher_t> {
   rcl_clock_t* clock = nullptr;
-  rcl_timer_t expire_timer = rcl_get_zero_initialized_timer();
+  rcl_timer_t own_timer = rcl_get_zero_initialized_timer();
+  rcl_timer_t* expire_timer = &own_timer;          // the other one is the caller's
   std::vector<rcl_action_goal_handle_t*> goals{};  // deleted when they expire, at the latest with the server
 };
 

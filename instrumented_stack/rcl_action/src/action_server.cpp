@@ -33,15 +33,18 @@ rcl_ret_t init_all(rcl_action_server_impl_s& server, rcl_node_t* node, const ros
   if (const rcl_ret_t result = init_parts(server, types, init_service, init_publisher); result != RCL_RET_OK) {
     return result;
   }
+  if (server.expire_timer != &server.own_timer) {
+    return RCL_RET_OK;
+  }
   // It runs only while there are ended goals.
-  return rcl_timer_init2(&server.expire_timer, server.clock, node->context, kResultTimeout, nullptr, allocator, false);
+  return rcl_timer_init2(&server.own_timer, server.clock, node->context, kResultTimeout, nullptr, allocator, false);
 }
 
 rcl_ret_t fini_all(rcl_action_server_impl_s& server, rcl_node_t* node) {
   for (const rcl_action_goal_handle_t* goal : std::exchange(server.goals, {})) {
     delete goal;
   }
-  return last_error({rcl_timer_fini(&server.expire_timer), rcl_service_fini(&server.goal, node),
+  return last_error({rcl_timer_fini(&server.own_timer), rcl_service_fini(&server.goal, node),
                      rcl_service_fini(&server.cancel, node), rcl_service_fini(&server.result, node),
                      rcl_publisher_fini(&server.feedback, node), rcl_publisher_fini(&server.status, node)});
 }
@@ -91,9 +94,12 @@ rcl_action_server_options_t rcl_action_server_get_default_options(void) {
           {kResultTimeout}};
 }
 
-rcl_ret_t rcl_action_server_init(rcl_action_server_t* action_server, rcl_node_t* node, rcl_clock_t* clock,
-                                 const rosidl_action_type_support_t* type_support, const char* action_name,
-                                 const rcl_action_server_options_t* options) {
+namespace {
+
+// With a timer of its own if `expire_timer` is null.
+rcl_ret_t init_server(rcl_action_server_t* action_server, rcl_node_t* node, rcl_clock_t* clock,
+                      rcl_timer_t* expire_timer, const rosidl_action_type_support_t* type_support,
+                      const char* action_name, const rcl_action_server_options_t* options) {
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(action_server, RCL_RET_ACTION_SERVER_INVALID);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(clock, RCL_RET_INVALID_ARGUMENT);
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(type_support, RCL_RET_INVALID_ARGUMENT);
@@ -110,7 +116,29 @@ rcl_ret_t rcl_action_server_init(rcl_action_server_t* action_server, rcl_node_t*
   impl->options = *options;
   impl->action_name = action_name;
   impl->clock = clock;
+  if (expire_timer != nullptr) {
+    impl->expire_timer = expire_timer;
+  }
   return rcl_action::init_end(action_server->impl, std::move(impl), node, *type_support);
+}
+
+}  // namespace
+
+rcl_ret_t rcl_action_server_init(rcl_action_server_t* action_server, rcl_node_t* node, rcl_clock_t* clock,
+                                 const rosidl_action_type_support_t* type_support, const char* action_name,
+                                 const rcl_action_server_options_t* options) {
+  return init_server(action_server, node, clock, nullptr, type_support, action_name, options);
+}
+
+rcl_ret_t rcl_action_server_init2(rcl_action_server_t* action_server, rcl_node_t* node, rcl_timer_t* expire_timer,
+                                  const rosidl_action_type_support_t* type_support, const char* action_name,
+                                  const rcl_action_server_options_t* options) {
+  RCUTILS_CHECK_ARGUMENT_FOR_NULL(expire_timer, RCL_RET_INVALID_ARGUMENT);
+  rcl_clock_t* clock = nullptr;
+  if (const rcl_ret_t result = rcl_timer_clock(expire_timer, &clock); result != RCL_RET_OK) {
+    return result;
+  }
+  return init_server(action_server, node, clock, expire_timer, type_support, action_name, options);
 }
 
 rcl_ret_t rcl_action_server_fini(rcl_action_server_t* action_server, rcl_node_t* node) {

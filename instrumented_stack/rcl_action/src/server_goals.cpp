@@ -59,13 +59,13 @@ rcl_ret_t set_timer(rcl_action_server_impl_t& impl) {
     }
   }
   if (next < 0) {
-    return rcl_timer_cancel(&impl.expire_timer);
+    return rcl_timer_cancel(impl.expire_timer);
   }
   int64_t previous = 0;
-  if (const rcl_ret_t result = rcl_timer_exchange_period(&impl.expire_timer, next, &previous); result != RCL_RET_OK) {
+  if (const rcl_ret_t result = rcl_timer_exchange_period(impl.expire_timer, next, &previous); result != RCL_RET_OK) {
     return result;
   }
-  return rcl_timer_reset(&impl.expire_timer);
+  return rcl_timer_reset(impl.expire_timer);
 }
 
 }  // namespace
@@ -147,7 +147,7 @@ rcl_ret_t rcl_action_server_get_time_until_expiry(const rcl_action_server_t* act
     return RCL_RET_ACTION_SERVER_INVALID;
   }
   RCUTILS_CHECK_ARGUMENT_FOR_NULL(nanoseconds, RCL_RET_INVALID_ARGUMENT);
-  const rcl_ret_t result = rcl_timer_get_time_until_next_call(&action_server->impl->expire_timer, nanoseconds);
+  const rcl_ret_t result = rcl_timer_get_time_until_next_call(action_server->impl->expire_timer, nanoseconds);
   if (result == RCL_RET_TIMER_CANCELED) {
     rcl_reset_error();
     *nanoseconds = -1;

@@ -27,7 +27,7 @@ rcl_ret_t rcl_action_server_wait_set_get_num_entities(const rcl_action_server_t*
   }
   *num_subscriptions = 0;
   *num_guard_conditions = 0;
-  *num_timers = 1;
+  *num_timers = action_server->impl->expire_timer == &action_server->impl->own_timer ? 1 : 0;
   *num_clients = 0;
   *num_services = 3;
   return RCL_RET_OK;
@@ -53,10 +53,11 @@ rcl_ret_t rcl_action_wait_set_add_action_server(rcl_wait_set_t* wait_set, const 
     return RCL_RET_ACTION_SERVER_INVALID;
   }
   const rcl_action_server_impl_t& impl = *action_server->impl;
-  return first_error({rcl_wait_set_add_service(wait_set, &impl.goal, service_index),
-                      rcl_wait_set_add_service(wait_set, &impl.cancel, nullptr),
-                      rcl_wait_set_add_service(wait_set, &impl.result, nullptr),
-                      rcl_wait_set_add_timer(wait_set, &impl.expire_timer, nullptr)});
+  return first_error(
+      {rcl_wait_set_add_service(wait_set, &impl.goal, service_index),
+       rcl_wait_set_add_service(wait_set, &impl.cancel, nullptr),
+       rcl_wait_set_add_service(wait_set, &impl.result, nullptr),
+       impl.expire_timer == &impl.own_timer ? rcl_wait_set_add_timer(wait_set, &impl.own_timer, nullptr) : RCL_RET_OK});
 }
 
 rcl_ret_t rcl_action_wait_set_add_action_client(rcl_wait_set_t* wait_set, const rcl_action_client_t* action_client,
@@ -84,7 +85,7 @@ rcl_ret_t rcl_action_server_wait_set_get_entities_ready(const rcl_wait_set_t* wa
   *is_goal_request_ready = contains(wait_set->services, services, impl.goal);
   *is_cancel_request_ready = contains(wait_set->services, services, impl.cancel);
   *is_result_request_ready = contains(wait_set->services, services, impl.result);
-  *is_goal_expired = contains(wait_set->timers, wait_set->size_of_timers, impl.expire_timer);
+  *is_goal_expired = contains(wait_set->timers, wait_set->size_of_timers, *impl.expire_timer);
   return RCL_RET_OK;
 }
 

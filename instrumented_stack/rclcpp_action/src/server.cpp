@@ -128,6 +128,11 @@ void ServerBase::clear_on_ready_callback() {
   }
 }
 
+int ServerBase::get_number_of_goal_handles() const {
+  const std::lock_guard lock(mutex_);
+  return static_cast<int>(goals_.size());
+}
+
 void ServerBase::execute(const std::shared_ptr<void>& data) {
   if (data) {
     (*std::static_pointer_cast<Work>(data))();

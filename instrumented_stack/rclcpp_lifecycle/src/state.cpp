@@ -22,6 +22,20 @@ State::State(const rcl_lifecycle_state_t* rcl_lifecycle_state) {
   label_ = rcl_lifecycle_state->label;
 }
 
+const State& State::checked() const {
+  if (!has_state_) {
+    throw std::runtime_error("Error in state! Internal state_handle is NULL.");
+  }
+  return *this;
+}
+
+const Transition& Transition::checked() const {
+  if (!has_transition_) {
+    throw std::runtime_error("Error in transition! Internal transition handle is NULL.");
+  }
+  return *this;
+}
+
 Transition::Transition(uint8_t id, const std::string& label) : id_(id), label_(label) {}
 
 Transition::Transition(uint8_t id, const std::string& label, State&& start, State&& goal)

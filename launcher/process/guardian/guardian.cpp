@@ -23,7 +23,6 @@
 #include <cstring>
 #include <fstream>
 #include <optional>
-#include <sstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -301,29 +300,6 @@ void Guardian::remove_clean_up(std::int32_t number) {
 
 std::string Guardian::default_program() {
   return own_library_file("launch-guardian");
-}
-
-std::vector<std::string> left_behind(const std::string& screen) {
-  std::vector<std::string> messages;
-  std::istringstream lines(screen);
-  for (std::string line; std::getline(lines, line);) {
-    for (const std::string_view begin : {"[WARNING] [launch]: ", "[ERROR] [launch]: "}) {
-      if (!line.starts_with(begin)) {
-        continue;
-      }
-      line.erase(0, begin.size());
-      for (const std::string_view end : {"; ending it", "; ending them"}) {
-        if (line.ends_with(end) && line.find(" running: ") != std::string::npos) {
-          messages.push_back(line.substr(0, line.size() - end.size()));
-        }
-      }
-      if (line.starts_with("cannot end ")) {
-        messages.push_back(line);
-      }
-      break;
-    }
-  }
-  return messages;
 }
 
 }  // namespace launch

@@ -88,8 +88,4 @@ class Guardian {
   std::int32_t clean_ups_ = 0;  // numbers given so far
 };
 
-// What launch-guardian has had to end after a launch, as its messages say (gentle_end.cpp).
-// Each message, such as "planner-3 left 1 process running: sleep (1234)". `screen` is all that the launch wrote there.
-std::vector<std::string> left_behind(const std::string& screen);
-
 }  // namespace launch

@@ -124,6 +124,11 @@ class Runs(unittest.TestCase):
         with self.assertRaisesRegex(RuntimeError, 'the run is closed'):
             run.wait()
 
+    def test_a_program_that_leaves_a_process(self):
+        result = LaunchRun(programs=[['/bin/sh', '-c', 'setsid sleep 600 & exit 0']], events=[]).wait()
+        self.assertEqual(len(result.left), 1, result.out + result.err)
+        self.assertRegex(result.left[0], r'^sh-1 left 1 process running: sleep \([0-9]+\)$')
+
     def test_a_program_that_is_ended(self):
         run = LaunchRun(programs=[['sleep', '600']], events=[])
         self.assertTrue(run.wait_for_output('process started with pid'))

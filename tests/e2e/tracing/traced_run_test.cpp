@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The fixture for traced systems, with the real launcher, tracer and nodes.
+#include <gtest/gtest-spi.h>
+
 #include <fstream>
 
 #include "launch_trace_testing/traced_test.hpp"
@@ -11,7 +13,10 @@ namespace {
 namespace fs = std::filesystem;
 using namespace launch_trace_testing;
 using namespace std::chrono_literals;
+using testing::AllOf;
+using testing::AnyOf;
 using testing::HasSubstr;
+using testing::Not;
 
 const fs::path kPingPong = EXAMPLES_DIRECTORY "/01_ping_pong.launch.xml";
 
@@ -92,6 +97,56 @@ TEST_F(TracedRun, ReadsTheTraceOfTheLaunchFileItself) {
   asked.events = {};
   start(std::move(asked));
   EXPECT_THAT(finish(), HasEvents(event("ros2:rcl_init"), exactly(2)));
+}
+
+// What a test says of a system whose process does this.
+std::string failures_of(const std::string& script) {
+  struct Ended : launch_trace_testing::TracedTest {
+    void TestBody() override {}
+    void run_script(const std::string& text) {
+      RunOptions asked = programs({{"/bin/sh", "-c", text}});
+      asked.events = {};
+      start(std::move(asked));
+      finish();
+      end_of_test();
+    }
+    void end_of_test() { TearDown(); }
+  };
+  testing::TestPartResultArray results;
+  {
+    const testing::ScopedFakeTestPartResultReporter reporter(
+        testing::ScopedFakeTestPartResultReporter::INTERCEPT_ONLY_CURRENT_THREAD, &results);
+    Ended().run_script(script);
+  }
+  std::string text;
+  for (int i = 0; i < results.size(); ++i) {
+    text += results.GetTestPartResult(i).message();
+  }
+  return text;
+}
+
+TEST(LaunchRunEnd, FailsTheTestIfAProcessHasCrashedOrWasLeft) {
+  const test_support::Sandbox sandbox;
+  // Each run has no trace, which is a failure, too.
+  EXPECT_THAT(failures_of("true"), Not(AnyOf(HasSubstr("the launcher ended"), HasSubstr("were left"))));
+  EXPECT_THAT(failures_of("kill -SEGV $$"), HasSubstr("the launcher ended with 3"));
+  EXPECT_THAT(failures_of("setsid sleep 600 & exit 0"),
+              AllOf(HasSubstr("processes were left running, and have been ended"), HasSubstr("sleep (")));
+}
+
+TEST(LaunchRunEnd, ACrashDuringTheShutdownIsInTheExitCode) {
+  const test_support::Sandbox sandbox;
+  RunOptions asked = programs({{"/usr/bin/python3", "-c",
+                                "import os, signal\n"
+                                "signal.signal(signal.SIGINT, lambda *_: os.kill(os.getpid(), signal.SIGSEGV))\n"
+                                "print('ready', flush=True)\n"
+                                "signal.pause()"}});
+  asked.events = {};
+  LaunchRun run(asked);
+  ASSERT_TRUE(run.wait_for_output("ready"));
+  const RunResult result = run.stop();
+  EXPECT_EQ(result.exit_code, 3) << result.out << result.err;
+  EXPECT_TRUE(result.left.empty());
 }
 
 TEST(LaunchRunEnd, IsEndedWhenPatienceIsOver) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <gmock/gmock.h>
+#include "base/processes/left_behind.hpp"
 
-#include "launcher/process/guardian/guardian.hpp"
+#include <gmock/gmock.h>
 
 namespace {
 

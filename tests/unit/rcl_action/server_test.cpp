@@ -125,6 +125,41 @@ TEST_F(ActionServer, ForgetsGoalsThatHaveEndedSomeTimeAgo) {
   EXPECT_FALSE(rcl_action_goal_handle_is_active(goal.get()));  // the copy is still there
 }
 
+TEST_F(ActionServer, SetsTheTimerOfItsCaller) {
+  rcl_timer_t timer = rcl_get_zero_initialized_timer();
+  ASSERT_EQ(
+      rcl_timer_init2(&timer, &clock_, &context_.handle, 100 * kSecond, nullptr, rcl_get_default_allocator(), false),
+      RCL_RET_OK);
+  rcl_action_server_t server = rcl_action_get_zero_initialized_server();
+  rcl_action_server_options_t options = rcl_action_server_get_default_options();
+  options.result_timeout.nanoseconds = kSecond;
+  const auto* type = ROSIDL_GET_ACTION_TYPE_SUPPORT(example_interfaces, Fibonacci);
+  EXPECT_EQ(rcl_action_server_init2(&server, &node_.handle, nullptr, type, "other", &options),
+            RCL_RET_INVALID_ARGUMENT);
+  (void)take_error();
+  ASSERT_EQ(rcl_action_server_init2(&server, &node_.handle, &timer, type, "other", &options), RCL_RET_OK)
+      << take_error();
+  size_t timers = 99;
+  size_t others = 0;
+  EXPECT_EQ(rcl_action_server_wait_set_get_num_entities(&server, &others, &others, &timers, &others, &others),
+            RCL_RET_OK);
+  EXPECT_EQ(timers, 0u);
+  rcl_action_goal_info_t info = rcl_action_get_zero_initialized_goal_info();
+  info.goal_id.uuid[0] = 1;
+  rcl_action_goal_handle_t* goal = rcl_action_accept_new_goal(&server, &info);
+  ASSERT_NE(goal, nullptr);
+  ASSERT_EQ(rcl_action_update_goal_state(goal, GOAL_EVENT_EXECUTE), RCL_RET_OK);
+  ASSERT_EQ(rcl_action_update_goal_state(goal, GOAL_EVENT_SUCCEED), RCL_RET_OK);
+  ASSERT_EQ(rcl_action_notify_goal_done(&server), RCL_RET_OK);
+  int64_t period = 0;
+  EXPECT_EQ(rcl_timer_get_period(&timer, &period), RCL_RET_OK);
+  EXPECT_EQ(period, kSecond);
+  rcl_action_goal_handle_t copy = *goal;
+  EXPECT_EQ(rcl_action_goal_handle_fini(&copy), RCL_RET_OK);
+  EXPECT_EQ(rcl_action_server_fini(&server, &node_.handle), RCL_RET_OK);
+  EXPECT_EQ(rcl_timer_fini(&timer), RCL_RET_OK);
+}
+
 TEST_F(ActionServer, HasItsServicesFromAnIndexInAWaitSet) {
   rcl_action_client_t client = rcl_action_get_zero_initialized_client();
   const rcl_action_client_options_t options = rcl_action_client_get_default_options();

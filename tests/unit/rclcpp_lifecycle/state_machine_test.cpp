@@ -192,6 +192,16 @@ TEST(LifecycleValues, StatesAndTransitionsAreValues) {
   EXPECT_EQ(transition.start_state().label(), "inactive");
   EXPECT_EQ(transition.goal_state().id(), 13);
   EXPECT_THROW(rclcpp_lifecycle::Transition(nullptr), std::invalid_argument);
+
+  struct Taken : rclcpp_lifecycle::Transition {
+    Taken() : Transition(3, "activate") { reset(); }
+  };
+  EXPECT_THROW(Taken().id(), std::runtime_error);
+  struct TakenState : rclcpp_lifecycle::State {
+    TakenState() : State(3, "active") { reset(); }
+  };
+  EXPECT_THROW(TakenState().label(), std::runtime_error);
+  EXPECT_THROW(rclcpp_lifecycle::State(TakenState()).id(), std::runtime_error);
 }
 
 }  // namespace

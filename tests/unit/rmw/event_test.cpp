@@ -203,10 +203,38 @@ TEST_F(EventTest, CallbacksAreToldOfWhatWaitsAndOfWhatComes) {
   ASSERT_EQ(rmw_publisher_wait_for_all_acked(publisher.handle, rmw_test::kPatience), RMW_RET_OK);
   EXPECT_EQ(told, 4u);
 
+  // A later callback hears of what no other was told of, and of all that waits if that was handed back.
+  std::atomic<size_t> later{0};
+  ASSERT_EQ(rmw_subscription_set_on_new_message_callback(subscription.handle, count, &later), RMW_RET_OK);
+  EXPECT_EQ(later, 1u);
+  EXPECT_TRUE(subscription.take(message));
+  ASSERT_EQ(rmw_subscription_set_on_new_message_callback(subscription.handle, nullptr, nullptr), RMW_RET_OK);
+  EXPECT_TRUE(subscription.take(message));
+  publisher.publish(String());
+  ASSERT_EQ(rmw_publisher_wait_for_all_acked(publisher.handle, rmw_test::kPatience), RMW_RET_OK);
+  ASSERT_EQ(rmw_subscription_set_on_new_message_callback(subscription.handle, count, &later), RMW_RET_OK);
+  EXPECT_EQ(later, 2u);
+  ASSERT_EQ(rmw_subscription_set_on_new_message_callback(subscription.handle, nullptr, rmw_event_callback_hands_back),
+            RMW_RET_OK);
+  ASSERT_EQ(rmw_subscription_set_on_new_message_callback(subscription.handle, count, &later), RMW_RET_OK);
+  EXPECT_EQ(later, 5u);  // three wait
+  EXPECT_EQ(told, 4u);
+
   rmw_event_t event = matched;
   std::atomic<size_t> matches{0};
   ASSERT_EQ(rmw_event_set_callback(&event, count, &matches), RMW_RET_OK);
   EXPECT_EQ(matches, 1u);  // nobody has taken the event
+  ASSERT_EQ(rmw_event_set_callback(&event, count, &matches), RMW_RET_OK);
+  EXPECT_EQ(matches, 1u);
+  ASSERT_EQ(rmw_event_set_callback(&event, nullptr, nullptr), RMW_RET_OK);
+  take<rmw_matched_status_t>(event);
+  Subscription<String> second(node_, "/chatter");
+  ASSERT_EQ(wait(event), RMW_RET_OK);
+  ASSERT_EQ(rmw_event_set_callback(&event, count, &matches), RMW_RET_OK);
+  EXPECT_EQ(matches, 2u);
+  ASSERT_EQ(rmw_event_set_callback(&event, nullptr, rmw_event_callback_hands_back), RMW_RET_OK);
+  ASSERT_EQ(rmw_event_set_callback(&event, count, &matches), RMW_RET_OK);
+  EXPECT_EQ(matches, 3u);
   ASSERT_EQ(rmw_event_fini(&event), RMW_RET_OK);
 }
 

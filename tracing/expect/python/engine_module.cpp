@@ -201,6 +201,7 @@ void add_runs(py::module_& module) {
       .def_readonly("exit_code", &RunResult::exit_code)
       .def_readonly("signal", &RunResult::signal)
       .def_readonly("timed_out", &RunResult::timed_out)
+      .def_readonly("left", &RunResult::left)
       .def_readonly("out", &RunResult::out)
       .def_readonly("err", &RunResult::err);
   py::class_<Run>(module, "LaunchRun", "A system that runs, with a session, a ROS domain and a directory of its own.")

@@ -76,6 +76,13 @@ rcl_ret_t rcl_get_clients_info_by_service(const rcl_node_t* node, rcl_allocator_
 rcl_ret_t rcl_get_servers_info_by_service(const rcl_node_t* node, rcl_allocator_t* allocator, const char* service_name,
                                           bool no_mangle, rcl_service_endpoint_info_array_t* servers_info);
 
+// Wait until as many publishers or subscriptions of the full topic name are known, for at most `timeout` nanoseconds
+// (negative: without limit). `success` tells whether they are. Return RCL_RET_TIMEOUT if they are not.
+rcl_ret_t rcl_wait_for_publishers(const rcl_node_t* node, rcl_allocator_t* allocator, const char* topic_name,
+                                  size_t expected_count, rcutils_duration_value_t timeout, bool* success);
+rcl_ret_t rcl_wait_for_subscribers(const rcl_node_t* node, rcl_allocator_t* allocator, const char* topic_name,
+                                   size_t expected_count, rcutils_duration_value_t timeout, bool* success);
+
 // Whether a service would answer a request of the client. Changes trigger the graph guard condition.
 rcl_ret_t rcl_service_server_is_available(const rcl_node_t* node, const rcl_client_t* client, bool* is_available);
 

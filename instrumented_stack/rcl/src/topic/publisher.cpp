@@ -4,6 +4,7 @@
 #include <string>
 
 #include "node/node_entity.hpp"
+#include "rcl/network_flow_endpoints.h"
 #include "rmw/type_description.h"
 #include "tracetools/tracetools.h"
 
@@ -162,4 +163,11 @@ rcl_ret_t rcl_publisher_get_subscription_count(const rcl_publisher_t* publisher,
 
 bool rcl_publisher_can_loan_messages(const rcl_publisher_t* publisher) {
   return rcl_publisher_is_valid_except_context(publisher) && publisher->impl->rmw_handle->can_loan_messages;
+}
+
+rcl_ret_t rcl_publisher_get_network_flow_endpoints(const rcl_publisher_t* publisher, rcutils_allocator_t* allocator,
+                                                   rcl_network_flow_endpoint_array_t* network_flow_endpoint_array) {
+  return rcl_publisher_is_valid(publisher) ? rmw_publisher_get_network_flow_endpoints(
+                                                 publisher->impl->rmw_handle, allocator, network_flow_endpoint_array)
+                                           : RCL_RET_PUBLISHER_INVALID;
 }

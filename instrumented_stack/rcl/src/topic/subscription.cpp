@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "node/node_entity.hpp"
+#include "rcl/network_flow_endpoints.h"
 #include "rmw/type_description.h"
 #include "tracetools/tracetools.h"
 
@@ -166,4 +167,13 @@ rcl_ret_t rcl_subscription_set_on_new_message_callback(const rcl_subscription_t*
     return RCL_RET_SUBSCRIPTION_INVALID;
   }
   return rmw_subscription_set_on_new_message_callback(subscription->impl->rmw_handle, callback, user_data);
+}
+
+rcl_ret_t rcl_subscription_get_network_flow_endpoints(const rcl_subscription_t* subscription,
+                                                      rcutils_allocator_t* allocator,
+                                                      rcl_network_flow_endpoint_array_t* network_flow_endpoint_array) {
+  return rcl_subscription_is_valid(subscription)
+             ? rmw_subscription_get_network_flow_endpoints(subscription->impl->rmw_handle, allocator,
+                                                           network_flow_endpoint_array)
+             : RCL_RET_SUBSCRIPTION_INVALID;
 }

@@ -47,6 +47,11 @@ rcl_action_server_options_t rcl_action_server_get_default_options(void);
 rcl_ret_t rcl_action_server_init(rcl_action_server_t* action_server, rcl_node_t* node, rcl_clock_t* clock,
                                  const rosidl_action_type_support_t* type_support, const char* action_name,
                                  const rcl_action_server_options_t* options);
+// The same with a timer of the caller instead of one of its own. The server sets its period for each result that
+// expires; the caller waits for it and then calls rcl_action_expire_goals(). The timer must outlive the server.
+rcl_ret_t rcl_action_server_init2(rcl_action_server_t* action_server, rcl_node_t* node, rcl_timer_t* expire_timer,
+                                  const rosidl_action_type_support_t* type_support, const char* action_name,
+                                  const rcl_action_server_options_t* options);
 rcl_ret_t rcl_action_server_fini(rcl_action_server_t* action_server, rcl_node_t* node);
 
 // Requests and responses of the three services. Return RCL_RET_ACTION_SERVER_TAKE_FAILED if there is no request.

@@ -6,7 +6,6 @@
 
 #include "rclcpp/callback_group.hpp"
 #include "rclcpp/client_base.hpp"
-#include "rclcpp/macros.hpp"
 #include "rclcpp/node_interfaces/node_base_interface.hpp"
 #include "rclcpp/service_base.hpp"
 #include "rclcpp/subscription_base.hpp"
@@ -19,7 +18,10 @@ namespace rclcpp {
 struct AnyExecutable {
   AnyExecutable() = default;
   ~AnyExecutable() { release_group(); }
-  RCLCPP_DISABLE_COPY(AnyExecutable)
+  AnyExecutable(const AnyExecutable&) = delete;
+  AnyExecutable& operator=(const AnyExecutable&) = delete;
+  AnyExecutable(AnyExecutable&&) = default;
+  AnyExecutable& operator=(AnyExecutable&&) = delete;
 
   void release_group() {
     if (callback_group) {

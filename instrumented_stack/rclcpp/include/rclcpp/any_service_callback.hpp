@@ -13,6 +13,7 @@
 
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 
@@ -22,6 +23,16 @@ namespace rclcpp {
 
 template <typename ServiceT>
 class Service;
+
+namespace detail {
+
+// Whether a callback of this type can be null: functions and pointers to functions.
+template <typename CallbackT>
+struct CanBeNull : std::is_pointer<CallbackT> {};
+template <typename SignatureT>
+struct CanBeNull<std::function<SignatureT>> : std::true_type {};
+
+}  // namespace detail
 
 // The part that does not depend on the service type. The address of this object is the `callback` of the trace events,
 // so it must not move after trace_registration().
@@ -44,8 +55,20 @@ class AnyServiceCallback : public AnyServiceCallbackBase {
   using Response = typename ServiceT::Response;
   using Header = std::shared_ptr<rmw_request_id_t>;
 
+  AnyServiceCallback() = default;
   template <typename CallbackT>
   explicit AnyServiceCallback(CallbackT callback) {
+    set(std::move(callback));
+  }
+
+  // Throws std::invalid_argument for a null function or pointer.
+  template <typename CallbackT>
+  void set(CallbackT callback) {
+    if constexpr (detail::CanBeNull<CallbackT>::value) {
+      if (callback == nullptr) {
+        throw std::invalid_argument("AnyServiceCallback::set(): callback cannot be nullptr");
+      }
+    }
     symbol_ = detail::CallbackSymbol::of(callback);
     using RequestPtr = std::shared_ptr<Request>;
     using ResponsePtr = std::shared_ptr<Response>;
@@ -78,9 +101,12 @@ class AnyServiceCallback : public AnyServiceCallbackBase {
     }
   }
 
-  // Runs the callback. Returns null if the callback defers the response.
+  // Runs the callback. Returns null if the callback defers the response. Throws std::runtime_error if none is set.
   std::shared_ptr<Response> dispatch(const std::shared_ptr<Service<ServiceT>>& service, const Header& header,
                                      std::shared_ptr<Request> request) {
+    if (!answer_) {
+      throw std::runtime_error("unexpected request without any callback set");
+    }
     trace_start();
     std::shared_ptr<Response> response = answer_(service, header, std::move(request));
     trace_end();

@@ -2,23 +2,32 @@
 // Sends requests of one type to one service. Created by Node::create_client().
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <future>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <rosidl_typesupport_cpp/service_type_support.hpp>
 #include <string>
 #include <type_traits>
+#include <unordered_map>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "rclcpp/client_base.hpp"
+#include "rclcpp/clock.hpp"
 #include "rclcpp/detail/pending_requests.hpp"
+#include "rclcpp/exceptions.hpp"
+#include "rclcpp/expand_topic_or_service_name.hpp"
+#include "rclcpp/function_traits.hpp"
 #include "rclcpp/logging.hpp"
+#include "rclcpp/time.hpp"
+#include "rclcpp/utilities.hpp"
 
 namespace rclcpp {
 
@@ -129,12 +138,17 @@ class Client : public ClientBase {
     return pending_.prune_older_than(time_point, pruned_requests);
   }
 
- protected:
+  // Takes the next response without passing it on. Returns false if there is none.
+  bool take_response(Response& response_out, rmw_request_id_t& request_header_out) {
+    return take_type_erased_response(&response_out, request_header_out);
+  }
+
+  // Executors call these.
   std::shared_ptr<void> create_response() override { return std::make_shared<Response>(); }
 
-  void handle_response(const rmw_request_id_t& request_header, std::shared_ptr<void> response) override {
+  void handle_response(std::shared_ptr<rmw_request_id_t> request_header, std::shared_ptr<void> response) override {
     const SharedResponse typed = std::static_pointer_cast<Response>(std::move(response));
-    std::optional<Answer> answer = pending_.take(request_header.sequence_number);
+    std::optional<Answer> answer = pending_.take(request_header->sequence_number);
     if (!answer) {
       RCLCPP_DEBUG(get_logger("rclcpp"), "dropped a response of service '%s' to a request that is not pending",
                    get_service_name());

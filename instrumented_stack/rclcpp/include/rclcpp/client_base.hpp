@@ -18,6 +18,7 @@
 #include "rclcpp/detail/on_ready_callback.hpp"
 #include "rclcpp/macros.hpp"
 #include "rclcpp/node_interfaces/node_base_interface.hpp"
+#include "rclcpp/node_interfaces/node_graph_interface.hpp"
 #include "rclcpp/qos.hpp"
 
 namespace rclcpp {
@@ -75,21 +76,29 @@ class ClientBase {
   // The group that serves this client, set by the group.
   void set_callback_group(CallbackGroup::WeakPtr group) { callback_group_ = std::move(group); }
 
- protected:
+  // Executors make these of each client: a message to take a response into, its header, and the call that passes the
+  // response on.
   virtual std::shared_ptr<void> create_response() = 0;
-  virtual void handle_response(const rmw_request_id_t& request_header, std::shared_ptr<void> response) = 0;
+  virtual std::shared_ptr<rmw_request_id_t> create_request_header() { return std::make_shared<rmw_request_id_t>(); }
+  virtual void handle_response(std::shared_ptr<rmw_request_id_t> request_header, std::shared_ptr<void> response) = 0;
+
+ protected:
+  // For a derived class that creates the client in `client_handle_` itself.
+  ClientBase(node_interfaces::NodeBaseInterface* node_base,
+             std::shared_ptr<node_interfaces::NodeGraphInterface> node_graph);
 
   // Returns the sequence number of the request. Throws exceptions::RCLError.
   int64_t send_type_erased_request(const void* request);
+
+  std::shared_ptr<rcl_node_t> node_handle_;
+  std::shared_ptr<Context> context_;
+  std::shared_ptr<rcl_client_t> client_handle_;
 
  private:
   friend class Executor;
 
   bool wait_for_service_nanoseconds(std::chrono::nanoseconds timeout);
 
-  std::shared_ptr<rcl_node_t> node_handle_;
-  std::shared_ptr<Context> context_;
-  std::shared_ptr<rcl_client_t> client_handle_;
   CallbackGroup::WeakPtr callback_group_;
   detail::OnReadyCallback on_ready_;
   std::atomic_bool in_use_by_wait_set_{false};

@@ -85,4 +85,46 @@ class Clock {
   std::shared_ptr<Impl> impl_;
 };
 
+// Like a condition variable whose times are those of a clock. While a simulation drives the clock, its time counts.
+class ClockWaiter {
+ public:
+  RCLCPP_SMART_PTR_DEFINITIONS(ClockWaiter)
+
+  explicit ClockWaiter(const Clock::SharedPtr& clock);
+  ~ClockWaiter();
+
+  // Waits with `lock`'s mutex released until `pred` is true or the time is reached; also returns if a simulation begins
+  // or ceases to drive the clock. Returns what `pred` returns then.
+  bool wait_until(std::unique_lock<std::mutex>& lock, const Time& abs_time, const std::function<bool()>& pred);
+  void notify_one();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// The same with a mutex of its own; the end of the context ends the wait, too.
+class ClockConditionalVariable {
+ public:
+  RCLCPP_SMART_PTR_DEFINITIONS(ClockConditionalVariable)
+
+  // Throws std::runtime_error without a valid context.
+  explicit ClockConditionalVariable(const Clock::SharedPtr& clock,
+                                    Context::SharedPtr context = contexts::get_global_default_context());
+  ~ClockConditionalVariable();
+
+  // As in rclcpp, it always returns true; ask your predicate. Throws std::runtime_error if `lock` is not one of
+  // mutex().
+  bool wait_until(std::unique_lock<std::mutex>& lock, Time until, const std::function<bool()>& pred);
+  void notify_one();
+  std::mutex& mutex() { return mutex_; }
+
+ private:
+  std::mutex mutex_;
+  bool shut_down_ = false;
+  Context::SharedPtr context_;
+  ClockWaiter waiter_;
+  OnShutdownCallbackHandle shutdown_handle_;
+};
+
 }  // namespace rclcpp

@@ -73,6 +73,10 @@ class Context : public std::enable_shared_from_this<Context> {
   PreShutdownCallbackHandle add_pre_shutdown_callback(PreShutdownCallback callback);
   bool remove_pre_shutdown_callback(const PreShutdownCallbackHandle& handle);
 
+  // Copies of the callbacks that are registered.
+  std::vector<OnShutdownCallback> get_on_shutdown_callbacks() const;
+  std::vector<PreShutdownCallback> get_pre_shutdown_callbacks() const;
+
   // Returns true after the whole time, false if the context ended first.
   bool sleep_for(const std::chrono::nanoseconds& nanoseconds);
   // Ends every sleep_for() of this context.
@@ -97,6 +101,7 @@ class Context : public std::enable_shared_from_this<Context> {
   ShutdownCallbackHandle add(Callbacks& callbacks, std::function<void()> callback);
   bool remove(Callbacks& callbacks, const ShutdownCallbackHandle& handle);
   void run(const Callbacks& callbacks);
+  std::vector<std::function<void()>> copy_of(const Callbacks& callbacks) const;
 
   mutable std::recursive_mutex init_mutex_;  // recursive: shutdown callbacks may call back
   std::atomic<bool> valid_{false};           // not under the mutex, so that ok() never waits for a running shutdown
@@ -105,7 +110,7 @@ class Context : public std::enable_shared_from_this<Context> {
   InitOptions init_options_;
   std::string shutdown_reason_;
 
-  std::mutex callbacks_mutex_;
+  mutable std::mutex callbacks_mutex_;
   Callbacks pre_shutdown_callbacks_;
   Callbacks on_shutdown_callbacks_;
 

@@ -42,6 +42,9 @@ class Event {
     return seen_.exchange(number) != number || was_set;
   }
 
+  // Whether the graph sets it: it comes from get_graph_event().
+  bool watches_graph() const { return count_ != nullptr; }
+
  private:
   bool changed() const { return count_ && count_() != seen_; }
 

@@ -2,12 +2,15 @@
 // Waits for the entities of nodes and runs their callbacks. Concrete executors are in executors/.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <future>
+#include <list>
 #include <memory>
 #include <vector>
 
@@ -19,6 +22,7 @@
 #include "rclcpp/future_return_code.hpp"
 #include "rclcpp/macros.hpp"
 #include "rclcpp/node_interfaces/node_base_interface.hpp"
+#include "rclcpp/utilities.hpp"
 
 namespace rclcpp {
 
@@ -69,9 +73,17 @@ class Executor {
   // The node is added for the duration of the call.
   void spin_node_some(const NodePtr& node);
   void spin_node_some(const std::shared_ptr<Node>& node);
-  void spin_node_once(const NodePtr& node, std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1));
-  void spin_node_once(const std::shared_ptr<Node>& node,
-                      std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1));
+  template <typename RepT = int64_t, typename RatioT = std::milli>
+  void spin_node_once(const NodePtr& node,
+                      std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) {
+    spin_node_once_nanoseconds(node, std::chrono::duration_cast<std::chrono::nanoseconds>(timeout));
+  }
+  template <typename NodeT = Node, typename RepT = int64_t, typename RatioT = std::milli>
+  void spin_node_once(const std::shared_ptr<NodeT>& node,
+                      std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) {
+    spin_node_once_nanoseconds(node->get_node_base_interface(),
+                               std::chrono::duration_cast<std::chrono::nanoseconds>(timeout));
+  }
   void spin_node_all(const NodePtr& node, std::chrono::nanoseconds max_duration);
   void spin_node_all(const std::shared_ptr<Node>& node, std::chrono::nanoseconds max_duration);
 
@@ -90,6 +102,7 @@ class Executor {
  protected:
   class SpinningScope;
 
+  void spin_node_once_nanoseconds(const NodePtr& node, std::chrono::nanoseconds timeout);
   // Called by spin_once(), spin_some() and spin_all() when the executor is marked as spinning.
   virtual void spin_once_impl(std::chrono::nanoseconds timeout);
   virtual void spin_some_impl(std::chrono::nanoseconds max_duration, bool exhaustive);

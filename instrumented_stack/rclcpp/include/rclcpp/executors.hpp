@@ -3,13 +3,17 @@
 #pragma once
 
 #include <chrono>
+#include <future>
 #include <memory>
 
 #include "rclcpp/executors/events_cbg_executor/events_cbg_executor.hpp"
 #include "rclcpp/executors/multi_threaded_executor.hpp"
 #include "rclcpp/executors/single_threaded_executor.hpp"
 #include "rclcpp/executors/static_single_threaded_executor.hpp"
+#include "rclcpp/experimental/executors/events_executor/events_executor.hpp"
 #include "rclcpp/node.hpp"
+#include "rclcpp/utilities.hpp"
+#include "rclcpp/wait_set.hpp"
 
 namespace rclcpp {
 
@@ -39,6 +43,14 @@ FutureReturnCode spin_node_until_future_complete(
   return executor.spin_until_future_complete(future, timeout);
 }
 
+// `node` points to a Node or a similar class.
+template <typename NodeT = Node, typename FutureT, typename RepT = int64_t, typename RatioT = std::milli>
+FutureReturnCode spin_node_until_future_complete(
+    Executor& executor, std::shared_ptr<NodeT> node, const FutureT& future,
+    std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) {
+  return spin_node_until_future_complete(executor, node->get_node_base_interface(), future, timeout);
+}
+
 }  // namespace executors
 
 // Runs the node's callbacks until the future has its value; a negative timeout waits for ever.
@@ -52,9 +64,9 @@ FutureReturnCode spin_until_future_complete(
   return executors::spin_node_until_future_complete(executor, std::move(node), future, timeout);
 }
 
-template <typename FutureT, typename RepT = int64_t, typename RatioT = std::milli>
+template <typename NodeT = Node, typename FutureT, typename RepT = int64_t, typename RatioT = std::milli>
 FutureReturnCode spin_until_future_complete(
-    Node::SharedPtr node, const FutureT& future,
+    std::shared_ptr<NodeT> node, const FutureT& future,
     std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) {
   return rclcpp::spin_until_future_complete(node->get_node_base_interface(), future, timeout);
 }

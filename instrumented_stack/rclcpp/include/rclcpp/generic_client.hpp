@@ -43,8 +43,8 @@ class GenericClient : public ClientBase {
     using detail::FutureAndRequestId<SharedFuture>::FutureAndRequestId;
   };
 
-  // `service_type` looks like "std_srvs/srv/SetBool". Throws std::runtime_error if the type cannot be found, and what
-  // the constructor of ClientBase throws.
+  // `service_type` looks like "std_srvs/srv/SetBool". Throws exceptions::InvalidServiceTypeError if the type cannot be
+  // found, and what the constructor of ClientBase throws.
   GenericClient(node_interfaces::NodeBaseInterface* node_base, const std::string& service_name,
                 const std::string& service_type, const QoS& qos = ServicesQoS());
 
@@ -72,8 +72,13 @@ class GenericClient : public ClientBase {
     return pending_.prune_older_than(time_point, pruned_requests);
   }
 
- protected:
-  void handle_response(const rmw_request_id_t& request_header, std::shared_ptr<void> response) override;
+  // Takes the next response without passing it on. Returns false if there is none.
+  bool take_response(Response response_out, rmw_request_id_t& request_header_out) {
+    return take_type_erased_response(response_out, request_header_out);
+  }
+
+  // Executors call it.
+  void handle_response(std::shared_ptr<rmw_request_id_t> request_header, std::shared_ptr<void> response) override;
 
  private:
   struct WithCallback {

@@ -5,9 +5,15 @@
 #include <memory>
 #include <string>
 
+#include "rclcpp/callback_group.hpp"
+#include "rclcpp/logging.hpp"
+#include "rclcpp/node_interfaces/node_topics_interface.hpp"
 #include "rclcpp/publisher_base.hpp"
+#include "rclcpp/publisher_factory.hpp"
 #include "rclcpp/publisher_options.hpp"
+#include "rclcpp/serialization.hpp"
 #include "rclcpp/serialized_message.hpp"
+#include "rclcpp/subscription_options.hpp"
 #include "rclcpp/typesupport_helpers.hpp"
 
 namespace rclcpp {

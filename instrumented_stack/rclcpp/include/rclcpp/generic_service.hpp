@@ -78,8 +78,8 @@ class GenericService : public ServiceBase, public std::enable_shared_from_this<G
   using SharedResponse = std::shared_ptr<void>;
   RCLCPP_SMART_PTR_DEFINITIONS(GenericService)
 
-  // `service_type` looks like "std_srvs/srv/SetBool". Throws std::runtime_error if the type cannot be found, and what
-  // the constructor of ServiceBase throws.
+  // `service_type` looks like "std_srvs/srv/SetBool". Throws exceptions::InvalidServiceTypeError if the type cannot be
+  // found, and what the constructor of ServiceBase throws.
   GenericService(node_interfaces::NodeBaseInterface* node_base, const std::string& service_name,
                  const std::string& service_type, GenericServiceCallback any_callback, const QoS& qos = ServicesQoS());
 
@@ -98,7 +98,7 @@ class GenericService : public ServiceBase, public std::enable_shared_from_this<G
   // The type support of the two messages, for a SerializationBase.
   const rosidl_service_type_support_t& get_service_type_support_handle() const { return *type_support_; }
 
- protected:
+  // Executors call it.
   void handle_request(std::shared_ptr<rmw_request_id_t> request_header, std::shared_ptr<void> request) override;
 
  private:

@@ -28,8 +28,9 @@ namespace rclcpp {
 template <typename MessageT, typename AllocatorT = std::allocator<void>>
 class LoanedMessage {
  public:
-  // Throws exceptions::RCLError.
-  explicit LoanedMessage(PublisherBase& publisher, const AllocatorT& allocator = AllocatorT())
+  // The allocator of messages is made from `allocator`. Throws exceptions::RCLError.
+  template <typename OtherT = AllocatorT>
+  explicit LoanedMessage(PublisherBase& publisher, const OtherT& allocator = OtherT())
       : publisher_handle_(publisher.get_publisher_handle()) {
     void* const memory =
         publisher.can_loan_messages()
@@ -38,7 +39,7 @@ class LoanedMessage {
     if (memory) {
       loan_ = new (memory) MessageT(rosidl_runtime_cpp::MessageInitialization::SKIP);
     } else {
-      own_ = allocator::make_unique<MessageT>(allocator);
+      own_ = allocator::make_unique<MessageT>(AllocatorT(allocator));
     }
   }
 

@@ -56,10 +56,10 @@ struct LogThrottle {
 // The two forms of a line. `before` is done if the line is written, before its arguments are evaluated.
 #define RCLCPP_LOG_(severity, logger, condition, before, ...)                                                   \
   do {                                                                                                          \
-    static_assert(std::is_same_v<std::decay_t<decltype(logger)>, ::rclcpp::Logger>,                             \
+    static_assert(std::is_convertible_v<decltype(logger), ::rclcpp::Logger>,                                    \
                   "First argument to logging macros must be an rclcpp::Logger");                                \
     static const rcutils_log_location_t rclcpp_log_location_ = {__func__, __FILE__, __LINE__};                  \
-    const auto& rclcpp_log_logger_ = logger;                                                                    \
+    const ::rclcpp::Logger& rclcpp_log_logger_ = logger;                                                        \
     if (rcutils_logging_logger_is_enabled_for(rclcpp_log_logger_.get_name(), severity) && (condition)) {        \
       before rcutils_log_internal(&rclcpp_log_location_, severity, rclcpp_log_logger_.get_name(), __VA_ARGS__); \
     }                                                                                                           \

@@ -23,8 +23,8 @@ namespace rclcpp::memory_strategy {
 class MemoryStrategy {
  public:
   RCLCPP_SMART_PTR_ALIASES_ONLY(MemoryStrategy)
-  using WeakCallbackGroupsToNodesMap =
-      std::map<CallbackGroup::WeakPtr, node_interfaces::NodeBaseInterface::WeakPtr, std::owner_less<>>;
+  using WeakCallbackGroupsToNodesMap = std::map<CallbackGroup::WeakPtr, node_interfaces::NodeBaseInterface::WeakPtr,
+                                                std::owner_less<CallbackGroup::WeakPtr>>;
 
   MemoryStrategy() = default;
   virtual ~MemoryStrategy() = default;

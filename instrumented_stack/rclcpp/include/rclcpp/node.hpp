@@ -4,12 +4,25 @@
 // functions.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
+#include <thread>
+#include <unordered_set>
 
 #include "rclcpp/detail/any_node.hpp"
+#include "rclcpp/expand_topic_or_service_name.hpp"
+#include "rclcpp/function_traits.hpp"
+#include "rclcpp/get_message_type_support_handle.hpp"
+#include "rclcpp/is_ros_compatible_type.hpp"
+#include "rclcpp/logging.hpp"
 #include "rclcpp/macros.hpp"
+#include "rclcpp/node_interfaces/get_node_services_interface.hpp"
 #include "rclcpp/node_options.hpp"
+#include "rclcpp/rate.hpp"
+#include "rclcpp/serialization.hpp"
+#include "rclcpp/subscription_content_filter_options.hpp"
+#include "rclcpp/subscription_traits.hpp"
 #include "rclcpp/utilities.hpp"
 
 namespace rclcpp {

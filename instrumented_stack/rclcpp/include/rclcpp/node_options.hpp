@@ -20,6 +20,9 @@ namespace rclcpp {
 
 class NodeOptions {
  public:
+  // `allocator` is the allocator for rcl's options.
+  explicit NodeOptions(rcl_allocator_t allocator = rcl_get_default_allocator()) : allocator_(allocator) {}
+
   Context::SharedPtr context() const { return context_; }
   NodeOptions& context(Context::SharedPtr context) { return set(context_, std::move(context)); }
 
@@ -35,6 +38,7 @@ class NodeOptions {
   }
 
   // Values that parameters get when they are declared. They replace those of the command line.
+  std::vector<Parameter>& parameter_overrides() { return parameter_overrides_; }
   const std::vector<Parameter>& parameter_overrides() const { return parameter_overrides_; }
   NodeOptions& parameter_overrides(const std::vector<Parameter>& parameter_overrides) {
     return set(parameter_overrides_, parameter_overrides);
@@ -42,6 +46,10 @@ class NodeOptions {
   template <typename ValueT>
   NodeOptions& append_parameter_override(const std::string& name, const ValueT& value) {
     parameter_overrides_.emplace_back(name, ParameterValue(value));
+    return *this;
+  }
+  NodeOptions& append_parameter_override(const Parameter& parameter) {
+    parameter_overrides_.push_back(parameter);
     return *this;
   }
 
@@ -162,7 +170,7 @@ class NodeOptions {
   PublisherOptionsBase parameter_event_publisher_options_;
   QoS clock_qos_ = ClockQoS();
   bool use_clock_thread_ = true;
-  rcl_allocator_t allocator_ = rcl_get_default_allocator();
+  rcl_allocator_t allocator_;
   mutable std::shared_ptr<const rcl_node_options_t> rcl_node_options_;  // null: not made since the last change
 };
 

@@ -243,6 +243,10 @@ class SyncParametersClient {
   auto on_parameter_event(CallbackT&& callback) {
     return client_.on_parameter_event(std::forward<CallbackT>(callback));
   }
+  template <typename CallbackT, typename NodeT>
+  static auto on_parameter_event(NodeT&& node, CallbackT&& callback) {
+    return AsyncParametersClient::on_parameter_event(node, std::forward<CallbackT>(callback));
+  }
   bool service_is_ready() const { return client_.service_is_ready(); }
   template <typename RepT = int64_t, typename RatioT = std::milli>
   bool wait_for_service(std::chrono::duration<RepT, RatioT> timeout = std::chrono::duration<RepT, RatioT>(-1)) {

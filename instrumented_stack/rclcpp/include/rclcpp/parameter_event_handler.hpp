@@ -53,8 +53,9 @@ class ParameterEventHandler {
       : node_base_(node_interfaces::dereferenced(node).get_node_base_interface()),
         callbacks_(std::make_shared<Callbacks>()),
         subscription_(create_subscription<rcl_interfaces::msg::ParameterEvent>(
-            node, "/parameter_events", qos,
-            [callbacks = callbacks_](const rcl_interfaces::msg::ParameterEvent& event) { callbacks->call(event); })) {}
+            node, "/parameter_events", qos, [callbacks = callbacks_](const rcl_interfaces::msg::ParameterEvent& event) {
+              callbacks->event_callback(event);
+            })) {}
 
   // Called for every event, after the callbacks for single parameters.
   [[nodiscard]] ParameterEventCallbackHandle::SharedPtr add_parameter_event_callback(
@@ -84,20 +85,23 @@ class ParameterEventHandler {
   // New parameters first, then changed ones.
   static std::vector<Parameter> get_parameters_from_event(const rcl_interfaces::msg::ParameterEvent& event);
 
- private:
-  std::string full_name(const std::string& node_name) const;
-
+ protected:
+  // As in rclcpp, derived classes may look at the callbacks, and call them with an event of their own.
   struct Callbacks {
     // Callbacks may add and remove callbacks.
     std::recursive_mutex mutex;
-    std::list<ParameterCallbackHandle::WeakPtr> of_parameters;
-    std::list<ParameterEventCallbackHandle::WeakPtr> of_events;
+    std::list<ParameterCallbackHandle::WeakPtr> parameter_callbacks_;
+    std::list<ParameterEventCallbackHandle::WeakPtr> event_callbacks_;
 
-    void call(const rcl_interfaces::msg::ParameterEvent& event);
+    void event_callback(const rcl_interfaces::msg::ParameterEvent& event);
   };
 
   node_interfaces::NodeBaseInterface::SharedPtr node_base_;
   std::shared_ptr<Callbacks> callbacks_;
+
+ private:
+  std::string full_name(const std::string& node_name) const;
+
   Subscription<rcl_interfaces::msg::ParameterEvent>::SharedPtr subscription_;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 #include <rcl_interfaces/msg/parameter_event.hpp>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,9 +20,13 @@ class ParameterEventsFilter {
   enum class EventType { NEW, DELETED, CHANGED };
   using EventPair = std::pair<EventType, const rcl_interfaces::msg::Parameter*>;
 
+  // Throws std::invalid_argument without an event.
   ParameterEventsFilter(std::shared_ptr<const rcl_interfaces::msg::ParameterEvent> event,
                         const std::vector<std::string>& names, const std::vector<EventType>& types)
       : event_(std::move(event)) {
+    if (!event_) {
+      throw std::invalid_argument("event cannot be null");
+    }
     const auto add = [&](EventType type, const std::vector<rcl_interfaces::msg::Parameter>& parameters) {
       if (std::find(types.begin(), types.end(), type) == types.end()) {
         return;

@@ -2,6 +2,11 @@
 // Sends messages of one type on one topic. Created by Node::create_publisher().
 #pragma once
 
+#include <algorithm>
+#include <functional>
+#include <future>
+#include <iterator>
+#include <map>
 #include <memory>
 #include <rosidl_typesupport_cpp/message_type_support.hpp>
 #include <stdexcept>
@@ -12,10 +17,16 @@
 #include "rclcpp/allocator/allocator_common.hpp"
 #include "rclcpp/experimental/create_intra_process_buffer.hpp"
 #include "rclcpp/experimental/intra_process_manager.hpp"
+#include "rclcpp/function_traits.hpp"
+#include "rclcpp/get_message_type_support_handle.hpp"
+#include "rclcpp/is_ros_compatible_type.hpp"
 #include "rclcpp/loaned_message.hpp"
 #include "rclcpp/publisher_base.hpp"
 #include "rclcpp/publisher_options.hpp"
+#include "rclcpp/serialization.hpp"
+#include "rclcpp/time.hpp"
 #include "rclcpp/type_adapter.hpp"
+#include "rclcpp/utilities.hpp"
 
 namespace rclcpp {
 
@@ -104,6 +115,12 @@ class Publisher : public PublisherBase {
   void publish(const rcl_serialized_message_t& message) { publish_serialized(message); }
 
   AllocatorT get_allocator() const { return allocator_; }
+
+ protected:
+  // Publishes what LoanedMessage::release() returned.
+  void do_loaned_message_publish(std::unique_ptr<ROSMessageType, std::function<void(ROSMessageType*)>> message) {
+    publish_loaned(message.get());
+  }
 
  private:
   template <typename T>

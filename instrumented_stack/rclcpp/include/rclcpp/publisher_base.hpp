@@ -38,6 +38,10 @@ class PublisherBase : public std::enable_shared_from_this<PublisherBase> {
   PublisherBase(node_interfaces::NodeBaseInterface* node_base, const std::string& topic,
                 const rosidl_message_type_support_t& type_support, const QoS& qos,
                 const PublisherOptionsBase& options = PublisherOptionsBase());
+  // With options of rcl.
+  PublisherBase(node_interfaces::NodeBaseInterface* node_base, const std::string& topic,
+                const rosidl_message_type_support_t& type_support, const rcl_publisher_options_t& publisher_options,
+                const PublisherEventCallbacks& event_callbacks, bool use_default_callbacks);
   virtual ~PublisherBase();
   RCLCPP_DISABLE_COPY(PublisherBase)
 
@@ -49,6 +53,8 @@ class PublisherBase : public std::enable_shared_from_this<PublisherBase> {
   QoS get_actual_qos() const;
   const rmw_gid_t& get_gid() const { return gid_; }
   bool operator==(const rmw_gid_t& gid) const;
+  // Throws exceptions::RCLError for null.
+  bool operator==(const rmw_gid_t* gid) const;
 
   bool is_durability_transient_local() const;
 
@@ -111,6 +117,9 @@ class PublisherBase : public std::enable_shared_from_this<PublisherBase> {
   }
   uint64_t intra_process_publisher_id() const { return intra_process_publisher_id_; }
   void trace_intra_publish(const void* message) const;
+
+  // Warns that a subscription asks for a QoS that this publisher does not offer.
+  void default_incompatible_qos_callback(QOSOfferedIncompatibleQoSInfo& info) const;
 
  private:
   bool wait_for_all_acked_ns(std::chrono::nanoseconds timeout) const;

@@ -2,6 +2,7 @@
 // The options for creating a publisher besides topic and QoS.
 #pragma once
 
+#include <rcl/publisher.h>
 #include <rmw/types.h>
 
 #include <memory>
@@ -10,6 +11,7 @@
 #include "rclcpp/callback_group.hpp"
 #include "rclcpp/event_handler.hpp"
 #include "rclcpp/intra_process_setting.hpp"
+#include "rclcpp/qos.hpp"
 #include "rclcpp/qos_overriding_options.hpp"
 
 namespace rclcpp {
@@ -40,6 +42,15 @@ struct PublisherOptionsWithAllocator : PublisherOptionsBase {
   explicit PublisherOptionsWithAllocator(const PublisherOptionsBase& options) : PublisherOptionsBase(options) {}
 
   std::shared_ptr<AllocatorT> get_allocator() const { return allocator ? allocator : std::make_shared<AllocatorT>(); }
+
+  // These options for rcl. `MessageT` is only named, as in rclcpp.
+  template <typename MessageT>
+  rcl_publisher_options_t to_rcl_publisher_options(const QoS& qos) const {
+    rcl_publisher_options_t options = rcl_publisher_get_default_options();
+    options.qos = qos.get_rmw_qos_profile();
+    options.rmw_publisher_options.require_unique_network_flow_endpoints = require_unique_network_flow_endpoints;
+    return options;
+  }
 };
 
 using PublisherOptions = PublisherOptionsWithAllocator<std::allocator<void>>;

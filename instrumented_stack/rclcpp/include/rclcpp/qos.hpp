@@ -13,9 +13,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "rclcpp/duration.hpp"
+#include "rclcpp/exceptions.hpp"
 
 namespace rclcpp {
 
@@ -61,7 +64,8 @@ struct QoSInitialization {
     (void)print_depth_warning;
   }
 
-  static QoSInitialization from_rmw(const rmw_qos_profile_t& rmw_qos) { return {rmw_qos.history, rmw_qos.depth}; }
+  // Keeps the last `depth` unless the profile says "keep all". Throws std::invalid_argument for a history that is none.
+  static QoSInitialization from_rmw(const rmw_qos_profile_t& rmw_qos);
 };
 
 struct KeepAll : QoSInitialization {

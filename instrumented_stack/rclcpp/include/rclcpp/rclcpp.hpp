@@ -42,6 +42,7 @@
 #include <thread>
 #include <unordered_map>
 
+#include "rclcpp/copy_all_parameter_values.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/executors.hpp"
 #include "rclcpp/expand_topic_or_service_name.hpp"

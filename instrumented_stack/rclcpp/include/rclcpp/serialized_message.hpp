@@ -6,6 +6,7 @@
 #include <rcl/types.h>
 
 #include <cstddef>
+#include <utility>
 
 namespace rclcpp {
 
@@ -19,6 +20,10 @@ class SerializedMessage {
   // Takes ownership of the memory.
   explicit SerializedMessage(rcl_serialized_message_t&& other) noexcept;
   SerializedMessage& operator=(SerializedMessage other) noexcept;
+  SerializedMessage& operator=(const rcl_serialized_message_t& other) { return *this = SerializedMessage(other); }
+  SerializedMessage& operator=(rcl_serialized_message_t&& other) noexcept {
+    return *this = SerializedMessage(std::move(other));
+  }
   ~SerializedMessage();
 
   rcl_serialized_message_t& get_rcl_serialized_message() { return serialized_message_; }

@@ -4,10 +4,18 @@
 
 #include <memory>
 #include <rosidl_typesupport_cpp/service_type_support.hpp>
+#include <stdexcept>
 #include <string>
 #include <utility>
+#include <variant>
 
+#include "rclcpp/clock.hpp"
+#include "rclcpp/exceptions.hpp"
+#include "rclcpp/expand_topic_or_service_name.hpp"
+#include "rclcpp/function_traits.hpp"
+#include "rclcpp/logging.hpp"
 #include "rclcpp/service_base.hpp"
+#include "rclcpp/time.hpp"
 
 namespace rclcpp {
 
@@ -22,6 +30,15 @@ class Service : public ServiceBase, public std::enable_shared_from_this<Service<
   Service(node_interfaces::NodeBaseInterface* node_base, const std::string& service_name,
           AnyServiceCallback<ServiceT> any_callback, const QoS& qos)
       : ServiceBase(node_base, *rosidl_typesupport_cpp::get_service_type_support_handle<ServiceT>(), service_name, qos),
+        any_callback_(std::move(any_callback)) {
+    trace_creation(any_callback_);
+  }
+
+  // With the options of rcl.
+  Service(std::shared_ptr<rcl_node_t> node_handle, const std::string& service_name,
+          AnyServiceCallback<ServiceT> any_callback, const rcl_service_options_t& service_options)
+      : ServiceBase(std::move(node_handle), *rosidl_typesupport_cpp::get_service_type_support_handle<ServiceT>(),
+                    service_name, service_options),
         any_callback_(std::move(any_callback)) {
     trace_creation(any_callback_);
   }
@@ -45,7 +62,7 @@ class Service : public ServiceBase, public std::enable_shared_from_this<Service<
     trace_creation(any_callback_);
   }
 
- protected:
+  // Executors call these.
   std::shared_ptr<void> create_request() override { return std::make_shared<Request>(); }
 
   void handle_request(std::shared_ptr<rmw_request_id_t> request_header, std::shared_ptr<void> request) override {

@@ -31,6 +31,9 @@ class ServiceBase {
   // Throws exceptions::InvalidServiceNameError or exceptions::RCLError.
   ServiceBase(node_interfaces::NodeBaseInterface* node_base, const rosidl_service_type_support_t& type_support,
               const std::string& service_name, const QoS& qos);
+  // With the options of rcl, of which only those of the middleware have an effect. Throws the same.
+  ServiceBase(std::shared_ptr<rcl_node_t> node_handle, const rosidl_service_type_support_t& type_support,
+              const std::string& service_name, const rcl_service_options_t& options);
   // Takes over a service that exists already, of this type. Throws std::runtime_error unless rcl has initialised it.
   ServiceBase(std::shared_ptr<rcl_node_t> node_handle, std::shared_ptr<rcl_service_t> service_handle,
               const rosidl_service_type_support_t& type_support);
@@ -69,9 +72,14 @@ class ServiceBase {
   // The group that serves this service, set by the group.
   void set_callback_group(CallbackGroup::WeakPtr group) { callback_group_ = std::move(group); }
 
- protected:
+  // Executors make these of each service: a message to take a request into, its header, and the call that answers it.
   virtual std::shared_ptr<void> create_request() = 0;
+  virtual std::shared_ptr<rmw_request_id_t> create_request_header() { return std::make_shared<rmw_request_id_t>(); }
   virtual void handle_request(std::shared_ptr<rmw_request_id_t> request_header, std::shared_ptr<void> request) = 0;
+
+ protected:
+  // For a derived class that creates the service in `service_handle_` itself.
+  explicit ServiceBase(std::shared_ptr<rcl_node_t> node_handle);
 
   // Only warns if the client cannot receive the response yet. Throws exceptions::RCLError on other failures.
   void send_type_erased_response(rmw_request_id_t& request_id, void* response);
@@ -79,11 +87,12 @@ class ServiceBase {
   // Call it in the most derived constructor, when the callback has its final address.
   void trace_creation(const AnyServiceCallbackBase& callback);
 
+  std::shared_ptr<rcl_node_t> node_handle_;
+  std::shared_ptr<rcl_service_t> service_handle_;
+
  private:
   friend class Executor;
 
-  std::shared_ptr<rcl_node_t> node_handle_;
-  std::shared_ptr<rcl_service_t> service_handle_;
   CallbackGroup::WeakPtr callback_group_;
   detail::OnReadyCallback on_ready_;
   std::atomic_bool in_use_by_wait_set_{false};

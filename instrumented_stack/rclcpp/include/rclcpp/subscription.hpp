@@ -2,16 +2,32 @@
 // Receives messages of one type from one topic. Created by Node::create_subscription().
 #pragma once
 
+#include <algorithm>
+#include <future>
+#include <map>
 #include <memory>
 #include <rosidl_runtime_cpp/message_initialization.hpp>
 #include <rosidl_typesupport_cpp/message_type_support.hpp>
+#include <sstream>
 #include <string>
 #include <type_traits>
 #include <utility>
 
+#include "rclcpp/expand_topic_or_service_name.hpp"
 #include "rclcpp/experimental/subscription_intra_process.hpp"
+#include "rclcpp/function_traits.hpp"
+#include "rclcpp/get_message_type_support_handle.hpp"
+#include "rclcpp/is_ros_compatible_type.hpp"
+#include "rclcpp/loaned_message.hpp"
+#include "rclcpp/logging.hpp"
 #include "rclcpp/message_memory_strategy.hpp"
+#include "rclcpp/serialization.hpp"
 #include "rclcpp/subscription_base.hpp"
+#include "rclcpp/subscription_content_filter_options.hpp"
+#include "rclcpp/subscription_traits.hpp"
+#include "rclcpp/time.hpp"
+#include "rclcpp/topic_statistics/subscription_topic_statistics.hpp"
+#include "rclcpp/utilities.hpp"
 
 namespace rclcpp {
 
@@ -65,6 +81,9 @@ class Subscription : public SubscriptionBase {
     TypeAdapter<MessageT>::convert_to_custom(ros_message, message_out);
     return true;
   }
+
+  // Whether the callback takes messages of intra-process communication as shared pointers.
+  bool use_take_shared_method() const { return any_callback_.use_take_shared_method(); }
 
   // Reading a message sets every member, so the message needs no initial values.
   std::shared_ptr<void> create_message() override {

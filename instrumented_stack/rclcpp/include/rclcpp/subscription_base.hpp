@@ -101,6 +101,10 @@ class SubscriptionBase : public std::enable_shared_from_this<SubscriptionBase> {
     return std::make_shared<SerializedMessage>();
   }
   void handle_message(const std::shared_ptr<void>& message, const MessageInfo& message_info);
+  // The message stays the caller's.
+  void handle_loaned_message(void* loaned_message, const MessageInfo& message_info) {
+    handle_message(std::shared_ptr<void>(loaned_message, [](void*) {}), message_info);
+  }
   void handle_serialized_message(const std::shared_ptr<SerializedMessage>& message, const MessageInfo& message_info) {
     dispatch(message, message_info);
   }

@@ -2,6 +2,7 @@
 // The options for creating a subscription besides topic, QoS and callback.
 #pragma once
 
+#include <rcl/subscription.h>
 #include <rmw/types.h>
 
 #include <chrono>
@@ -56,6 +57,12 @@ struct SubscriptionOptionsBase {
   ContentFilterOptions content_filter_options;
 };
 
+namespace detail {
+
+rcl_subscription_options_t to_rcl_subscription_options(const SubscriptionOptionsBase& options, const QoS& qos);
+
+}  // namespace detail
+
 // AllocatorT, an allocator for void, allocates received messages.
 template <typename AllocatorT>
 struct SubscriptionOptionsWithAllocator : SubscriptionOptionsBase {
@@ -70,6 +77,11 @@ struct SubscriptionOptionsWithAllocator : SubscriptionOptionsBase {
       : SubscriptionOptionsBase(options) {}
 
   std::shared_ptr<AllocatorT> get_allocator() const { return allocator ? allocator : std::make_shared<AllocatorT>(); }
+
+  // These options for rcl; the caller finalizes them with rcl_subscription_options_fini(). Throws exceptions::RCLError.
+  rcl_subscription_options_t to_rcl_subscription_options(const QoS& qos) const {
+    return detail::to_rcl_subscription_options(*this, qos);
+  }
 };
 
 using SubscriptionOptions = SubscriptionOptionsWithAllocator<std::allocator<void>>;

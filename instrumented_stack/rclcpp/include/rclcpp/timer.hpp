@@ -9,7 +9,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <sstream>
 #include <stdexcept>
+#include <thread>
 #include <type_traits>
 #include <utility>
 
@@ -18,8 +21,11 @@
 #include "rclcpp/context.hpp"
 #include "rclcpp/detail/callback_symbol.hpp"
 #include "rclcpp/detail/on_ready_callback.hpp"
+#include "rclcpp/function_traits.hpp"
 #include "rclcpp/macros.hpp"
+#include "rclcpp/rate.hpp"
 #include "rclcpp/time.hpp"
+#include "rclcpp/utilities.hpp"
 
 namespace rclcpp {
 

@@ -2,6 +2,7 @@
 // Finds type supports by the name of the type, in the libraries of message packages.
 #pragma once
 
+#include <rosidl_runtime_c/action_type_support_struct.h>
 #include <rosidl_runtime_c/message_type_support_struct.h>
 #include <rosidl_runtime_c/service_type_support_struct.h>
 
@@ -43,5 +44,15 @@ const rosidl_message_type_support_t* get_message_typesupport_handle(const std::s
 const rosidl_service_type_support_t* get_service_typesupport_handle(const std::string& type,
                                                                     const std::string& typesupport_identifier,
                                                                     const SharedLibrary& library);
+const rosidl_action_type_support_t* get_action_typesupport_handle(const std::string& type,
+                                                                  const std::string& typesupport_identifier,
+                                                                  const SharedLibrary& library);
+
+namespace detail {
+
+// Throws exceptions::InvalidServiceTypeError, with the reason, if there is no such type.
+const rosidl_service_type_support_t* find_service_type_support(const std::string& type);
+
+}  // namespace detail
 
 }  // namespace rclcpp

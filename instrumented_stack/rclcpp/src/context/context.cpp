@@ -156,6 +156,23 @@ PreShutdownCallbackHandle Context::add_pre_shutdown_callback(PreShutdownCallback
   return add(pre_shutdown_callbacks_, std::move(callback));
 }
 
+std::vector<Context::OnShutdownCallback> Context::get_on_shutdown_callbacks() const {
+  return copy_of(on_shutdown_callbacks_);
+}
+
+std::vector<Context::PreShutdownCallback> Context::get_pre_shutdown_callbacks() const {
+  return copy_of(pre_shutdown_callbacks_);
+}
+
+std::vector<std::function<void()>> Context::copy_of(const Callbacks& callbacks) const {
+  std::vector<std::function<void()>> copies;
+  const std::lock_guard lock(callbacks_mutex_);
+  for (const auto& callback : callbacks) {
+    copies.push_back(*callback);
+  }
+  return copies;
+}
+
 bool Context::remove_pre_shutdown_callback(const PreShutdownCallbackHandle& handle) {
   return remove(pre_shutdown_callbacks_, handle);
 }

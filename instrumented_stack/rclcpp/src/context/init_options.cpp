@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/init_options.hpp"
 
+#include <rcl/domain_id.h>
+
 #include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/logging.hpp"
 
@@ -59,7 +61,9 @@ void InitOptions::set_domain_id(size_t domain_id) {
 }
 
 void InitOptions::use_default_domain_id() {
-  set_domain_id(RCL_DEFAULT_DOMAIN_ID);
+  size_t domain_id = RCL_DEFAULT_DOMAIN_ID;
+  require_ok(rcl_get_default_domain_id(&domain_id), "failed to get default domain id");
+  set_domain_id(domain_id);
 }
 
 size_t InitOptions::get_domain_id() const {

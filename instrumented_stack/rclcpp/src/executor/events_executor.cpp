@@ -77,6 +77,13 @@ void EventsExecutor::spin() {
   }
 }
 
+void EventsExecutor::spin_all(nanoseconds max_duration) {
+  if (max_duration <= nanoseconds::zero()) {
+    throw std::invalid_argument("max_duration must be positive");
+  }
+  Executor::spin_all(max_duration);
+}
+
 void EventsExecutor::spin_once_impl(nanoseconds timeout) {
   const auto start = steady_clock::now();
   Turn turn = Turn::kWakeUp;
@@ -125,6 +132,7 @@ template <typename RemoveT>
 void EventsExecutor::remove_and_disconnect(RemoveT remove) {
   std::vector<std::pair<CallbackGroup::WeakPtr, CallbackGroup::Entities>> before;  // released without the lock
   const std::lock_guard lock(connections_mutex_);
+  const detail::OnReadyCallback::HandBack hand_back;
   before = entities_->entities();
   remove();
   const std::vector<CallbackGroup::WeakPtr> after = get_all_callback_groups();
@@ -327,6 +335,7 @@ void EventsExecutor::refresh() {
 
 template <typename EntityT, typename StartT, typename StopT>
 void EventsExecutor::update(Served<EntityT>& served, Served<EntityT> found, StartT start, StopT stop) {
+  const detail::OnReadyCallback::HandBack hand_back;
   for (auto it = served.begin(); it != served.end();) {
     // Another entity can be where one was that has gone.
     const std::shared_ptr<EntityT> entity = it->second.lock();

@@ -207,12 +207,9 @@ void Executor::spin_node_all(const std::shared_ptr<Node>& node, nanoseconds max_
   spin_node_all(node->get_node_base_interface(), max_duration);
 }
 
-void Executor::spin_node_once(const NodePtr& node, nanoseconds timeout) {
+void Executor::spin_node_once_nanoseconds(const NodePtr& node, nanoseconds timeout) {
   const Membership membership(*this, node);
   spin_once(timeout);
-}
-void Executor::spin_node_once(const std::shared_ptr<Node>& node, nanoseconds timeout) {
-  spin_node_once(node->get_node_base_interface(), timeout);
 }
 
 FutureReturnCode Executor::spin_until(const std::function<bool()>& complete, nanoseconds timeout) {

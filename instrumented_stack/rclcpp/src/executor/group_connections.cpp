@@ -153,6 +153,7 @@ void GroupConnections::connect(const std::shared_ptr<Group>& group, const std::s
 
 template <typename PredicateT>
 void GroupConnections::erase(PredicateT is_gone, Gone& gone) {
+  const detail::OnReadyCallback::HandBack hand_back;
   for (auto it = connected_.begin(); it != connected_.end();) {
     if (!is_gone(it->second)) {
       ++it;

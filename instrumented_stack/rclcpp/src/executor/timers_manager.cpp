@@ -48,10 +48,14 @@ void TimersManager::add_timer(const TimerBase::SharedPtr& timer) {
 }
 
 void TimersManager::remove_timer(const TimerBase::SharedPtr& timer) {
-  timer->clear_on_reset_callback();
   std::vector<Timer> removed;
-  const std::lock_guard lock(mutex_);
-  removed = take_out([&](const Timer& known) { return refers_to(known.timer, timer); });
+  {
+    const std::lock_guard lock(mutex_);
+    removed = take_out([&](const Timer& known) { return refers_to(known.timer, timer); });
+  }
+  if (!removed.empty()) {  // another one may have set the callback of a timer that is not known here
+    timer->clear_on_reset_callback();
+  }
 }
 
 void TimersManager::remove_expired() {

@@ -8,6 +8,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "rclcpp/exceptions.hpp"
+
 namespace rclcpp {
 
 namespace {
@@ -119,6 +121,20 @@ const rosidl_service_type_support_t* get_service_typesupport_handle(const std::s
                                                                     const std::string& typesupport_identifier,
                                                                     const SharedLibrary& library) {
   return get_handle<rosidl_service_type_support_t>(type, typesupport_identifier, library, "service", "srv");
+}
+
+const rosidl_action_type_support_t* get_action_typesupport_handle(const std::string& type,
+                                                                  const std::string& typesupport_identifier,
+                                                                  const SharedLibrary& library) {
+  return get_handle<rosidl_action_type_support_t>(type, typesupport_identifier, library, "action", "action");
+}
+
+const rosidl_service_type_support_t* detail::find_service_type_support(const std::string& type) {
+  try {
+    return get_service_typesupport_handle(type, kIdentifier, *get_typesupport_library(type, kIdentifier));
+  } catch (const std::runtime_error& error) {
+    throw exceptions::InvalidServiceTypeError(error.what());
+  }
 }
 
 }  // namespace rclcpp

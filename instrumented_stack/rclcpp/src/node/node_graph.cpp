@@ -204,7 +204,7 @@ std::vector<ServiceEndpointInfo> NodeGraph::get_servers_info_by_service(const st
 
 Event::SharedPtr NodeGraph::get_graph_event() {
   // Events may outlive the node interface, so they hold the rcl node.
-  return std::make_shared<Event>([node = node_base_->get_shared_rcl_node_handle()] {
+  return std::make_shared<Event>([node = node_base_->get_shared_rcl_node_handle(), user = user_] {
     uint64_t number = 0;
     (void)rmw_wait_for_graph_change(rcl_node_get_rmw_handle(node.get()), &number, 0);
     rcl_reset_error();
@@ -212,9 +212,30 @@ Event::SharedPtr NodeGraph::get_graph_event() {
   });
 }
 
+size_t NodeGraph::count_graph_users() const {
+  return static_cast<size_t>(user_.use_count()) - 1;
+}
+
+const rcl_guard_condition_t* NodeGraph::get_graph_guard_condition() const {
+  return rcl_node_get_graph_guard_condition(node_base_->get_rcl_node_handle());
+}
+
+void NodeGraph::notify_graph_change() {
+  // rcl has no other guard condition to wait for the graph with; it is not changed by triggering it.
+  auto* condition = const_cast<rcl_guard_condition_t*>(get_graph_guard_condition());
+  require_ok(rcl_trigger_guard_condition(condition), "failed to notify wait set on graph change");
+}
+
+void NodeGraph::notify_shutdown() {
+  // Whoever waits for the graph waits for the end of the context, too.
+}
+
 void NodeGraph::wait_for_graph_change(Event::SharedPtr event, std::chrono::nanoseconds timeout) {
   if (!event) {
     throw exceptions::InvalidEventError();
+  }
+  if (!event->watches_graph()) {
+    throw exceptions::EventNotRegisteredError();
   }
   const auto start = std::chrono::steady_clock::now();
   const rmw_node_t* node = rcl_node_get_rmw_handle(node_base_->get_rcl_node_handle());

@@ -43,13 +43,13 @@ ParameterEventCallbackHandle::SharedPtr ParameterEventHandler::add_parameter_eve
   auto handle = std::make_shared<ParameterEventCallbackHandle>();
   handle->callback = std::move(callback);
   const std::lock_guard lock(callbacks_->mutex);
-  callbacks_->of_events.push_front(handle);
+  callbacks_->event_callbacks_.push_front(handle);
   return handle;
 }
 
 void ParameterEventHandler::remove_parameter_event_callback(const ParameterEventCallbackHandle::SharedPtr& handle) {
   const std::lock_guard lock(callbacks_->mutex);
-  remove(callbacks_->of_events, handle);
+  remove(callbacks_->event_callbacks_, handle);
 }
 
 std::string ParameterEventHandler::full_name(const std::string& node_name) const {
@@ -89,13 +89,13 @@ ParameterCallbackHandle::SharedPtr ParameterEventHandler::add_parameter_callback
   handle->node_name = full_name(node_name);
   handle->callback = std::move(callback);
   const std::lock_guard lock(callbacks_->mutex);
-  callbacks_->of_parameters.push_front(handle);
+  callbacks_->parameter_callbacks_.push_front(handle);
   return handle;
 }
 
 void ParameterEventHandler::remove_parameter_callback(const ParameterCallbackHandle::SharedPtr& handle) {
   const std::lock_guard lock(callbacks_->mutex);
-  remove(callbacks_->of_parameters, handle);
+  remove(callbacks_->parameter_callbacks_, handle);
 }
 
 bool ParameterEventHandler::get_parameter_from_event(const rcl_interfaces::msg::ParameterEvent& event,
@@ -137,15 +137,15 @@ std::vector<Parameter> ParameterEventHandler::get_parameters_from_event(
   return parameters;
 }
 
-void ParameterEventHandler::Callbacks::call(const rcl_interfaces::msg::ParameterEvent& event) {
+void ParameterEventHandler::Callbacks::event_callback(const rcl_interfaces::msg::ParameterEvent& event) {
   const std::lock_guard lock(mutex);
-  for (const ParameterCallbackHandle::SharedPtr& handle : living(of_parameters)) {
+  for (const ParameterCallbackHandle::SharedPtr& handle : living(parameter_callbacks_)) {
     Parameter parameter;
     if (get_parameter_from_event(event, parameter, handle->parameter_name, handle->node_name)) {
       handle->callback(parameter);
     }
   }
-  for (const ParameterEventCallbackHandle::SharedPtr& handle : living(of_events)) {
+  for (const ParameterEventCallbackHandle::SharedPtr& handle : living(event_callbacks_)) {
     handle->callback(event);
   }
 }

@@ -3,6 +3,8 @@
 
 #include <rmw/qos_profiles.h>
 
+#include <stdexcept>
+
 #include "rclcpp/detail/require_ok.hpp"
 
 namespace rclcpp {
@@ -14,6 +16,19 @@ bool equal(const rmw_time_t& left, const rmw_time_t& right) {
 }
 
 }  // namespace
+
+QoSInitialization QoSInitialization::from_rmw(const rmw_qos_profile_t& rmw_qos) {
+  switch (rmw_qos.history) {
+    case RMW_QOS_POLICY_HISTORY_KEEP_ALL:
+      return KeepAll();
+    case RMW_QOS_POLICY_HISTORY_SYSTEM_DEFAULT:
+      return KeepLast(rmw_qos.depth, false);
+    case RMW_QOS_POLICY_HISTORY_KEEP_LAST:
+    case RMW_QOS_POLICY_HISTORY_UNKNOWN:
+      return KeepLast(rmw_qos.depth);
+  }
+  throw std::invalid_argument("Invalid history policy enum value passed to QoSInitialization::from_rmw");
+}
 
 QoS::QoS(const QoSInitialization& qos_initialization) : QoS(qos_initialization, rmw_qos_profile_default) {}
 

@@ -45,6 +45,15 @@ ClientBase::ClientBase(node_interfaces::NodeBaseInterface* node_base, const rosi
       detail::shared_entity(std::move(client), node_handle_, rcl_client_fini, "failed to finalize a client");
 }
 
+ClientBase::ClientBase(node_interfaces::NodeBaseInterface* node_base,
+                       std::shared_ptr<node_interfaces::NodeGraphInterface> /*node_graph*/)
+    : node_handle_(node_base->get_shared_rcl_node_handle()),
+      context_(node_base->get_context()),
+      introspected_type_(nullptr) {
+  client_handle_ = detail::shared_entity(std::make_unique<rcl_client_t>(rcl_get_zero_initialized_client()),
+                                         node_handle_, rcl_client_fini, "failed to finalize a client");
+}
+
 ClientBase::~ClientBase() {
   clear_on_new_response_callback();
   if (const CallbackGroup::SharedPtr group = callback_group_.lock()) {
@@ -110,22 +119,23 @@ bool ClientBase::take_type_erased_response(void* response_out, rmw_request_id_t&
 
 void ClientBase::execute() {
   TRACETOOLS_EXT_TRACEPOINT(rclcpp_executor_execute_client, static_cast<const void*>(client_handle_.get()));
-  rmw_request_id_t header{};
+  std::shared_ptr<rmw_request_id_t> header = create_request_header();
   std::shared_ptr<void> response = create_response();
   // If a response cannot be read, it is lost, but the program goes on.
   bool taken = false;
   try {
-    taken = take_type_erased_response(response.get(), header);
+    taken = take_type_erased_response(response.get(), *header);
   } catch (const exceptions::RCLError& error) {
     RCLCPP_ERROR(get_logger("rclcpp"), "executor failed to take a response of service '%s': %s", get_service_name(),
                  error.what());
   }
   if (taken) {
+    [[maybe_unused]] const int64_t sequence_number = header->sequence_number;
     TRACETOOLS_EXT_TRACEPOINT(rclcpp_client_callback_start, static_cast<const void*>(client_handle_.get()),
-                              header.sequence_number);
-    handle_response(header, std::move(response));
+                              sequence_number);
+    handle_response(std::move(header), std::move(response));
     TRACETOOLS_EXT_TRACEPOINT(rclcpp_client_callback_end, static_cast<const void*>(client_handle_.get()),
-                              header.sequence_number);
+                              sequence_number);
   }
 }
 

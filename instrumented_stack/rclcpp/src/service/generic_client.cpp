@@ -11,10 +11,7 @@ namespace rclcpp {
 
 GenericClient::GenericClient(node_interfaces::NodeBaseInterface* node_base, const std::string& service_name,
                              const std::string& service_type, const QoS& qos)
-    : GenericClient(node_base, service_name,
-                    get_service_typesupport_handle(service_type, "rosidl_typesupport_cpp",
-                                                   *get_typesupport_library(service_type, "rosidl_typesupport_cpp")),
-                    qos) {}
+    : GenericClient(node_base, service_name, detail::find_service_type_support(service_type), qos) {}
 
 GenericClient::GenericClient(node_interfaces::NodeBaseInterface* node_base, const std::string& service_name,
                              const rosidl_service_type_support_t* type_support, const QoS& qos)
@@ -47,8 +44,8 @@ int64_t GenericClient::send(const void* request, Answer answer) {
   return pending_.add([&] { return send_type_erased_request(request); }, std::move(answer));
 }
 
-void GenericClient::handle_response(const rmw_request_id_t& request_header, std::shared_ptr<void> response) {
-  std::optional<Answer> answer = pending_.take(request_header.sequence_number);
+void GenericClient::handle_response(std::shared_ptr<rmw_request_id_t> request_header, std::shared_ptr<void> response) {
+  std::optional<Answer> answer = pending_.take(request_header->sequence_number);
   if (!answer) {
     RCLCPP_DEBUG(get_logger("rclcpp"), "dropped a response of service '%s' to a request that is not pending",
                  get_service_name());

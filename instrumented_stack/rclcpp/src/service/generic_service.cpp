@@ -19,10 +19,8 @@ GenericServiceCallback::SharedResponse GenericServiceCallback::response_of(const
 
 GenericService::GenericService(node_interfaces::NodeBaseInterface* node_base, const std::string& service_name,
                                const std::string& service_type, GenericServiceCallback any_callback, const QoS& qos)
-    : GenericService(node_base, service_name,
-                     get_service_typesupport_handle(service_type, "rosidl_typesupport_cpp",
-                                                    *get_typesupport_library(service_type, "rosidl_typesupport_cpp")),
-                     std::move(any_callback), qos) {}
+    : GenericService(node_base, service_name, detail::find_service_type_support(service_type), std::move(any_callback),
+                     qos) {}
 
 GenericService::GenericService(node_interfaces::NodeBaseInterface* node_base, const std::string& service_name,
                                const rosidl_service_type_support_t* type_support, GenericServiceCallback any_callback,

@@ -13,13 +13,24 @@ namespace rclcpp {
 
 using detail::require_ok;
 
+namespace {
+
+rcl_service_options_t options_with(const QoS& qos) {
+  rcl_service_options_t options = rcl_service_get_default_options();
+  options.qos = qos.get_rmw_qos_profile();
+  return options;
+}
+
+}  // namespace
+
 ServiceBase::ServiceBase(node_interfaces::NodeBaseInterface* node_base,
                          const rosidl_service_type_support_t& type_support, const std::string& service_name,
                          const QoS& qos)
-    : node_handle_(node_base->get_shared_rcl_node_handle()), introspected_type_(&type_support) {
-  rcl_service_options_t options = rcl_service_get_default_options();
-  options.qos = qos.get_rmw_qos_profile();
+    : ServiceBase(node_base->get_shared_rcl_node_handle(), type_support, service_name, options_with(qos)) {}
 
+ServiceBase::ServiceBase(std::shared_ptr<rcl_node_t> node_handle, const rosidl_service_type_support_t& type_support,
+                         const std::string& service_name, const rcl_service_options_t& options)
+    : node_handle_(std::move(node_handle)), introspected_type_(&type_support) {
   auto service = std::make_unique<rcl_service_t>(rcl_get_zero_initialized_service());
   const rcl_ret_t ret =
       rcl_service_init(service.get(), node_handle_.get(), &type_support, service_name.c_str(), &options);
@@ -43,6 +54,9 @@ ServiceBase::ServiceBase(std::shared_ptr<rcl_node_t> node_handle, std::shared_pt
     throw std::runtime_error("rcl_service_t in constructor argument must be initialized beforehand.");
   }
 }
+
+ServiceBase::ServiceBase(std::shared_ptr<rcl_node_t> node_handle)
+    : node_handle_(std::move(node_handle)), introspected_type_(nullptr) {}
 
 ServiceBase::~ServiceBase() {
   clear_on_new_request_callback();
@@ -79,7 +93,7 @@ bool ServiceBase::take_type_erased_request(void* request_out, rmw_request_id_t& 
 
 void ServiceBase::execute() {
   TRACETOOLS_EXT_TRACEPOINT(rclcpp_executor_execute_service, static_cast<const void*>(service_handle_.get()));
-  auto header = std::make_shared<rmw_request_id_t>();
+  std::shared_ptr<rmw_request_id_t> header = create_request_header();
   std::shared_ptr<void> request = create_request();
   // If a request cannot be read, it is lost, but the program goes on.
   bool taken = false;

@@ -114,7 +114,12 @@ Duration Duration::operator+(const Duration& other) const {
 }
 
 Duration Duration::operator-(const Duration& other) const {
-  return from_nanoseconds(difference(nanoseconds_, other.nanoseconds_, "duration"));
+  const int64_t result = difference(nanoseconds_, other.nanoseconds_, "duration");
+  // As in rclcpp, the sum of the two lengths must not exceed the longest duration.
+  if (result == std::numeric_limits<int64_t>::min() && nanoseconds_ < 0 && other.nanoseconds_ > 0) {
+    throw std::underflow_error("duration subtraction leads to int64_t underflow");
+  }
+  return from_nanoseconds(result);
 }
 
 Duration Duration::operator*(double scale) const {

@@ -84,6 +84,11 @@ void clear_on_event(const HandlersT& handlers, EventTypeT event_type) {
 
 }  // namespace
 
+void PublisherBase::default_incompatible_qos_callback(QOSOfferedIncompatibleQoSInfo& info) const {
+  const QOSOfferedIncompatibleQoSCallbackType none;
+  or_warn_of_qos(none, true, "rclcpp", get_topic_name(), kSubscriptions)(info);
+}
+
 void PublisherBase::bind_event_callbacks(const PublisherEventCallbacks& callbacks, bool use_default_callbacks,
                                          const std::string& logger_name) {
   const auto add = [this](const auto& callback, rcl_publisher_event_type_t type) {

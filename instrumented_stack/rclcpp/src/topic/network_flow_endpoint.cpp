@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/network_flow_endpoint.hpp"
 
-#include <rcl/allocator.h>
+#include <rcl/network_flow_endpoints.h>
 
 #include <tuple>
 
@@ -77,7 +77,7 @@ std::vector<NetworkFlowEndpoint> network_flow_endpoints(
   for (size_t i = 0; i < array.size; ++i) {
     endpoints.emplace_back(array.network_flow_endpoint[i]);
   }
-  (void)rmw_network_flow_endpoint_array_fini(&array);
+  (void)rcl_network_flow_endpoint_array_fini(&array);
   return endpoints;
 }
 

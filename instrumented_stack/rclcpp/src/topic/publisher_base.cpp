@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/publisher_base.hpp"
 
+#include <rcl/network_flow_endpoints.h>
 #include <rmw/rmw.h>
 #include <tracetools/tracetools.h>
 
@@ -17,17 +18,31 @@
 
 namespace rclcpp {
 
+namespace {
+
+rcl_publisher_options_t rcl_options_of(const QoS& qos, const PublisherOptionsBase& options) {
+  rcl_publisher_options_t result = rcl_publisher_get_default_options();
+  result.qos = qos.get_rmw_qos_profile();
+  result.rmw_publisher_options.require_unique_network_flow_endpoints = options.require_unique_network_flow_endpoints;
+  return result;
+}
+
+}  // namespace
+
 PublisherBase::PublisherBase(node_interfaces::NodeBaseInterface* node_base, const std::string& topic,
                              const rosidl_message_type_support_t& type_support, const QoS& qos,
-                             const PublisherOptionsBase& options) {
-  const std::shared_ptr<rcl_node_t> node_handle = node_base->get_shared_rcl_node_handle();
-  rcl_publisher_options_t rcl_options = rcl_publisher_get_default_options();
-  rcl_options.qos = qos.get_rmw_qos_profile();
-  rcl_options.rmw_publisher_options.require_unique_network_flow_endpoints =
-      options.require_unique_network_flow_endpoints;
+                             const PublisherOptionsBase& options)
+    : PublisherBase(node_base, topic, type_support, rcl_options_of(qos, options), options.event_callbacks,
+                    options.use_default_callbacks) {}
 
+PublisherBase::PublisherBase(node_interfaces::NodeBaseInterface* node_base, const std::string& topic,
+                             const rosidl_message_type_support_t& type_support,
+                             const rcl_publisher_options_t& publisher_options,
+                             const PublisherEventCallbacks& event_callbacks, bool use_default_callbacks) {
+  const std::shared_ptr<rcl_node_t> node_handle = node_base->get_shared_rcl_node_handle();
   auto publisher = std::make_unique<rcl_publisher_t>(rcl_get_zero_initialized_publisher());
-  rcl_ret_t ret = rcl_publisher_init(publisher.get(), node_handle.get(), &type_support, topic.c_str(), &rcl_options);
+  rcl_ret_t ret =
+      rcl_publisher_init(publisher.get(), node_handle.get(), &type_support, topic.c_str(), &publisher_options);
   if (ret == RCL_RET_TOPIC_NAME_INVALID) {
     detail::throw_invalid_topic_name(topic);
   }
@@ -39,10 +54,9 @@ PublisherBase::PublisherBase(node_interfaces::NodeBaseInterface* node_base, cons
 
   ret = rmw_get_gid_for_publisher(rcl_publisher_get_rmw_handle(publisher_handle_.get()), &gid_);
   if (ret != RMW_RET_OK) {
-    exceptions::throw_from_rcl_error(ret, "failed to get the gid of the publisher on '" + topic + "'");
+    exceptions::throw_from_rcl_error(ret, "failed to get publisher gid");
   }
-  bind_event_callbacks(options.event_callbacks, options.use_default_callbacks,
-                       rcl_node_get_logger_name(node_handle.get()));
+  bind_event_callbacks(event_callbacks, use_default_callbacks, rcl_node_get_logger_name(node_handle.get()));
 }
 
 PublisherBase::~PublisherBase() {
@@ -97,13 +111,17 @@ size_t PublisherBase::lowest_available_ipm_capacity() const {
 std::vector<NetworkFlowEndpoint> PublisherBase::get_network_flow_endpoints() const {
   return detail::network_flow_endpoints(
       [this](rcutils_allocator_t* allocator, rmw_network_flow_endpoint_array_t* array) {
-        return rmw_publisher_get_network_flow_endpoints(rcl_publisher_get_rmw_handle(publisher_handle_.get()),
-                                                        allocator, array);
+        return rcl_publisher_get_network_flow_endpoints(publisher_handle_.get(), allocator, array);
       });
 }
 
 bool PublisherBase::operator==(const rmw_gid_t& gid) const {
-  return std::equal(std::begin(gid.data), std::end(gid.data), std::begin(gid_.data));
+  return *this == &gid;
+}
+bool PublisherBase::operator==(const rmw_gid_t* gid) const {
+  bool are_equal = false;
+  detail::require_ok(rmw_compare_gids_equal(gid, &gid_, &are_equal), "failed to compare gids");
+  return are_equal;
 }
 
 bool PublisherBase::assert_liveliness() const {

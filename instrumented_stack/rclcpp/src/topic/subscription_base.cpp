@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/subscription_base.hpp"
 
+#include <rcl/network_flow_endpoints.h>
 #include <rmw/rmw.h>
 #include <tracetools/tracetools.h>
 
@@ -41,17 +42,21 @@ void set_filter(const ContentFilterOptions& filter, rcl_subscription_options_t& 
 
 }  // namespace
 
+rcl_subscription_options_t detail::to_rcl_subscription_options(const SubscriptionOptionsBase& options, const QoS& qos) {
+  rcl_subscription_options_t result = rcl_subscription_get_default_options();
+  result.qos = qos.get_rmw_qos_profile();
+  result.rmw_subscription_options.ignore_local_publications = options.ignore_local_publications;
+  result.rmw_subscription_options.require_unique_network_flow_endpoints = options.require_unique_network_flow_endpoints;
+  set_filter(options.content_filter_options, result);
+  return result;
+}
+
 SubscriptionBase::SubscriptionBase(node_interfaces::NodeBaseInterface* node_base,
                                    const rosidl_message_type_support_t& type_support, const std::string& topic,
                                    const QoS& qos, const SubscriptionOptionsBase& options)
     : type_support_(type_support) {
   const std::shared_ptr<rcl_node_t> node_handle = node_base->get_shared_rcl_node_handle();
-  rcl_subscription_options_t rcl_options = rcl_subscription_get_default_options();
-  rcl_options.qos = qos.get_rmw_qos_profile();
-  rcl_options.rmw_subscription_options.ignore_local_publications = options.ignore_local_publications;
-  rcl_options.rmw_subscription_options.require_unique_network_flow_endpoints =
-      options.require_unique_network_flow_endpoints;
-  set_filter(options.content_filter_options, rcl_options);
+  rcl_subscription_options_t rcl_options = detail::to_rcl_subscription_options(options, qos);
 
   auto subscription = std::make_unique<rcl_subscription_t>(rcl_get_zero_initialized_subscription());
   const rcl_ret_t ret =
@@ -158,8 +163,7 @@ ContentFilterOptions SubscriptionBase::get_content_filter() const {
 std::vector<NetworkFlowEndpoint> SubscriptionBase::get_network_flow_endpoints() const {
   return detail::network_flow_endpoints(
       [this](rcutils_allocator_t* allocator, rmw_network_flow_endpoint_array_t* array) {
-        return rmw_subscription_get_network_flow_endpoints(rcl_subscription_get_rmw_handle(subscription_handle_.get()),
-                                                           allocator, array);
+        return rcl_subscription_get_network_flow_endpoints(subscription_handle_.get(), allocator, array);
       });
 }
 

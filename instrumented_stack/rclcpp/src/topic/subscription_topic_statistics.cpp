@@ -96,27 +96,11 @@ void SubscriptionTopicStatistics::set_publisher_timer(TimerBase::SharedPtr publi
 
 namespace detail {
 
-namespace {
-
-bool is_enabled(const SubscriptionOptionsBase& options, const node_interfaces::NodeBaseInterface& node_base) {
-  switch (options.topic_stats_options.state) {
-    case TopicStatisticsState::Enable:
-      return true;
-    case TopicStatisticsState::Disable:
-      return false;
-    case TopicStatisticsState::NodeDefault:
-      return node_base.get_enable_topic_statistics_default();
-  }
-  throw std::runtime_error("Unrecognized EnableTopicStatistics value");
-}
-
-}  // namespace
-
 std::shared_ptr<topic_statistics::SubscriptionTopicStatistics> make_topic_statistics(
     const SubscriptionOptionsBase& options, node_interfaces::NodeBaseInterface& node_base,
     node_interfaces::NodeTopicsInterface& node_topics, node_interfaces::NodeTimersInterface& node_timers) {
   using topic_statistics::SubscriptionTopicStatistics;
-  if (!is_enabled(options, node_base)) {
+  if (!resolve_enable_topic_statistics(options, node_base)) {
     return nullptr;
   }
   const auto& wanted = options.topic_stats_options;

@@ -11,6 +11,8 @@
 
 namespace rclcpp::detail {
 
+thread_local bool OnReadyCallback::hands_back_ = false;
+
 std::unique_ptr<OnReadyCallback::Target> OnReadyCallback::make_target(std::function<void(size_t)> callback,
                                                                       const char* function, const char* what) {
   if (!callback) {

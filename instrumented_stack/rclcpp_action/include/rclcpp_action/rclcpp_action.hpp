@@ -5,6 +5,7 @@
 //   auto client = rclcpp_action::create_client<Fibonacci>(node, "fibonacci");
 #pragma once
 
+#include "rclcpp/node.hpp"
 #include "rclcpp_action/client.hpp"
 #include "rclcpp_action/client_goal_handle.hpp"
 #include "rclcpp_action/create_client.hpp"

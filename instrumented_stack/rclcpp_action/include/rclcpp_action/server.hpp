@@ -56,6 +56,9 @@ class ServerBase : public rclcpp::Waitable {
   // A timer that forgets results after their time, for executors that do not wait for the timer of rcl.
   std::vector<std::shared_ptr<rclcpp::TimerBase>> get_timers() const override;
 
+  // Goals that are accepted and not forgotten yet.
+  int get_number_of_goal_handles() const;
+
   // Turns introspection of the three services on or off. Each is published on the service's name and "/_service_event";
   // see rclcpp::ServiceBase::configure_introspection().
   void configure_introspection(rclcpp::Clock::SharedPtr clock, const rclcpp::QoS& qos_service_event_pub,
@@ -215,7 +218,7 @@ class Server : public ServerBase, public std::enable_shared_from_this<Server<Act
     }
     const CancelResponse response = handle_cancel_(handle);
     if (response == CancelResponse::ACCEPT) {
-      handle->begin_canceling();
+      handle->_cancel_goal();
     }
     return response;
   }

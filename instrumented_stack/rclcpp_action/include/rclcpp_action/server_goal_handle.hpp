@@ -106,7 +106,7 @@ class ServerGoalHandle : public ServerGoalHandleBase {
         on_executing_(std::move(on_executing)),
         publish_feedback_(std::move(publish_feedback)) {}
 
-  void begin_canceling() { update(GOAL_EVENT_CANCEL_GOAL, "begin to be canceled"); }
+  void _cancel_goal() { update(GOAL_EVENT_CANCEL_GOAL, "begin to be canceled"); }
 
  private:
   void end(rcl_action_goal_event_t event, const char* what, int8_t status, const typename ActionT::Result& result) {

@@ -21,10 +21,18 @@ class State {
   State(const State&) = default;
   State& operator=(const State&) = default;
 
-  uint8_t id() const { return id_; }
-  std::string label() const { return label_; }
+  // Throw std::runtime_error after reset().
+  uint8_t id() const { return checked().id_; }
+  std::string label() const { return checked().label_; }
+
+ protected:
+  // Takes the state away.
+  void reset() noexcept { has_state_ = false; }
 
  private:
+  const State& checked() const;
+
+  bool has_state_ = true;
   uint8_t id_ = 0;
   std::string label_ = "unknown";
 };

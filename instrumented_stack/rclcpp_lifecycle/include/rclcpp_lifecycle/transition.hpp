@@ -22,12 +22,20 @@ class Transition {
   Transition(const Transition&) = default;
   Transition& operator=(const Transition&) = default;
 
-  uint8_t id() const { return id_; }
-  std::string label() const { return label_; }
-  State start_state() const { return start_; }
-  State goal_state() const { return goal_; }
+  // Throw std::runtime_error after reset().
+  uint8_t id() const { return checked().id_; }
+  std::string label() const { return checked().label_; }
+  State start_state() const { return checked().start_; }
+  State goal_state() const { return checked().goal_; }
+
+ protected:
+  // Takes the transition away.
+  void reset() noexcept { has_transition_ = false; }
 
  private:
+  const Transition& checked() const;
+
+  bool has_transition_ = true;
   uint8_t id_;
   std::string label_;
   State start_;

@@ -18,6 +18,8 @@ StatusEvent& event_of(const rmw_event_t& handle) {
 
 }  // namespace
 
+extern "C" const void* const rmw_event_callback_hands_back = &rmw_event_callback_hands_back;
+
 rmw_event_t rmw_get_zero_initialized_event(void) {
   return {nullptr, nullptr, RMW_EVENT_INVALID};
 }

@@ -4,10 +4,11 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <mutex>
 
+#include "rmw/event_callback_type.h"
 #include "rmw/events_statuses.h"
-#include "wait/ready_callback.hpp"
 #include "wait/waitable.hpp"
 
 namespace rmw_fastrtps {
@@ -19,11 +20,18 @@ class StatusEvent : public Waitable {
   // Copies the status to `status`, which must point to this event's type, and sets its changes back to 0.
   virtual void take(void* status) = 0;
 
-  // `callback` is called for every occurrence, and for earlier ones that were not taken.
+  // `callback` is called for every occurrence, and for earlier ones that were neither told nor taken.
   void set_callback(rmw_event_callback_t callback, const void* user_data) {
-    callback_.set(callback, user_data);
-    if (is_ready()) {
-      callback_.tell(1);
+    const std::lock_guard lock(callback_mutex_);
+    callback_ = callback;
+    user_data_ = user_data;
+    if (callback == nullptr && user_data == rmw_event_callback_hands_back && is_ready() && untold_ == 0) {
+      untold_ = 1;
+    }
+    if (callback != nullptr) {
+      if (const std::size_t untold = untold_.exchange(0); untold > 0) {
+        callback(user_data, untold);
+      }
     }
   }
 
@@ -31,14 +39,28 @@ class StatusEvent : public Waitable {
   void occurred() {
     has_occurred_.store(true, std::memory_order_release);
     notify();
-    callback_.tell(1);
+    const std::lock_guard lock(callback_mutex_);
+    if (callback_ != nullptr) {
+      callback_(user_data_, 1);
+    } else {
+      ++untold_;
+    }
+  }
+
+  // Call it when the status is taken.
+  void was_taken() {
+    has_occurred_.store(false, std::memory_order_release);
+    untold_ = 0;
   }
 
   std::mutex mutex_;  // guards the status
   std::atomic<bool> has_occurred_{false};
 
  private:
-  ReadyCallback callback_;
+  std::mutex callback_mutex_;
+  rmw_event_callback_t callback_ = nullptr;
+  const void* user_data_ = nullptr;
+  std::atomic<std::size_t> untold_{0};  // occurrences since the last take that no callback was told of
 };
 
 inline void reset_changes(rmw_matched_status_t& status) {
@@ -71,7 +93,7 @@ class StatusEventOf final : public StatusEvent {
 
   void take(void* status) override {
     const std::lock_guard lock(mutex_);
-    has_occurred_.store(false, std::memory_order_release);
+    was_taken();
     *static_cast<StatusT*>(status) = status_;
     reset_changes(status_);
   }

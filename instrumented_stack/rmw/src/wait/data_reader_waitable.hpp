@@ -28,7 +28,8 @@ class DataReaderWaitable : public eprosima::fastdds::dds::DataReaderListener, pu
     }
   }
 
-  // `callback` is called for samples that come, and for samples that are waiting already. Null ends the calls.
+  // `callback` is called for samples that come, and for those that are waiting and that no callback was told of. Null
+  // ends the calls.
   void set_on_new_data(rmw_event_callback_t callback, const void* user_data) {
     on_new_data_.set(callback, user_data);
     if (callback != nullptr) {

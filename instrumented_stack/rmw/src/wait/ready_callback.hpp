@@ -12,12 +12,15 @@ namespace rmw_fastrtps {
 
 class ReadyCallback {
  public:
-  // After this, the former callback does not run any more.
+  // After this, the former callback does not run any more. What it was told of, a later one is not, unless `user_data`
+  // says that it was handed back.
   void set(rmw_event_callback_t callback, const void* user_data) {
     const std::lock_guard lock(mutex_);
+    if (callback == nullptr && user_data == rmw_event_callback_hands_back) {
+      told_ = 0;
+    }
     callback_ = callback;
     user_data_ = user_data;
-    outstanding_ = 0;
     is_set_.store(callback != nullptr, std::memory_order_release);
   }
 
@@ -31,24 +34,24 @@ class ReadyCallback {
     }
   }
 
-  // Calls the callback with the samples of `available` that are new: all but the samples that the callback was told of
+  // Calls the callback with the samples of `available` that are new: all but the samples that a callback was told of
   // and that no thread has tried to take since.
   void tell_available(std::size_t available) {
     const std::lock_guard lock(mutex_);
-    if (callback_ != nullptr && available > outstanding_) {
-      const std::size_t more = available - outstanding_;
-      outstanding_ = available;
-      callback_(user_data_, more);
+    const std::size_t told = told_;
+    if (callback_ != nullptr && available > told) {
+      told_ = available;
+      callback_(user_data_, available - told);
     }
   }
 
   // Call this before every attempt to take. A sample that arrives in between leads to one call too many, never to one
   // too few.
   void about_to_take() {
-    if (is_set()) {
+    if (told_.load(std::memory_order_acquire) > 0) {
       const std::lock_guard lock(mutex_);
-      if (outstanding_ > 0) {
-        --outstanding_;
+      if (told_ > 0) {
+        --told_;
       }
     }
   }
@@ -57,7 +60,7 @@ class ReadyCallback {
   std::mutex mutex_;
   rmw_event_callback_t callback_ = nullptr;
   const void* user_data_ = nullptr;
-  std::size_t outstanding_ = 0;
+  std::atomic<std::size_t> told_{0};  // changes under the lock
   std::atomic<bool> is_set_{false};
 };
 

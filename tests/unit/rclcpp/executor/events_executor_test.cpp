@@ -63,7 +63,7 @@ TEST_F(EventsExecutorTest, GivesEachKeptMessageOnceWhenTheHistoryOverflowed) {
   }
   ASSERT_TRUE(publisher->wait_for_all_acked(kPatience));
   ASSERT_TRUE(spin_until(executor, [&] { return received.size() == 3; }));
-  executor.spin_all(nanoseconds(0));
+  executor.spin_all(kPatience);
   EXPECT_EQ(received, (std::vector<uint64_t>{7, 8, 9}));
 }
 
@@ -174,7 +174,7 @@ TEST_F(EventsExecutorTest, HearsOfEveryTriggerOfAGuardCondition) {
   std::thread ringing([&] { bell->condition.trigger(); });
   EXPECT_TRUE(spin_until(executor, [&] { return bell->rings == 3; }));
   ringing.join();
-  executor.spin_all(nanoseconds(0));
+  executor.spin_all(kPatience);
   EXPECT_EQ(bell->rings, 3);
 }
 

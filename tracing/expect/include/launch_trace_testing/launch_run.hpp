@@ -47,7 +47,10 @@ struct RunResult {
   int exit_code = -1;      // of the launcher; -1 when it did not exit by itself
   int signal = 0;          // that ended the launcher, or 0
   bool timed_out = false;  // it was ended after RunOptions::patience
-  std::string out;         // what the launcher and the processes wrote
+  // Each process that the end of the launch has left running, as the launcher says it: "planner-3 left 1 process
+  // running: sleep (1234)". They are ended.
+  std::vector<std::string> left;
+  std::string out;  // what the launcher and the processes wrote
   std::string err;
 };
 

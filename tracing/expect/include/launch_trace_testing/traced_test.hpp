@@ -33,8 +33,9 @@ class TracedTest : public ::testing::Test {
 
   LaunchRun& run() { return run_.value(); }
 
-  // Waits until the system has ended by itself, and reads the trace. Its end must be good: in time, with code 0, and
-  // without a loss of events. Otherwise the test has failed.
+  // Waits until the system has ended by itself, and reads the trace. Its end must be good: in time, with code 0 (with 3
+  // a process has failed or crashed, also during the shutdown), with no process left running, and without a loss of
+  // events. Otherwise the test has failed.
   Trace finish() { return checked_trace(run().wait()); }
   // The same, but ends the system as Ctrl-C does.
   Trace stop() { return checked_trace(run().stop()); }
@@ -46,6 +47,7 @@ class TracedTest : public ::testing::Test {
     EXPECT_FALSE(result.timed_out) << "the system did not end by itself\n" << result.out << result.err;
     EXPECT_TRUE(result.timed_out || result.exit_code == 0) << "the launcher ended with " << result.exit_code << '\n'
                                                            << result.out << result.err;
+    EXPECT_THAT(result.left, ::testing::IsEmpty()) << "processes were left running, and have been ended";
     try {
       Trace trace = run().trace();
       EXPECT_THAT(trace, LostNothing());

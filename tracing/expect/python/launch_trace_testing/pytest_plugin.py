@@ -45,7 +45,8 @@ def traced_launch(launch_run):
     """
     A function that runs a launch file to its end and gives its Trace.
 
-    The end must be good: in time, with the exit code 0, and without a loss of events. The arguments of the launch file
+    The end must be good: in time, with the exit code 0 (with 3 a process has failed or crashed, also during the
+    shutdown), with no process left running, and without a loss of events. The arguments of the launch file
     are given by their names: traced_launch('system.launch.xml', count=5). `options` are further arguments of LaunchRun.
     """
 
@@ -54,6 +55,7 @@ def traced_launch(launch_run):
         result = running.wait()
         assert not result.timed_out, f'the system did not end by itself\n{result.out}{result.err}'
         assert result.exit_code == 0, f'the launcher ended with {result.exit_code}\n{result.out}{result.err}'
+        assert not result.left, 'processes were left running, and have been ended: ' + '; '.join(result.left)
         trace = running.trace()
         trace.expect_no_loss()
         return trace

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <memory>
 #include <new>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 
@@ -105,6 +106,35 @@ struct InC {
     return memory == nullptr ? nullptr : std::memset(memory, 0, count * size);
   }
 };
+
+// Functions of an allocator of C whose state is an `AllocatorT` for elements of one byte (retyped_deallocate() and
+// retyped_reallocate(): for one T). get_rcl_allocator() below needs no such conditions. Throw std::runtime_error
+// without a state.
+template <typename AllocatorT>
+AllocatorT& retyped(void* untyped_allocator) {
+  if (untyped_allocator == nullptr) {
+    throw std::runtime_error("Received incorrect allocator type");
+  }
+  return *static_cast<AllocatorT*>(untyped_allocator);
+}
+template <typename AllocatorT>
+void* retyped_allocate(std::size_t size, void* untyped_allocator) {
+  return std::allocator_traits<AllocatorT>::allocate(retyped<AllocatorT>(untyped_allocator), size);
+}
+template <typename AllocatorT>
+void* retyped_zero_allocate(std::size_t count, std::size_t size, void* untyped_allocator) {
+  void* memory = retyped_allocate<AllocatorT>(count * size, untyped_allocator);
+  return memory == nullptr ? nullptr : std::memset(memory, 0, count * size);
+}
+template <typename T, typename AllocatorT>
+void retyped_deallocate(void* memory, void* untyped_allocator) {
+  std::allocator_traits<AllocatorT>::deallocate(retyped<AllocatorT>(untyped_allocator), static_cast<T*>(memory), 1);
+}
+template <typename T, typename AllocatorT>
+void* retyped_reallocate(void* memory, std::size_t size, void* untyped_allocator) {
+  retyped_deallocate<T, AllocatorT>(memory, untyped_allocator);
+  return retyped_allocate<AllocatorT>(size, untyped_allocator);
+}
 
 // An allocator of C that takes its memory from `allocator`, which must live longer. For the standard allocator it is
 // the default one.

@@ -63,6 +63,12 @@ class AllocatorDeleter {
 template <typename T, typename U>
 void set_allocator_for_deleter(std::default_delete<T>* /*deleter*/, std::allocator<U>* /*allocator*/) {}
 
+// For any other deleter: throws std::runtime_error.
+template <typename AllocatorT, typename T, typename DeleterT>
+void set_allocator_for_deleter(DeleterT* /*deleter*/, AllocatorT* /*allocator*/) {
+  throw std::runtime_error("Reached unexpected template specialization");
+}
+
 template <typename AllocatorT, typename T>
 void set_allocator_for_deleter(AllocatorDeleter<T>* deleter, AllocatorT* allocator) {
   if (deleter == nullptr || allocator == nullptr) {

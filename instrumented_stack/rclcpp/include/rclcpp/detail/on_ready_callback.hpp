@@ -8,6 +8,8 @@
 #include <mutex>
 #include <utility>
 
+#include "rmw/event_callback_type.h"
+
 namespace rclcpp::detail {
 
 class OnReadyCallback {
@@ -27,10 +29,23 @@ class OnReadyCallback {
   void clear(SetInRclT set_in_rcl) {
     const std::lock_guard lock(mutex_);
     if (target_) {
-      set_in_rcl(nullptr, nullptr);
+      set_in_rcl(nullptr, hands_back_ ? rmw_event_callback_hands_back : nullptr);
       target_.reset();
     }
   }
+
+  // While one lives, this thread clears callbacks for an executor that an entity leaves: what it was told of and has
+  // not executed yet, the next callback is told of.
+  class HandBack {
+   public:
+    HandBack() : before_(hands_back_) { hands_back_ = true; }
+    ~HandBack() { hands_back_ = before_; }
+    HandBack(const HandBack&) = delete;
+    HandBack& operator=(const HandBack&) = delete;
+
+   private:
+    bool before_;
+  };
 
  private:
   struct Target {
@@ -42,6 +57,7 @@ class OnReadyCallback {
                                              const char* what);
   static void call(const void* target, size_t count);
 
+  static thread_local bool hands_back_;
   std::mutex mutex_;
   std::unique_ptr<Target> target_;
 };

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "rclcpp/detail/resolve_enable_topic_statistics.hpp"
 #include "rclcpp/node_interfaces/node_base_interface.hpp"
 #include "rclcpp/node_interfaces/node_timers_interface.hpp"
 #include "rclcpp/node_interfaces/node_topics_interface.hpp"

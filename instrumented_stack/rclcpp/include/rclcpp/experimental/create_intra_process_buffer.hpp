@@ -18,7 +18,8 @@ typename buffers::IntraProcessBuffer<MessageT, AllocatorT>::SharedPtr create_int
     IntraProcessBufferType buffer_type, const QoS& qos, const AllocatorT& allocator) {
   const auto create = [&](auto pointer) {
     using BufferT = decltype(pointer);
-    return std::make_shared<buffers::TypedIntraProcessBuffer<MessageT, AllocatorT, BufferT>>(
+    return std::make_shared<
+        buffers::TypedIntraProcessBuffer<MessageT, AllocatorT, allocator::Deleter<AllocatorT, MessageT>, BufferT>>(
         std::make_unique<buffers::RingBufferImplementation<BufferT>>(qos.depth()), allocator);
   };
   using Buffer = buffers::IntraProcessBuffer<MessageT, AllocatorT>;

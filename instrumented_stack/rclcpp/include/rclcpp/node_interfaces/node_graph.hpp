@@ -45,11 +45,16 @@ class NodeGraph : public NodeGraphInterface {
   NamesAndTypes get_service_names_and_types() const override;
   size_t count_services(const std::string& service_name) const override;
   size_t count_clients(const std::string& service_name) const override;
+  void notify_graph_change() override;
+  void notify_shutdown() override;
+  const rcl_guard_condition_t* get_graph_guard_condition() const override;
   Event::SharedPtr get_graph_event() override;
   void wait_for_graph_change(Event::SharedPtr event, std::chrono::nanoseconds timeout) override;
+  size_t count_graph_users() const override;
 
  private:
   NodeBaseInterface::SharedPtr node_base_;
+  const std::shared_ptr<char> user_ = std::make_shared<char>();  // every graph event shares it
 };
 
 }  // namespace rclcpp::node_interfaces

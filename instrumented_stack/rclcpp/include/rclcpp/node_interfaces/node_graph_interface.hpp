@@ -2,6 +2,8 @@
 // The graph as a node sees it: other nodes, topics, numbers of publishers and subscriptions.
 #pragma once
 
+#include <rcl/guard_condition.h>
+
 #include <chrono>
 #include <cstddef>
 #include <map>
@@ -66,11 +68,21 @@ class NodeGraphInterface {
   virtual size_t count_services(const std::string& service_name) const = 0;
   virtual size_t count_clients(const std::string& service_name) const = 0;
 
+  // Tells all that wait for the graph to look again. A change of the graph, and the end of the context, tell them
+  // anyway. Throws exceptions::RCLError.
+  virtual void notify_graph_change() = 0;
+  virtual void notify_shutdown() = 0;
+  // Triggered by every change of the graph.
+  virtual const rcl_guard_condition_t* get_graph_guard_condition() const = 0;
+
   // An event that every later change of the graph sets.
   virtual Event::SharedPtr get_graph_event() = 0;
   // Returns when the event is set, the timeout is over (negative: never), or the context has ended. Throws
-  // exceptions::InvalidEventError for null.
+  // exceptions::InvalidEventError for null, exceptions::EventNotRegisteredError for an event that is not from
+  // get_graph_event().
   virtual void wait_for_graph_change(Event::SharedPtr event, std::chrono::nanoseconds timeout) = 0;
+  // The number of events of get_graph_event() that are in use.
+  virtual size_t count_graph_users() const = 0;
 };
 
 }  // namespace rclcpp::node_interfaces

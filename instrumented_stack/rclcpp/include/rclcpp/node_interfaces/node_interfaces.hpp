@@ -23,6 +23,15 @@
 #include "rclcpp/node_interfaces/node_type_descriptions_interface.hpp"
 #include "rclcpp/node_interfaces/node_waitables_interface.hpp"
 
+// All interfaces of a node: NodeInterfaces<ALL_RCLCPP_NODE_INTERFACES>.
+#define ALL_RCLCPP_NODE_INTERFACES                                                                          \
+  rclcpp::node_interfaces::NodeBaseInterface, rclcpp::node_interfaces::NodeClockInterface,                  \
+      rclcpp::node_interfaces::NodeGraphInterface, rclcpp::node_interfaces::NodeLoggingInterface,           \
+      rclcpp::node_interfaces::NodeParametersInterface, rclcpp::node_interfaces::NodeServicesInterface,     \
+      rclcpp::node_interfaces::NodeTimeSourceInterface, rclcpp::node_interfaces::NodeTimersInterface,       \
+      rclcpp::node_interfaces::NodeTopicsInterface, rclcpp::node_interfaces::NodeTypeDescriptionsInterface, \
+      rclcpp::node_interfaces::NodeWaitablesInterface
+
 namespace rclcpp::node_interfaces {
 
 namespace detail {

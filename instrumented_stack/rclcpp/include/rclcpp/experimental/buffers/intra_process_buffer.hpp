@@ -28,11 +28,13 @@ class IntraProcessBufferBase {
   virtual size_t available_capacity() const = 0;
 };
 
-template <typename MessageT, typename AllocatorT = std::allocator<void>>
+// `DeleterT` is the deleter of unique pointers to messages.
+template <typename MessageT, typename AllocatorT = std::allocator<void>,
+          typename DeleterT = allocator::Deleter<AllocatorT, MessageT>>
 class IntraProcessBuffer : public IntraProcessBufferBase {
  public:
   RCLCPP_SMART_PTR_ALIASES_ONLY(IntraProcessBuffer)
-  using MessageUniquePtr = allocator::UniquePtr<MessageT, AllocatorT>;
+  using MessageUniquePtr = std::unique_ptr<MessageT, DeleterT>;
   using MessageSharedPtr = std::shared_ptr<const MessageT>;
 
   virtual void add_shared(MessageSharedPtr message) = 0;
@@ -47,10 +49,12 @@ class IntraProcessBuffer : public IntraProcessBufferBase {
 };
 
 // Holds pointers of type BufferT: shared or unique.
-template <typename MessageT, typename AllocatorT, typename BufferT>
-class TypedIntraProcessBuffer : public IntraProcessBuffer<MessageT, AllocatorT> {
+template <typename MessageT, typename AllocatorT = std::allocator<void>,
+          typename DeleterT = allocator::Deleter<AllocatorT, MessageT>,
+          typename BufferT = std::unique_ptr<MessageT, DeleterT>>
+class TypedIntraProcessBuffer : public IntraProcessBuffer<MessageT, AllocatorT, DeleterT> {
  public:
-  using Base = IntraProcessBuffer<MessageT, AllocatorT>;
+  using Base = IntraProcessBuffer<MessageT, AllocatorT, DeleterT>;
   using typename Base::MessageSharedPtr;
   using typename Base::MessageUniquePtr;
   static constexpr bool kHoldsShared = std::is_same_v<BufferT, MessageSharedPtr>;

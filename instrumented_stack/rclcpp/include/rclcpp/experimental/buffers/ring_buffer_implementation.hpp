@@ -64,7 +64,7 @@ class RingBufferImplementation : public BufferImplementationBase<BufferT> {
         all.push_back(ring_buffer_[index]);
       } else {
         using MessageT = typename BufferT::element_type;
-        all.push_back(BufferT(new MessageT(*ring_buffer_[index])));
+        all.push_back(BufferT(ring_buffer_[index] ? new MessageT(*ring_buffer_[index]) : nullptr));
       }
     }
     return all;

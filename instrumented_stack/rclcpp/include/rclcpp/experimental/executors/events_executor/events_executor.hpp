@@ -36,6 +36,10 @@ class EventsExecutor : public rclcpp::Executor {
 
   void spin() override;
 
+  // `max_duration` must be positive: 0, with which other executors have no limit, throws std::invalid_argument, as in
+  // rclcpp.
+  void spin_all(std::chrono::nanoseconds max_duration) override;
+
   // What leaves is disconnected from this executor when they return: the next executor may connect it then.
   using Executor::remove_node;
   void remove_node(const NodePtr& node, bool notify = true) override;
