@@ -220,6 +220,17 @@ TEST_F(EventTest, CallbacksAreToldOfWhatWaitsAndOfWhatComes) {
   EXPECT_EQ(later, 5u);  // three wait
   EXPECT_EQ(told, 4u);
 
+  // What comes later may push out what was told.
+  ASSERT_EQ(rmw_subscription_set_on_new_message_callback(subscription.handle, nullptr, nullptr), RMW_RET_OK);
+  const size_t depth = rmw_qos_profile_default.depth;
+  for (size_t i = 0; i < depth; ++i) {
+    publisher.publish(String());
+  }
+  ASSERT_EQ(rmw_publisher_wait_for_all_acked(publisher.handle, rmw_test::kPatience), RMW_RET_OK);
+  std::atomic<size_t> last{0};
+  ASSERT_EQ(rmw_subscription_set_on_new_message_callback(subscription.handle, count, &last), RMW_RET_OK);
+  EXPECT_EQ(last, depth);
+
   rmw_event_t event = matched;
   std::atomic<size_t> matches{0};
   ASSERT_EQ(rmw_event_set_callback(&event, count, &matches), RMW_RET_OK);

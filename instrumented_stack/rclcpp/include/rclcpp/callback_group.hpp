@@ -15,6 +15,8 @@
 namespace rclcpp {
 
 class ClientBase;
+class Context;
+class GuardCondition;
 class ServiceBase;
 class SubscriptionBase;
 class TimerBase;
@@ -32,6 +34,9 @@ class CallbackGroup : public std::enable_shared_from_this<CallbackGroup> {
 
   // If a group is not added to the executor together with its node, add it with Executor::add_callback_group().
   explicit CallbackGroup(CallbackGroupType group_type, bool automatically_add_to_executor_with_node = true);
+  // With get_notify_guard_condition().
+  CallbackGroup(CallbackGroupType group_type, std::weak_ptr<Context> context,
+                bool automatically_add_to_executor_with_node = true);
   ~CallbackGroup() { notify(); }
 
   CallbackGroupType type() const { return type_; }
@@ -103,6 +108,10 @@ class CallbackGroup : public std::enable_shared_from_this<CallbackGroup> {
   // set_on_change(). Executors use it. It is called without a lock held.
   void set_on_change(std::function<void()> on_change);
 
+  // Triggered by every change after its first call, for executors of others; null without a living context.
+  std::shared_ptr<GuardCondition> get_notify_guard_condition();
+  void trigger_notify_guard_condition() const;
+
   // Entities call it when they are destroyed.
   void entity_removed() const { notify(); }
 
@@ -123,6 +132,7 @@ class CallbackGroup : public std::enable_shared_from_this<CallbackGroup> {
   }
 
   const CallbackGroupType type_;
+  const std::weak_ptr<Context> context_;
   const bool automatically_add_to_executor_with_node_;
   std::atomic_bool associated_with_executor_{false};
   const std::shared_ptr<std::atomic_bool> can_be_taken_from_ = std::make_shared<std::atomic_bool>(true);
@@ -136,6 +146,7 @@ class CallbackGroup : public std::enable_shared_from_this<CallbackGroup> {
   std::vector<std::weak_ptr<Waitable>> waitables_;
   std::vector<std::weak_ptr<Waitable>> left_ready_;
   std::function<void()> on_change_;
+  std::shared_ptr<GuardCondition> notify_guard_condition_;  // null until somebody asks for it
 };
 
 }  // namespace rclcpp

@@ -13,6 +13,7 @@
 #include <new>
 #include <rosidl_runtime_cpp/message_initialization.hpp>
 #include <rosidl_typesupport_cpp/message_type_support.hpp>
+#include <type_traits>
 #include <utility>
 
 #include "rclcpp/allocator/allocator_common.hpp"
@@ -39,7 +40,11 @@ class LoanedMessage {
     if (memory) {
       loan_ = new (memory) MessageT(rosidl_runtime_cpp::MessageInitialization::SKIP);
     } else {
-      own_ = allocator::make_unique<MessageT>(AllocatorT(allocator));
+      if constexpr (std::is_constructible_v<AllocatorT, const OtherT&>) {
+        own_ = allocator::make_unique<MessageT>(AllocatorT(allocator));
+      } else {
+        own_ = allocator::make_unique<MessageT>(AllocatorT());
+      }
     }
   }
 

@@ -2,6 +2,7 @@
 // The network address from which a publisher sends, or at which a subscription receives.
 #pragma once
 
+#include <rcl/network_flow_endpoints.h>
 #include <rmw/network_flow_endpoint.h>
 
 #include <cstdint>

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <memory>
+#include <rcl_interfaces/msg/parameter.hpp>
 #include <rcl_interfaces/msg/parameter_event.hpp>
+#include <rcl_interfaces/msg/parameter_type.hpp>
+#include <rcl_interfaces/msg/parameter_value.hpp>
 #include <stdexcept>
 #include <string>
 #include <utility>

@@ -184,8 +184,7 @@ class RosoutQoS : public QoS {
 // Every policy as the middleware has it by default.
 class SystemDefaultsQoS : public QoS {
  public:
-  explicit SystemDefaultsQoS(const QoSInitialization& history = QoSInitialization(RMW_QOS_POLICY_HISTORY_SYSTEM_DEFAULT,
-                                                                                  RMW_QOS_POLICY_DEPTH_SYSTEM_DEFAULT));
+  explicit SystemDefaultsQoS(const QoSInitialization& history = KeepLast(RMW_QOS_POLICY_DEPTH_SYSTEM_DEFAULT, false));
 };
 
 // Adapts to the endpoints found at creation.

@@ -61,6 +61,11 @@ class Service : public ServiceBase, public std::enable_shared_from_this<Service<
         any_callback_(std::move(any_callback)) {
     trace_creation(any_callback_);
   }
+  // The same with a service that stays the caller's, and must outlive this object.
+  Service(std::shared_ptr<rcl_node_t> node_handle, rcl_service_t* service_handle,
+          AnyServiceCallback<ServiceT> any_callback)
+      : Service(std::move(node_handle), std::shared_ptr<rcl_service_t>(service_handle, [](rcl_service_t*) {}),
+                std::move(any_callback)) {}
 
   // Executors call these.
   std::shared_ptr<void> create_request() override { return std::make_shared<Request>(); }

@@ -25,9 +25,8 @@ template <typename T>
 struct is_serialized_subscription : is_serialized_subscription_argument<T> {};
 
 template <typename CallbackT>
-struct is_serialized_callback
-    : is_serialized_subscription_argument<
-          typename function_traits::function_traits<CallbackT>::template argument_type<0>> {};
+struct is_serialized_callback : is_serialized_subscription_argument<
+                                    typename function_traits::function_traits<CallbackT>::template argument_type<0>> {};
 
 // The message without references and pointers.
 template <typename MessageT>

@@ -13,7 +13,8 @@ namespace rclcpp {
 
 void detail::CallbackSymbol::trace_registration([[maybe_unused]] const void* callback) const {
   // Demangling is expensive, so it is done only if tracing is possible.
-  if (TRACETOOLS_TRACEPOINT_ENABLED(rclcpp_callback_register)) {
+  // An entity may have no callback yet.
+  if ((function_ || type_) && TRACETOOLS_TRACEPOINT_ENABLED(rclcpp_callback_register)) {
     char* symbol = function_ ? tracetools::detail::get_symbol_funcptr(function_)
                              : tracetools::detail::demangle_symbol(type_->name());
     TRACETOOLS_DO_TRACEPOINT(rclcpp_callback_register, callback, symbol);

@@ -17,10 +17,6 @@ std::string list_arguments(const std::vector<std::string>& arguments) {
   return list;
 }
 
-std::string with_prefix(const std::string& prefix, const std::string& text) {
-  return prefix.empty() ? text : prefix + ": " + text;
-}
-
 }  // namespace
 
 NameValidationError::NameValidationError(const char* name_type_, const char* name_, const char* error_msg_,
@@ -39,15 +35,15 @@ std::string NameValidationError::format_error(const char* name_type, const char*
 
 RCLErrorBase::RCLErrorBase(rcl_ret_t ret_, const rcl_error_state_t* error_state)
     : ret(ret_),
-      message(error_state->message),
-      file(error_state->file),
-      line(error_state->line_number),
+      message(error_state ? error_state->message : ""),
+      file(error_state ? error_state->file : ""),
+      line(error_state ? error_state->line_number : 0),
       formatted_message(rcl_get_error_string().str) {}
 
 RCLError::RCLError(rcl_ret_t ret_, const rcl_error_state_t* error_state, const std::string& prefix)
     : RCLError(RCLErrorBase(ret_, error_state), prefix) {}
 RCLError::RCLError(const RCLErrorBase& base_exc, const std::string& prefix)
-    : RCLErrorBase(base_exc), std::runtime_error(with_prefix(prefix, base_exc.formatted_message)) {}
+    : RCLErrorBase(base_exc), std::runtime_error(prefix + base_exc.formatted_message) {}
 
 RCLBadAlloc::RCLBadAlloc(rcl_ret_t ret_, const rcl_error_state_t* error_state)
     : RCLBadAlloc(RCLErrorBase(ret_, error_state)) {}
@@ -56,13 +52,13 @@ RCLBadAlloc::RCLBadAlloc(const RCLErrorBase& base_exc) : RCLErrorBase(base_exc) 
 RCLInvalidArgument::RCLInvalidArgument(rcl_ret_t ret_, const rcl_error_state_t* error_state, const std::string& prefix)
     : RCLInvalidArgument(RCLErrorBase(ret_, error_state), prefix) {}
 RCLInvalidArgument::RCLInvalidArgument(const RCLErrorBase& base_exc, const std::string& prefix)
-    : RCLErrorBase(base_exc), std::invalid_argument(with_prefix(prefix, base_exc.formatted_message)) {}
+    : RCLErrorBase(base_exc), std::invalid_argument(prefix + base_exc.formatted_message) {}
 
 RCLInvalidROSArgsError::RCLInvalidROSArgsError(rcl_ret_t ret_, const rcl_error_state_t* error_state,
                                                const std::string& prefix)
     : RCLInvalidROSArgsError(RCLErrorBase(ret_, error_state), prefix) {}
 RCLInvalidROSArgsError::RCLInvalidROSArgsError(const RCLErrorBase& base_exc, const std::string& prefix)
-    : RCLErrorBase(base_exc), std::runtime_error(with_prefix(prefix, base_exc.message)) {}
+    : RCLErrorBase(base_exc), std::runtime_error(prefix + base_exc.formatted_message) {}
 
 UnknownROSArgsError::UnknownROSArgsError(std::vector<std::string>&& unknown_ros_args_)
     : std::runtime_error("found unknown ROS arguments: " + list_arguments(unknown_ros_args_)),
@@ -76,22 +72,21 @@ void throw_from_rcl_error(rcl_ret_t ret, const std::string& prefix, const rcl_er
   if (!error_state) {
     error_state = rcl_get_error_state();
   }
-  if (!error_state) {
-    throw std::runtime_error(with_prefix(prefix, "rcl error state is not set"));
-  }
+  // As in ROS 2, a function of rcl that fails without a word makes an exception of its return value: "error not set".
   const RCLErrorBase base(ret, error_state);
   if (reset_error) {
     reset_error();
   }
+  const std::string before = prefix.empty() ? "" : prefix + ": ";
   switch (ret) {
     case RCL_RET_BAD_ALLOC:
       throw RCLBadAlloc(base);
     case RCL_RET_INVALID_ARGUMENT:
-      throw RCLInvalidArgument(base, prefix);
+      throw RCLInvalidArgument(base, before);
     case RCL_RET_INVALID_ROS_ARGS:
-      throw RCLInvalidROSArgsError(base, prefix);
+      throw RCLInvalidROSArgsError(base, before);
     default:
-      throw RCLError(base, prefix);
+      throw RCLError(base, before);
   }
 }
 

@@ -6,6 +6,9 @@
 #include <utility>
 
 #include "rclcpp/client_base.hpp"
+#include "rclcpp/context.hpp"
+#include "rclcpp/exceptions.hpp"
+#include "rclcpp/guard_condition.hpp"
 #include "rclcpp/service_base.hpp"
 #include "rclcpp/subscription_base.hpp"
 #include "rclcpp/timer.hpp"
@@ -27,7 +30,13 @@ void append_living(const std::vector<std::weak_ptr<EntityT>>& from, std::vector<
 }  // namespace
 
 CallbackGroup::CallbackGroup(CallbackGroupType group_type, bool automatically_add_to_executor_with_node)
-    : type_(group_type), automatically_add_to_executor_with_node_(automatically_add_to_executor_with_node) {}
+    : CallbackGroup(group_type, std::weak_ptr<Context>(), automatically_add_to_executor_with_node) {}
+
+CallbackGroup::CallbackGroup(CallbackGroupType group_type, std::weak_ptr<Context> context,
+                             bool automatically_add_to_executor_with_node)
+    : type_(group_type),
+      context_(std::move(context)),
+      automatically_add_to_executor_with_node_(automatically_add_to_executor_with_node) {}
 
 template <typename EntityT>
 void CallbackGroup::add(std::vector<std::weak_ptr<EntityT>> CallbackGroup::*list,
@@ -148,14 +157,46 @@ std::vector<std::weak_ptr<Waitable>> CallbackGroup::take_left_ready() {
   return std::exchange(left_ready_, {});
 }
 
+std::shared_ptr<GuardCondition> CallbackGroup::get_notify_guard_condition() {
+  const std::lock_guard lock(mutex_);
+  const std::shared_ptr<Context> context = context_.lock();
+  if (!context || !context->is_valid()) {
+    return nullptr;
+  }
+  if (!notify_guard_condition_) {
+    notify_guard_condition_ = std::make_shared<GuardCondition>(context);
+  }
+  return notify_guard_condition_;
+}
+
+void CallbackGroup::trigger_notify_guard_condition() const {
+  std::shared_ptr<GuardCondition> condition;
+  {
+    const std::lock_guard lock(mutex_);
+    condition = notify_guard_condition_;
+  }
+  if (condition) {
+    condition->trigger();
+  }
+}
+
 void CallbackGroup::notify() const {
   std::function<void()> on_change;
+  std::shared_ptr<GuardCondition> condition;
   {
     const std::lock_guard lock(mutex_);
     on_change = on_change_;
+    condition = notify_guard_condition_;
   }
   if (on_change) {
     on_change();
+  }
+  if (condition) {
+    try {
+      condition->trigger();
+    } catch (const exceptions::RCLError&) {
+      // Entities end after the context, too.
+    }
   }
 }
 

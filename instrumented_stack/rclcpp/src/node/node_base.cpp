@@ -73,7 +73,7 @@ NodeBase::~NodeBase() {
 
 CallbackGroup::SharedPtr NodeBase::create_callback_group(CallbackGroupType group_type,
                                                          bool automatically_add_to_executor_with_node) {
-  auto group = std::make_shared<CallbackGroup>(group_type, automatically_add_to_executor_with_node);
+  auto group = std::make_shared<CallbackGroup>(group_type, context_, automatically_add_to_executor_with_node);
   {
     const std::lock_guard lock(mutex_);
     callback_groups_.push_back(group);

@@ -86,7 +86,8 @@ bool ClockConditionalVariable::wait_until(std::unique_lock<std::mutex>& lock, Ti
                                           const std::function<bool()>& pred) {
   if (lock.mutex() != &mutex_) {
     throw std::runtime_error(
-        "ClockConditionalVariable::wait_until: Internal error, given lock does not use mutex returned by this->mutex()");
+        "ClockConditionalVariable::wait_until: Internal error, given lock does not use mutex returned by "
+        "this->mutex()");
   }
   waiter_.wait_until(lock, until, [this, &pred] { return shut_down_ || pred(); });
   return true;

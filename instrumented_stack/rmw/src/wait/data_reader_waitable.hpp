@@ -31,9 +31,12 @@ class DataReaderWaitable : public eprosima::fastdds::dds::DataReaderListener, pu
   // `callback` is called for samples that come, and for those that are waiting and that no callback was told of. Null
   // ends the calls.
   void set_on_new_data(rmw_event_callback_t callback, const void* user_data) {
+    if (on_new_data_.is_set()) {
+      heard_ = arrivals_.load(std::memory_order_acquire);
+    }
     on_new_data_.set(callback, user_data);
     if (callback != nullptr) {
-      on_new_data_.tell_available(reader->get_unread_count());
+      on_new_data_.tell_available(reader->get_unread_count(), arrivals_.load(std::memory_order_acquire) - heard_);
     }
   }
 
@@ -129,6 +132,7 @@ class DataReaderWaitable : public eprosima::fastdds::dds::DataReaderListener, pu
   std::atomic<std::uint64_t> arrivals_{0};
   std::atomic<std::uint64_t> settled_{0};   // arrivals that are known to have left nothing to take
   std::atomic<bool> is_taken_from_{false};  // since it was settled
+  std::atomic<std::uint64_t> heard_{0};     // arrivals until the last callback was taken away
   ReadyCallback on_new_data_;
 };
 

@@ -2,6 +2,7 @@
 // The callback that a Waitable calls when something has come. Waiters are woken as well.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <mutex>
@@ -35,13 +36,15 @@ class ReadyCallback {
   }
 
   // Calls the callback with the samples of `available` that are new: all but the samples that a callback was told of
-  // and that no thread has tried to take since.
-  void tell_available(std::size_t available) {
+  // and that no thread has tried to take since. At least `unheard` of them have come while there was no callback; they
+  // may have pushed out what was told.
+  void tell_available(std::size_t available, std::size_t unheard = 0) {
     const std::lock_guard lock(mutex_);
     const std::size_t told = told_;
-    if (callback_ != nullptr && available > told) {
+    const std::size_t count = std::max(available - std::min(told, available), std::min(unheard, available));
+    if (callback_ != nullptr && count > 0) {
       told_ = available;
-      callback_(user_data_, available - told);
+      callback_(user_data_, count);
     }
   }
 

@@ -101,7 +101,7 @@ def main() -> int:
     write_if_changed(os.path.join(options.output, f'{options.package}__interfaces.cpp'),
                      cpp_source.source(options.package, files, own, hashes))
     write_if_changed(os.path.join(options.output, f'{options.package}__c.cpp'),
-                     c_source.source(options.package, files, sizes))
+                     c_source.source(options.package, files, sizes, hashes))
     if options.python_output:
         for path, text in py_modules.modules(options.package, files, options.python_library).items():
             write_if_changed(os.path.join(options.python_output, path), text)

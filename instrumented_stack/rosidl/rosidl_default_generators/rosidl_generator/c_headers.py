@@ -81,7 +81,8 @@ def _bound(name: str, bound: object) -> str:
 def functions_header(file: InterfaceFile) -> str:
     body = _extern_c('\n'.join(_functions(c_types.name(message)) for message in file.messages))
     return cpp_types.header(detail_path(file, 'functions'),
-                            ['<stdbool.h>', '<stddef.h>', f'"{detail_path(file, "struct")}"'], body)
+                            ['<stdbool.h>', '<stddef.h>', f'"{detail_path(file, "struct")}"',
+                             '"rosidl_runtime_c/message_type_support_struct.h"', '"rosidl_runtime_c/type_hash.h"'], body)
 
 
 def _functions(name: str) -> str:
@@ -100,6 +101,8 @@ void {sequence}__fini({sequence}* array);
 void {sequence}__destroy({sequence}* array);
 bool {sequence}__are_equal(const {sequence}* lhs, const {sequence}* rhs);
 bool {sequence}__copy(const {sequence}* input, {sequence}* output);
+// The argument is not used, and may be null.
+const rosidl_type_hash_t* {name}__get_type_hash(const rosidl_message_type_support_t* type_support);
 '''
 
 

@@ -10,7 +10,7 @@ from . import c_headers, c_types, cpp_descriptions, cpp_types
 from .interface_definition import Field, InterfaceFile, Message, Type
 
 
-def source(package: str, files: List[InterfaceFile], least_sizes: Mapping[str, int]) -> str:
+def source(package: str, files: List[InterfaceFile], least_sizes: Mapping[str, int], hashes: Mapping[str, str]) -> str:
     messages = [message for file in files for message in file.messages]
     types = [field.type for message in messages for field in message.fields if field.default is not None]
     includes = [*(f'#include "{c_headers.main_path(file)}"' for file in files), '#include <limits>']
@@ -28,7 +28,7 @@ def source(package: str, files: List[InterfaceFile], least_sizes: Mapping[str, i
                        for interface in (*file.messages, *file.services, *([file.action] if file.action else [])))
     declarations = ''.join(f'extern const rosidl_type_description_t {name};\n' for name in described)
     declarations += ''.join(f'extern const rosidl_typesupport_c__MessageLayout {name}__layout;\n' for name in used)
-    body = '\n'.join(_message(message, least_sizes) for message in messages)
+    body = '\n'.join(_message(message, least_sizes) + _type_hash(message, hashes) for message in messages)
     for file in files:
         body += ''.join(f'ROSIDL_TYPESUPPORT_C__DEFINE_SERVICE({c_types.name(s)}, {s.package}, {s.namespace}, {s.name})\n'
                         for s in file.services)
@@ -54,6 +54,17 @@ const rosidl_typesupport_c__MessageLayout {name}__layout{{
     &{cpp_descriptions.symbol(message)}, sizeof({name}), {least}, {name}__offsets, {name}__nested,
     {f'{name}__set_defaults' if defaults else 'nullptr'}}};
 ROSIDL_TYPESUPPORT_C__DEFINE_MESSAGE({name}, {message.package}, {message.namespace}, {message.name})
+'''
+
+
+def _type_hash(message: Message, hashes: Mapping[str, str]) -> str:
+    name = c_types.name(message)
+    version, digits = hashes[f'{message.package}/{message.namespace}/{message.name}'].removeprefix('RIHS').split('_')
+    octets = ', '.join(f'0x{digits[i:i + 2]}' for i in range(0, len(digits), 2))
+    return f'''const rosidl_type_hash_t* {name}__get_type_hash(const rosidl_message_type_support_t*) {{
+  static const rosidl_type_hash_t kHash{{{int(version)}, {{{octets}}}}};
+  return &kHash;
+}}
 '''
 
 

@@ -2,9 +2,11 @@
 // What the tests of rclcpp itself use, and applications seldom.
 #include <rcl/graph.h>
 #include <rcl/network_flow_endpoints.h>
+#include <std_msgs/msg/string.h>
 
 #include <atomic>
 #include <chrono>
+#include <cstring>
 #include <example_interfaces/srv/add_two_ints.hpp>
 #include <future>
 #include <memory>
@@ -13,6 +15,7 @@
 #include <rclcpp/executors.hpp>
 #include <rclcpp/parameter_events_filter.hpp>
 #include <rclcpp/subscription_traits.hpp>
+#include <rclcpp/type_support_decl.hpp>
 #include <std_msgs/msg/string.hpp>
 #include <string>
 #include <thread>
@@ -70,9 +73,8 @@ TEST_F(ReleasedApi, ACallbackGroupIsInOneExecutorOnce) {
   rclcpp::executors::SingleThreadedExecutor executor;
   const auto group = node_->create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive, false);
   executor.add_callback_group(group, node_->get_node_base_interface());
-  EXPECT_EQ(
-      error_of<std::runtime_error>([&] { executor.add_callback_group(group, node_->get_node_base_interface()); }),
-      "Callback group has already been added to an executor.");
+  EXPECT_EQ(error_of<std::runtime_error>([&] { executor.add_callback_group(group, node_->get_node_base_interface()); }),
+            "Callback group has already been added to an executor.");
   EXPECT_EQ(executor.get_manually_added_callback_groups().size(), 1u);
 }
 
@@ -167,9 +169,7 @@ TEST_F(ReleasedApi, LaterCallbacksAreToldOfWhatNoOtherWasToldOf) {
   ASSERT_TRUE(client->wait_for_service(kPatience));
   std::atomic<size_t> first{0};
   std::atomic<size_t> second{0};
-  const auto count_in = [](std::atomic<size_t>& counter) {
-    return [&counter](size_t count) { counter += count; };
-  };
+  const auto count_in = [](std::atomic<size_t>& counter) { return [&counter](size_t count) { counter += count; }; };
   const auto wait_for = [](const std::atomic<size_t>& counter, size_t count) {
     const auto give_up = std::chrono::steady_clock::now() + kPatience;
     while (counter < count && std::chrono::steady_clock::now() < give_up) {
@@ -210,9 +210,19 @@ TEST_F(ReleasedApi, LaterCallbacksAreToldOfWhatNoOtherWasToldOf) {
   wait_for(first, 1);
   service->set_on_new_request_callback(count_in(second));
   EXPECT_EQ(second, 0u);
+  client->async_send_request(std::make_shared<AddTwoInts::Request>());
+  wait_for(second, 1);
+  service->clear_on_new_request_callback();
+  for (int i = 0; i < 3; ++i) {
+    client->async_send_request(std::make_shared<AddTwoInts::Request>());
+  }
+  std::atomic<size_t> third{0};
+  service->set_on_new_request_callback(count_in(third));
+  wait_for(third, 3);
   service->clear_on_new_request_callback();
 
   first = 0;
+  second = 0;
   client->set_on_new_response_callback(count_in(first));
   service->execute();
   wait_for(first, 1);
@@ -287,6 +297,10 @@ TEST_F(ReleasedApi, BuffersHoldNullPointersAndHaveADeleter) {
   rclcpp::experimental::buffers::TypedIntraProcessBuffer<char, std::allocator<void>, std::default_delete<char>> typed(
       std::make_unique<Buffer>(2));
   EXPECT_FALSE(typed.use_take_shared_method());
+  typed.add_unique(std::make_unique<char>('b'));
+  const auto unique = typed.get_all_data_unique();
+  ASSERT_EQ(unique.size(), 1u);
+  EXPECT_EQ(*unique[0], 'b');
 }
 
 TEST_F(ReleasedApi, AllocatorsOfCTakeTheirMemoryFromATypedOne) {
@@ -332,13 +346,59 @@ TEST_F(ReleasedApi, RclWaitsForEndpointsAndTellsTheirAddresses) {
             node_->get_node_graph_interface()->get_publisher_names_and_types_by_node("api", "/"));
 }
 
+TEST_F(ReleasedApi, AGroupTellsOfItsChangesByAGuardCondition) {
+  const auto group = node_->create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive);
+  const auto condition = group->get_notify_guard_condition();
+  ASSERT_NE(condition, nullptr);
+  EXPECT_EQ(group->get_notify_guard_condition(), condition);
+  size_t told = 0;
+  condition->set_on_trigger_callback([&told](size_t count) { told += count; });
+  auto timer = node_->create_wall_timer(
+      std::chrono::hours(1), [] {}, group);
+  EXPECT_EQ(told, 1u);
+  group->trigger_notify_guard_condition();
+  EXPECT_EQ(told, 2u);
+  EXPECT_EQ(rclcpp::CallbackGroup(rclcpp::CallbackGroupType::Reentrant).get_notify_guard_condition(), nullptr);
+}
+
+TEST_F(ReleasedApi, AServiceServesAHandleOfItsCaller) {
+  rcl_node_t* node = node_->get_node_base_interface()->get_rcl_node_handle();
+  rcl_service_t handle = rcl_get_zero_initialized_service();
+  const rclcpp::AnyServiceCallback<AddTwoInts> callback;
+  const auto serve = [&] {
+    rclcpp::Service<AddTwoInts>(node_->get_node_base_interface()->get_shared_rcl_node_handle(), &handle, callback);
+  };
+  EXPECT_EQ(error_of<std::runtime_error>(serve),
+            "rcl_service_t in constructor argument must be initialized beforehand.");
+  const rcl_service_options_t options = rcl_service_get_default_options();
+  const auto* type = rosidl_typesupport_cpp::get_service_type_support_handle<AddTwoInts>();
+  ASSERT_EQ(rcl_service_init(&handle, node, type, "add", &options), RCL_RET_OK);
+  EXPECT_EQ(error_of<std::runtime_error>(serve), "no error");
+  EXPECT_TRUE(rcl_service_is_valid(&handle));
+  EXPECT_EQ(rcl_service_fini(&handle, node), RCL_RET_OK);
+}
+
+TEST_F(ReleasedApi, TypesHaveTheirHashesAndSupports) {
+  const rosidl_type_hash_t* hash = std_msgs__msg__String__get_type_hash(nullptr);
+  auto publisher = node_->create_publisher<String>("hashed", 1);
+  const auto infos = node_->get_publishers_info_by_topic("hashed");
+  ASSERT_EQ(infos.size(), 1u);
+  EXPECT_EQ(std::memcmp(&infos[0].topic_type_hash(), hash, sizeof *hash), 0);
+  EXPECT_EQ(rclcpp::type_support::get_list_parameters_srv_type_support(),
+            rosidl_typesupport_cpp::get_service_type_support_handle<rcl_interfaces::srv::ListParameters>());
+  const std::string action = "example_interfaces/action/Fibonacci";
+  const auto library = rclcpp::get_typesupport_library(action, "rosidl_typesupport_cpp");
+  const auto* support = rclcpp::get_action_typesupport_handle(action, "rosidl_typesupport_cpp", *library);
+  ASSERT_NE(support, nullptr);
+  EXPECT_NE(support->goal_service_type_support, nullptr);
+}
+
 TEST_F(ReleasedApi, TraitsAndSmallFunctions) {
   static_assert(rclcpp::detail::template_unique_v<int, double>);
   static_assert(!rclcpp::detail::template_unique_v<int, double, int>);
   const auto take = [](std::shared_ptr<const String>) {};
-  static_assert(
-      std::is_same_v<rclcpp::subscription_traits::has_message_type<decltype(take)>::type, const String> ||
-      std::is_same_v<rclcpp::subscription_traits::has_message_type<decltype(take)>::type, String>);
+  static_assert(std::is_same_v<rclcpp::subscription_traits::has_message_type<decltype(take)>::type, const String> ||
+                std::is_same_v<rclcpp::subscription_traits::has_message_type<decltype(take)>::type, String>);
   static_assert(!rclcpp::subscription_traits::is_serialized_callback<decltype(take)>::value);
   const rclcpp::node_interfaces::NodeInterfaces<ALL_RCLCPP_NODE_INTERFACES> all(*node_);
   EXPECT_NE(all.get<rclcpp::node_interfaces::NodeBaseInterface>(), nullptr);

@@ -10,7 +10,8 @@
 namespace rclcpp::detail {
 
 // Throws std::runtime_error for a state that is none.
-inline bool resolve_enable_topic_statistics(const SubscriptionOptionsBase& options, const node_interfaces::NodeBaseInterface& node_base) {
+inline bool resolve_enable_topic_statistics(const SubscriptionOptionsBase& options,
+                                            const node_interfaces::NodeBaseInterface& node_base) {
   switch (options.topic_stats_options.state) {
     case TopicStatisticsState::Enable:
       return true;

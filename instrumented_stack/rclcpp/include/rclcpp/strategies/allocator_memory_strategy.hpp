@@ -14,6 +14,7 @@
 #include "rclcpp/allocator/allocator_common.hpp"
 #include "rclcpp/logging.hpp"
 #include "rclcpp/memory_strategy.hpp"
+#include "rclcpp/node.hpp"
 
 namespace rclcpp::memory_strategies::allocator_memory_strategy {
 

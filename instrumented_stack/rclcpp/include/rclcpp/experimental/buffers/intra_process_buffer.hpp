@@ -46,6 +46,7 @@ class IntraProcessBuffer : public IntraProcessBufferBase {
 
   // All messages, oldest first. They stay in the buffer.
   virtual std::vector<MessageSharedPtr> get_all_data_shared() = 0;
+  virtual std::vector<MessageUniquePtr> get_all_data_unique() = 0;
 };
 
 // Holds pointers of type BufferT: shared or unique.
@@ -88,6 +89,17 @@ class TypedIntraProcessBuffer : public IntraProcessBuffer<MessageT, AllocatorT, 
     }
   }
 
+  std::vector<MessageUniquePtr> get_all_data_unique() override {
+    if constexpr (kHoldsShared) {
+      std::vector<MessageUniquePtr> all;
+      for (const MessageSharedPtr& message : buffer_->get_all_data()) {
+        all.push_back(copy(*message));
+      }
+      return all;
+    } else {
+      return buffer_->get_all_data();
+    }
+  }
   std::vector<MessageSharedPtr> get_all_data_shared() override {
     if constexpr (kHoldsShared) {
       return buffer_->get_all_data();
