@@ -9,10 +9,10 @@
 #include "actions/process/process_settings.hpp"
 #include "actions/values/message_texts.hpp"
 #include "actions/values/ros_names.hpp"
-#include "base/environment/own_prefix.hpp"
 #include "launcher/message_types/interface_library.hpp"
 #include "launcher/message_types/message_condition.hpp"
 #include "launcher/message_types/read_value.hpp"
+#include "launcher/ros/ros_program.hpp"
 
 namespace launch {
 
@@ -74,7 +74,7 @@ class RosStep : public Action {
       type_.check_last(words.back(), words_.back()->where());
     }
     ProcessSpec spec;
-    spec.argv = {own_library_file(kProgram)};
+    at_place(where(), [&] { spec.argv = {ros_program(kProgram, scope.environment)}; });
     spec.argv.insert(spec.argv.end(), type_.command.begin(), type_.command.end());
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
       const StepType::Number& number = type_.numbers[i];

@@ -9,8 +9,9 @@ namespace launch {
 std::string own_prefix() {
   std::error_code ignored;
   const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path();
-  const bool is_companion = folder.filename() == "launch" && folder.parent_path().filename() == "lib";
-  return (is_companion ? folder.parent_path().parent_path() : folder.parent_path()).string();
+  const bool is_in_lib = folder.parent_path().filename() == "lib" &&
+                         (folder.filename() == "launch" || folder.filename() == "launch_companion");
+  return (is_in_lib ? folder.parent_path().parent_path() : folder.parent_path()).string();
 }
 
 std::string own_library_file(std::string_view name) {

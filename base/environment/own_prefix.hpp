@@ -11,9 +11,9 @@
 
 namespace launch {
 
-// The folder that holds the `bin` or `lib/launch` of this program: "/usr/local" for /usr/local/bin/launch, links
-// resolved. "" when
-// /proc cannot be read, so that own_prefix() + "/share" is an absolute path in any case.
+// The folder that holds the `bin`, `lib/launch` or `lib/launch_companion` of this program: "/usr/local" for
+// /usr/local/bin/launch, links resolved. "" when /proc cannot be read, so that own_prefix() + "/share" is an absolute
+// path in any case.
 std::string own_prefix();
 
 // The path of `name` in this program's lib/launch, which holds the programs and libraries that nobody starts by hand.

@@ -11,10 +11,12 @@
 #include <array>
 #include <cerrno>
 
+#include "base/diagnostics/diagnostic.hpp"
 #include "base/environment/own_prefix.hpp"
 #include "base/files/unique_fd.hpp"
 #include "base/processes/spawn.hpp"
 #include "launcher/process/isolation/namespaces.hpp"
+#include "launcher/ros/ros_program.hpp"
 #include "launcher/ros/ros_protocol.hpp"
 
 namespace launch {
@@ -109,10 +111,11 @@ RosClientProcess::Connection::Connection(EventLoop& loop, const std::string& pro
   const UniqueFd other(ends[1]);
 
   Environment::Variables variables = environment.variables();
-  // The program has its libraries beside it, and those of another installation of ROS 2 must not come before them.
-  // Preloaded libraries are meant for nodes.
-  variables.erase("LD_LIBRARY_PATH");
-  variables.erase("LD_PRELOAD");
+  if (!is_of_companion(program)) {
+    // The program has its libraries beside it, and those of another installation of ROS 2 must not come before them.
+    variables.erase("LD_LIBRARY_PATH");
+  }
+  variables.erase("LD_PRELOAD");                  // meant for nodes
   variables["TRACETOOLS_RUNTIME_DISABLE"] = "1";  // the launcher's own messages are no part of a trace
   ChildProgram child{
       .program = program,
@@ -227,7 +230,7 @@ int RosClientProcess::Connection::reap() {
   return status;
 }
 
-RosClientProcess::RosClientProcess(EventLoop& loop, std::string program, const Namespaces* namespaces)
+RosClientProcess::RosClientProcess(EventLoop& loop, const Namespaces* namespaces, std::string program)
     : loop_(loop), program_(std::move(program)), namespaces_(namespaces) {}
 
 RosClientProcess::~RosClientProcess() {
@@ -242,17 +245,26 @@ EventLoop::SourcePtr RosClientProcess::ask(const RosRequest& request, const Envi
       graph.emplace(name, value);
     }
   }
-  auto found = connections_.find(graph);
+  auto found = connections_.end();
+  std::string error;
   try {
+    const std::string program = program_.empty() ? ros_program(kProgram, environment) : program_;
+    found = connections_.find({program, graph});
     if (found == connections_.end() || !found->second->is_open()) {
-      auto connection = std::make_shared<Connection>(loop_, program_, namespaces_, environment);
-      found = connections_.insert_or_assign(std::move(graph), std::move(connection)).first;
+      auto connection = std::make_shared<Connection>(loop_, program, namespaces_, environment);
+      found = connections_.insert_or_assign({program, std::move(graph)}, std::move(connection)).first;
     }
-  } catch (const std::system_error& error) {
+  } catch (const LaunchError& given) {
+    const Diagnostic& first = given.diagnostics().front();
+    error = fmt::format("{}: {}", first.message, first.help);
+  } catch (const std::system_error& given) {
+    const bool is_missing = given.code() == std::errc::no_such_file_or_directory && program_.empty();
+    error = is_missing ? "a request to a node " + needs_missing_file(kProgram) : given.what();
+  }
+  if (!error.empty()) {
     RosAnswer lost;
     lost.client_lost = true;
-    const bool is_missing = error.code() == std::errc::no_such_file_or_directory && program_ == default_program();
-    lost.error = is_missing ? "a request to a node " + needs_missing_file(kProgram) : error.what();
+    lost.error = std::move(error);
     return loop_.after(Duration(0), [done = std::move(done), lost = std::move(lost)] { done(lost); });
   }
   const RosRequestId id = found->second->send(request, timeout, std::move(done));
@@ -260,13 +272,9 @@ EventLoop::SourcePtr RosClientProcess::ask(const RosRequest& request, const Envi
 }
 
 void RosClientProcess::close() {
-  for (const auto& [graph, connection] : connections_) {
+  for (const auto& [key, connection] : connections_) {
     connection->close();
   }
-}
-
-std::string RosClientProcess::default_program() {
-  return own_library_file(kProgram);
 }
 
 }  // namespace launch

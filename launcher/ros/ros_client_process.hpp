@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "launcher/ros/ros_client.hpp"
 
@@ -20,17 +21,14 @@ class Namespaces;
 
 class RosClientProcess final : public RosClient {
  public:
-  // The loop must outlive it, and so must the namespaces in which the program runs, if there are any.
-  explicit RosClientProcess(EventLoop& loop, std::string program = default_program(),
-                            const Namespaces* namespaces = nullptr);
+  // The loop must outlive it, and so must the namespaces in which the program runs, if there are any. `program` is
+  // for tests; empty: that of each request's environment (ros_program.hpp).
+  explicit RosClientProcess(EventLoop& loop, const Namespaces* namespaces = nullptr, std::string program = {});
   ~RosClientProcess() override;  // waits for the programs to end, a second at most
 
   [[nodiscard]] EventLoop::SourcePtr ask(const RosRequest& request, const Environment& environment, Duration timeout,
                                          Done done) override;
   void close() override;
-
-  // ../lib/launch/launch-ros-client, relative to the directory of this program.
-  static std::string default_program();
 
  private:
   class Connection;
@@ -39,8 +37,8 @@ class RosClientProcess final : public RosClient {
   EventLoop& loop_;
   std::string program_;
   const Namespaces* namespaces_;
-  // The keys are the variables that choose the graph.
-  std::map<Environment, std::shared_ptr<Connection>> connections_;
+  // The keys are the program and the variables that choose the graph.
+  std::map<std::pair<std::string, Environment>, std::shared_ptr<Connection>> connections_;
 };
 
 }  // namespace launch

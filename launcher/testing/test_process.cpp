@@ -127,7 +127,7 @@ void run_launch(const TestRun& run, Guardian& guardian, TestResult& result) {
       default_exec_program(), [&](const ProcessSpec& spec) { return network ? &network->host_of(spec) : nullptr; });
   guardian.set_log(log_directory.path + "/launch.log");
 
-  RosClientProcess ros_client(*loop, RosClientProcess::default_program(), network ? &network->common_host() : nullptr);
+  RosClientProcess ros_client(*loop, network ? &network->common_host() : nullptr);
   LaunchContext context(run.registry, environment, own_prefix(),
                         [&output](LogLevel level, std::string_view logger, std::string_view text) {
                           output.message(level, logger, text);

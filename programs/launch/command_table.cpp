@@ -9,6 +9,7 @@
 
 #include "base/environment/own_environment.hpp"
 #include "base/environment/own_prefix.hpp"
+#include "launcher/ros/ros_program.hpp"
 #include "programs/command_line/result_output.hpp"
 #include "programs/launch/command_functions.hpp"
 #include "programs/launch/completion/help_options.hpp"
@@ -62,7 +63,8 @@ constexpr const char* kRosProgram = "launch-ros-command";
 Words ros_words(const Words& words) {
   Words argv = {"launch", "complete"};
   argv.insert(argv.end(), words.begin(), words.end());
-  std::istringstream lines(output_of(own_library_file(kRosProgram), std::move(argv)));
+  const std::string program = companion_program(kRosProgram, own_environment()).value_or(own_library_file(kRosProgram));
+  std::istringstream lines(output_of(program, std::move(argv)));
   Words found;
   for (std::string line; std::getline(lines, line);) {
     found.push_back(line);
@@ -76,8 +78,14 @@ Command ros_command(const char* name, const char* operand, const char* help) {
           .help = help,
           .program = kRosProgram,
           .program_gets_name = true,
+          .asks_nodes = true,
           .complete = ros_words,
           .completes_options = true};
+}
+
+Command without_nodes(Command command) {
+  command.asks_nodes = false;
+  return command;
 }
 
 Command asking(Command command) {
@@ -148,7 +156,7 @@ const std::vector<Command>& command_table() {
        .help = "draws nodes, namespaces, includes and remapped topics",
        .run = graph_command,
        .complete = launch_file_words},
-      ros_command("interface", "VERB", "shows the messages, services and actions that are installed"),
+      without_nodes(ros_command("interface", "VERB", "shows the messages, services and actions that are installed")),
       ros_command("lifecycle", "VERB", "shows and changes the states of nodes with a life cycle"),
       asking(ros_command("loglevel", "NODE", "prints or sets the level of the loggers of nodes")),
       {.name = "logs",

@@ -14,6 +14,7 @@
 #include "base/environment/own_environment.hpp"
 #include "base/environment/own_prefix.hpp"
 #include "launcher/control/control_client.hpp"
+#include "launcher/ros/ros_program.hpp"
 #include "programs/command_line/subcommand.hpp"
 #include "programs/launch/completion/help_options.hpp"
 #include "programs/launch/remote/on_option.hpp"
@@ -41,7 +42,15 @@ std::string name_with_launch(const Command& command) {
 }
 
 int become(const Command& command, const Words& words) {
-  const std::string program = own_library_file(command.program);
+  std::string program = own_library_file(command.program);
+  if (command.asks_nodes) {
+    try {
+      program = ros_program(command.program, own_environment());
+    } catch (const LaunchError& error) {
+      print_errors(error, name_with_launch(command));
+      return 1;
+    }
+  }
   Words named(words.begin() + (command.program_gets_name ? 0 : std::ptrdiff_t(words_of_name(command).size())),
               words.end());
   named.insert(named.begin(), command.program_gets_name ? "launch" : name_with_launch(command));

@@ -25,6 +25,7 @@ struct Command {
   // middleware, so other programs do what needs them.
   const char* program = nullptr;
   bool program_gets_name = false;  // it does several commands
+  bool asks_nodes = false;         // the program may be that of a companion (launcher/ros/ros_program.hpp)
 
   bool asks_launch = false;  // it asks a running launch, and takes --on (remote/on_option.hpp)
   OtherTerminal other_terminal = OtherTerminal::kNone;  // what it wants there

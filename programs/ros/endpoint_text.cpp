@@ -53,17 +53,6 @@ std::string liveliness_text(const rmw_qos_profile_t& qos) {
 
 }  // namespace
 
-std::string hash_text(const rosidl_type_hash_t& hash) {
-  if (hash.version == 0) {
-    return "INVALID";
-  }
-  std::string text = fmt::format("RIHS{:02}_", hash.version);
-  for (const std::uint8_t byte : hash.value) {
-    text += fmt::format("{:02x}", byte);
-  }
-  return text;
-}
-
 std::string gid_text(const rclcpp::TopicEndpointInfo& endpoint) {
   std::string gid;
   for (const std::uint8_t byte : endpoint.endpoint_gid()) {

@@ -7,8 +7,6 @@
 
 namespace launch {
 
-// "RIHS01_…", or "INVALID".
-std::string hash_text(const rosidl_type_hash_t& hash);
 // "01.0f.…"
 std::string gid_text(const rclcpp::TopicEndpointInfo& endpoint);
 // A line for each policy, without an end of the last one. Each line begins with `indent`.

@@ -32,8 +32,8 @@ DescribedPublisher::~DescribedPublisher() {
 }
 
 void DescribedPublisher::publish(const MessageValue& value) {
-  const DescribedMessage message{type_.type(), value};
-  require_ok(rcl_publish(&publisher_, &message, nullptr), "cannot publish");
+  NativeMessage message(type_, value);
+  require_ok(rcl_publish(&publisher_, message.data(), nullptr), "cannot publish");
 }
 
 std::size_t DescribedPublisher::subscription_count() const {
@@ -94,24 +94,24 @@ bool DescribedClient::service_is_ready() const {
 }
 
 std::int64_t DescribedClient::send(const MessageValue& request) {
-  const DescribedMessage message{type_.request().type(), request};
+  NativeMessage message(type_.request(), request);
   std::int64_t sent = 0;
-  require_ok(rcl_send_request(&client_, &message, &sent), "cannot send the request");
+  require_ok(rcl_send_request(&client_, message.data(), &sent), "cannot send the request");
   return sent;
 }
 
 std::optional<MessageValue> DescribedClient::take(std::int64_t sent) {
   while (true) {
-    DescribedMessage response{type_.response().type(), {}};
+    NativeMessage response(type_.response());
     rmw_request_id_t id{};
-    const rcl_ret_t ret = rcl_take_response(&client_, &id, &response);
+    const rcl_ret_t ret = rcl_take_response(&client_, &id, response.data());
     if (ret == RCL_RET_CLIENT_TAKE_FAILED) {
       rcl_reset_error();
       return std::nullopt;
     }
     require_ok(ret, "cannot take the response");
     if (id.sequence_number == sent) {
-      return std::move(response.value);
+      return response.value();
     }
   }
 }

@@ -13,12 +13,12 @@
 #include <rclcpp/serialized_message.hpp>
 #include <string>
 
-#include "programs/ros/described_type.hpp"
 #include "programs/ros/graph_session.hpp"
+#include "programs/type_supports/described_type.hpp"
 
 namespace launch {
 
-// All throw rclcpp's exceptions. The session must outlive them.
+// All throw rclcpp's exceptions, or std::runtime_error (described_type.hpp). The session must outlive them.
 class DescribedPublisher {
  public:
   DescribedPublisher(GraphSession& session, const std::string& topic, std::shared_ptr<const MessageType> type,

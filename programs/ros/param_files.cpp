@@ -5,10 +5,10 @@
 
 #include <CLI/CLI.hpp>
 #include <map>
-#include <rclcpp/parameter_map.hpp>
 
 #include "launcher/message_types/print_value.hpp"
 #include "launcher/message_types/yaml_text.hpp"
+#include "programs/rclcpp_versions/rclcpp_versions.hpp"
 #include "programs/ros/parameter_verb.hpp"
 
 namespace launch {
@@ -87,7 +87,7 @@ class ParamLoad final : public ParameterVerb {
   int run() override {
     GraphSession session;
     const std::string node = find_node(session);
-    const auto all = rclcpp::parameter_map_from_yaml_file(file_, no_wildcard_ ? nullptr : node.c_str());
+    const auto all = rclcpp_versions::parameters_of_file(file_, no_wildcard_ ? nullptr : node.c_str());
     const auto own = all.find(node);
     if (own == all.end() || own->second.empty()) {
       throw CommandError(fmt::format("'{}' has no parameters for node '{}'", file_, node));

@@ -9,6 +9,7 @@
 #include "base/diagnostics/diagnostic.hpp"
 #include "launcher/message_types/print_value.hpp"
 #include "launcher/message_types/read_value.hpp"
+#include "programs/rclcpp_versions/rclcpp_versions.hpp"
 #include "programs/ros/calculations/type_hash.hpp"
 #include "programs/ros/endpoint_text.hpp"
 #include "programs/ros/endpoints.hpp"
@@ -49,14 +50,14 @@ std::vector<ServiceEnd> service_ends(GraphSession& session, const std::string& s
 std::string hash_of_type(const ServiceEnd& end, const std::string& name, bool is_client) {
   try {
     const ServiceType type = installed_interfaces().service(name);
-    const std::string announced = hash_text((is_client ? end.published : end.taken).topic_type_hash());
+    const std::string announced = rclcpp_versions::type_hash_text(is_client ? end.published : end.taken);
     if (announced == type_hash(*type.request)) {
       return service_type_hash(type, *installed_interfaces().message(name + "_Event"));
     }
   } catch (const LaunchError&) {
     // said by the word for it
   }
-  return hash_text({});
+  return "INVALID";
 }
 
 std::string service_end_text(const ServiceEnd& end, const std::string& type, bool is_client) {
@@ -93,9 +94,10 @@ class ServiceInfo final : public Verb {
     session.discover(look_.time());
     const std::string type = fmt::format("{}", fmt::join(types_of(session, kServices, service), ", "));
     const char* const line_end = verbose_ ? "\n\n" : "\n";
-    put(fmt::format("Type: {}\nClients count: {}{}", type, session.node().count_clients(service), line_end));
+    put(fmt::format("Type: {}\nClients count: {}{}", type, rclcpp_versions::count_clients(session.node(), service),
+                    line_end));
     put_ends(session, service, type, true);
-    put(fmt::format("Services count: {}{}", session.node().count_services(service), line_end));
+    put(fmt::format("Services count: {}{}", rclcpp_versions::count_services(session.node(), service), line_end));
     put_ends(session, service, type, false);
     return 0;
   }

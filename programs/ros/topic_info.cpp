@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "programs/rclcpp_versions/rclcpp_versions.hpp"
 #include "programs/ros/endpoint_text.hpp"
 #include "programs/ros/graph_names.hpp"
 #include "programs/ros/topic_graph.hpp"
@@ -26,7 +27,7 @@ std::string endpoint_text(const rclcpp::TopicEndpointInfo& endpoint) {
       "GID: {}\n"
       "QoS profile:\n"
       "{}",
-      endpoint.node_name(), endpoint.node_namespace(), endpoint.topic_type(), hash_text(endpoint.topic_type_hash()),
+      endpoint.node_name(), endpoint.node_namespace(), endpoint.topic_type(), rclcpp_versions::type_hash_text(endpoint),
       is_publisher ? "PUBLISHER" : "SUBSCRIPTION", gid_text(endpoint), qos_text(endpoint, "  "));
 }
 

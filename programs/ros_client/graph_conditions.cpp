@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "programs/rclcpp_versions/rclcpp_versions.hpp"
 #include "programs/ros_client/opaque_subscription.hpp"
 #include "programs/ros_client/operation.hpp"
 
@@ -49,8 +50,9 @@ std::unique_ptr<Operation> wait_for(const TopicPresent& request, rclcpp::Node& n
 }
 
 std::unique_ptr<Operation> wait_for(const ServicePresent& request, rclcpp::Node& node, Operation::Answer answer) {
-  return std::make_unique<GraphCondition>(request, std::move(answer),
-                                          [&node, name = request.service] { return node.count_services(name) != 0; });
+  return std::make_unique<GraphCondition>(request, std::move(answer), [&node, name = request.service] {
+    return rclcpp_versions::count_services(node, name) != 0;
+  });
 }
 
 namespace {

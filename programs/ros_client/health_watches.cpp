@@ -16,6 +16,7 @@
 #include <string>
 #include <utility>
 
+#include "programs/rclcpp_versions/rclcpp_versions.hpp"
 #include "programs/ros_client/opaque_subscription.hpp"
 #include "programs/ros_client/operation.hpp"
 
@@ -175,7 +176,7 @@ class ServiceWatch final : public Operation {
       return;
     }
     next_ = now + every_ / 2;
-    if (node_.count_services(service_) == 0) {
+    if (rclcpp_versions::count_services(node_, service_) == 0) {
       is_asked_.reset();
       conclude(ServiceFinding::kGone);
     } else if (!may_be_asked()) {

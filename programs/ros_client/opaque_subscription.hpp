@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A subscription to messages of any type.
-//
-// The middleware does not read the messages, so their type need not be known when this program is built. DDS only asks
-// a reader for the name of the type.
+// A subscription to messages of any type, which are taken as bytes.
 #pragma once
 
 #include <rcl/subscription.h>
@@ -21,7 +18,8 @@ class OpaqueSubscription {
     rmw_message_info_t info{};
   };
 
-  // `type` is "std_msgs/msg/String". The node must outlive the subscription. Throws rclcpp's exceptions.
+  // `type` is "std_msgs/msg/String". The node must outlive the subscription. Throws rclcpp's exceptions, or
+  // std::runtime_error if the middleware can't have the type.
   OpaqueSubscription(rclcpp::Node& node, const std::string& topic, const std::string& type, const rclcpp::QoS& qos);
   ~OpaqueSubscription();
   OpaqueSubscription(const OpaqueSubscription&) = delete;

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "programs/rclcpp_versions/rclcpp_versions.hpp"
 #include "programs/ros_client/operation.hpp"
 
 namespace launch {
@@ -31,7 +32,7 @@ class ServiceCall {
 
   // Continues the call. Returns the response, or null as long as there is none.
   std::shared_ptr<Response> look() {
-    const std::size_t services = node_.count_services(service_);
+    const std::size_t services = rclcpp_versions::count_services(node_, service_);
     if (tries_.empty() || (tries_.back().sent && services > services_)) {
       tries_.push_back({node_.create_client<ServiceT>(service_)});
     }

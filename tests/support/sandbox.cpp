@@ -134,6 +134,9 @@ Sandbox::Sandbox() : directory_(make_directory()), previous_directory_(fs::curre
   }
   fs::permissions(directory_ / "runtime", fs::perms::owner_all);  // as the specification of XDG_RUNTIME_DIR asks
   set_environment("ROS_DOMAIN_ID", std::to_string(domain));
+  if (const char* const prefixes = std::getenv("TEST_AMENT_PREFIX_PATH")) {
+    set_environment("AMENT_PREFIX_PATH", prefixes);
+  }
 }
 
 Sandbox::~Sandbox() {

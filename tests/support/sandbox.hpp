@@ -27,10 +27,10 @@ namespace test_support {
 // what they share.
 //
 // HOME, LTTNG_HOME, ROS_HOME, ROS_LOG_DIR, ROS_TRACE_DIR, TMPDIR and XDG_RUNTIME_DIR point into directory(). All other
-// ROS_* variables and AMENT_PREFIX_PATH are unset; ROS_DOMAIN_ID is set. Processes that the test leaves behind become
-// children of the test; they are killed and reaped at the end. A test fails if it leaves anything but LTTng's daemons.
-// The directory is removed unless KEEP_TEST_DIRS is set. Environment, namespaces and working directory are then as
-// before.
+// ROS_* variables are unset; ROS_DOMAIN_ID is set. AMENT_PREFIX_PATH is what TEST_AMENT_PREFIX_PATH says, else unset.
+// Processes that the test leaves behind become children of the test; they are killed and reaped at the end. A test
+// fails if it leaves anything but LTTng's daemons. The directory is removed unless KEEP_TEST_DIRS is set. Environment,
+// namespaces and working directory are then as before.
 class Sandbox {
  public:
   Sandbox();

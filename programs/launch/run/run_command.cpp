@@ -177,7 +177,7 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
     supervisor.watch_terminal();
   }
 
-  RosClientProcess ros_client(*loop, RosClientProcess::default_program(), namespaces);
+  RosClientProcess ros_client(*loop, namespaces);
   LaunchContext context(registry, environment, own_prefix(),
                         [&output](LogLevel level, std::string_view logger, std::string_view text) {
                           output.message(level, logger, text);

@@ -13,6 +13,7 @@
 
 #include "base/environment/own_environment.hpp"
 #include "launcher/ros/ros_client_process.hpp"
+#include "launcher/ros/ros_program.hpp"
 #include "tests/support/sandbox.hpp"
 
 class RosClientTest : public testing::Test {
@@ -54,7 +55,8 @@ class RosClientTest : public testing::Test {
   test_support::Sandbox sandbox_;
   launch::Environment environment_ = launch::own_environment();
   std::unique_ptr<launch::EventLoop> loop_ = launch::make_sd_event_loop();
-  launch::RosClientProcess client_{*loop_, LAUNCH_ROS_CLIENT};
+  launch::RosClientProcess client_{
+      *loop_, nullptr, launch::companion_program("launch-ros-client", environment_).value_or(LAUNCH_ROS_CLIENT)};
   rclcpp::Node::SharedPtr node_;
   std::unique_ptr<rclcpp::executors::SingleThreadedExecutor> executor_;
   std::thread spinner_;

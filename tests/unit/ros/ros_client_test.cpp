@@ -201,7 +201,7 @@ TEST_F(RosClientTest, AClientThatIsKilledIsToldAndTheNextRequestStartsAnother) {
 
 TEST_F(RosClientTest, AProgramThatIsMissingIsToldLater) {
   NEEDS_VFORK();
-  launch::RosClientProcess missing(*loop_, "/nowhere/launch-ros-client");
+  launch::RosClientProcess missing(*loop_, nullptr, "/nowhere/launch-ros-client");
   std::optional<RosAnswer> answer;
   const auto source = missing.ask(launch::NodePresent{"/n"}, environment_, 0s, [&](const RosAnswer& given) {
     answer = given;
