@@ -186,9 +186,7 @@ void ParameterVerb::declare_node(CLI::App& app) {
   app.add_option("node", node_, "name of the node")->required();
   look_.declare(app);
   app.add_flag("--include-hidden-nodes", hidden_, "has no effect: a node that is named may be hidden");
-  app.add_option("--timeout", timeout_, "wait so many seconds for the node")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  app.add_option("--timeout", timeout_, "wait so many seconds for the node; default: 3")->check(CLI::PositiveNumber);
   app.add_option("--service-timeout", service_timeout_, "wait so many seconds for an answer; default: 10")
       ->check(CLI::PositiveNumber);
 }
@@ -197,7 +195,8 @@ std::string ParameterVerb::find_node(GraphSession& session) const {
   if (service_timeout_) {
     session.set_answer_time(Seconds(*service_timeout_));
   }
-  return require_node(session, node_, Seconds(std::max(timeout_, look_.spin_time.value_or(0.0))));
+  return require_node(session, node_,
+                      Seconds(std::max(timeout_.value_or(kLongestLook.count()), look_.spin_time.value_or(0.0))));
 }
 
 int ParameterVerb::report(const SetResult& result, const std::string& good, const std::string& bad) {

@@ -65,7 +65,7 @@ class ParameterVerb : public Verb {
  private:
   LookOptions look_;
   bool hidden_ = false;
-  double timeout_ = 1.0;
+  std::optional<double> timeout_;
   std::optional<double> service_timeout_;
 };
 

@@ -153,6 +153,15 @@ TEST(GraphOptions, ParametersOfNoNode) {
   EXPECT_EQ(list.err, "launch param list: there is no node with parameters\n");
 }
 
+// Nodes of another ROS 2 may be found only after more than a second.
+TEST(GraphOptions, ThatANodeIsNotThereIsSaidAfterALongLook) {
+  Sandbox sandbox;
+  const auto begin = std::chrono::steady_clock::now();
+  const CommandResult set = launch_command({"param", "set", "/nobody", "gain", "1"});
+  EXPECT_EQ(set.err, "launch param set: error: there is no node '/nobody'\n");
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::seconds(3));
+}
+
 TEST(GraphOptions, AComponentOfItsOwn) {
   Sandbox sandbox;
   RunningCommand standalone(
