@@ -21,9 +21,9 @@ namespace fs = std::filesystem;
 constexpr const char* kPackage = "launch_companion";
 
 // Those over DDS understand each other: what they write for topics, services and nodes is the same.
-constexpr std::array<std::string_view, 6> kMiddlewaresOfDds = {"rmw_fastrtps_cpp",  "rmw_fastrtps_dynamic_cpp",
+constexpr std::array<std::string_view, 6> kMiddlewaresOfDds = {"rmw_fastrtps_cpp",   "rmw_fastrtps_dynamic_cpp",
                                                                "rmw_cyclonedds_cpp", "rmw_connextdds",
-                                                               "rmw_connext_cpp",   "rmw_gurumdds_cpp"};
+                                                               "rmw_connext_cpp",    "rmw_gurumdds_cpp"};
 
 std::string value_of(const std::string& variable, const Environment& environment) {
   const auto found = environment.find(variable);

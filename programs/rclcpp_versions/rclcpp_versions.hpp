@@ -7,6 +7,7 @@
 #include <rcl_yaml_param_parser/parser.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -16,6 +17,14 @@
 #include <string>
 
 namespace launch::rclcpp_versions {
+
+// How long it takes at most on an idle machine until a new node knows all others. The middleware of this stack
+// announces itself more often than rmw_fastrtps_cpp of Humble does, which has taken almost four seconds.
+#ifdef LAUNCH_COMPANION
+inline constexpr std::chrono::duration<double> kLongestDiscovery{6};
+#else
+inline constexpr std::chrono::duration<double> kLongestDiscovery{3};
+#endif
 
 namespace detail {
 

@@ -17,7 +17,6 @@ namespace launch {
 
 namespace {
 
-constexpr Seconds kNodePatience(3);
 constexpr Seconds kServicePatience(10);
 constexpr std::string_view kSendGoal = "/_action/send_goal";
 constexpr std::string_view kFeedback = "/_action/feedback";
@@ -149,7 +148,7 @@ std::string require_node(GraphSession& session, const std::string& name, std::op
     const std::vector<std::string> names = node_names(session, true);
     return std::find(names.begin(), names.end(), full) != names.end();
   };
-  if (!session.wait_until(is_there, time.value_or(kNodePatience))) {
+  if (!session.wait_until(is_there, time.value_or(kLongestLook))) {
     throw CommandError(fmt::format("there is no node '{}'", full), did_you_mean(full, node_names(session, false)));
   }
   return full;

@@ -106,7 +106,8 @@ void GraphSession::discover(std::optional<Seconds> time) {
         std::max(last_change_ + kQuiet + kQuietOfLateness * lateness_, begin + kShortestLook);
     if (time || SessionClock::now() < quiet) {
       wait({}, time ? longest : std::min(quiet, longest));
-    } else if (has_found_host() && (has_heard_nodes() || SessionClock::now() >= quiet + kLongestSilence)) {
+    } else if (has_found_host() &&
+               ((has_heard_nodes() && has_heard_services()) || SessionClock::now() >= quiet + kLongestSilence)) {
       return;
     } else {
       wait({}, longest);
@@ -135,6 +136,18 @@ bool GraphSession::has_heard_nodes() const {
     }
   }
   return have_told_nodes(participants, endpoints, node_->get_node_names().size());
+}
+
+// Almost each node that tells changes of its parameters has services for them. They may be heard of seconds later.
+bool GraphSession::has_heard_services() const {
+  constexpr bool kNameOfDds = true;
+  const auto services = node_->get_service_names_and_types();
+  const auto endpoints = node_->get_publishers_info_by_topic("rt/parameter_events", kNameOfDds);
+  return std::all_of(endpoints.begin(), endpoints.end(), [&services](const auto& endpoint) {
+    const std::string& space = endpoint.node_namespace();
+    return endpoint.node_name() == kUnknownNode ||
+           services.count((space == "/" ? space : space + "/") + endpoint.node_name() + "/list_parameters") != 0;
+  });
 }
 
 bool GraphSession::wait_until(const std::function<bool()>& holds, std::optional<Seconds> time) {

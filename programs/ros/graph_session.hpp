@@ -13,13 +13,15 @@
 #include <string>
 #include <vector>
 
+#include "programs/rclcpp_versions/rclcpp_versions.hpp"
+
 namespace launch {
 
 using SessionClock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
 // So long a command looks for what it has not found.
-inline constexpr Seconds kLongestLook{3};
+inline constexpr Seconds kLongestLook = rclcpp_versions::kLongestDiscovery;
 
 // One at a time. All functions are called on one thread.
 class GraphSession {
@@ -61,6 +63,7 @@ class GraphSession {
   std::shared_ptr<rclcpp::Node> node_;
   bool has_found_host() const;
   bool has_heard_nodes() const;
+  bool has_heard_services() const;
 
   SessionClock::time_point last_change_;
   SessionClock::duration lateness_{0};  // the longest time that a busy machine has kept this thread waiting

@@ -186,7 +186,9 @@ void ParameterVerb::declare_node(CLI::App& app) {
   app.add_option("node", node_, "name of the node")->required();
   look_.declare(app);
   app.add_flag("--include-hidden-nodes", hidden_, "has no effect: a node that is named may be hidden");
-  app.add_option("--timeout", timeout_, "wait so many seconds for the node; default: 3")->check(CLI::PositiveNumber);
+  app.add_option("--timeout", timeout_,
+                 fmt::format("wait so many seconds for the node; default: {:g}", kLongestLook.count()))
+      ->check(CLI::PositiveNumber);
   app.add_option("--service-timeout", service_timeout_, "wait so many seconds for an answer; default: 10")
       ->check(CLI::PositiveNumber);
 }

@@ -1,32 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nodes of other ROS 2 distributions in a trace, with our tracetools and with theirs. The nodes are programs of
-// tests/support/other_ros2/, which call tracetools as rclcpp of each distribution does.
-#include <gmock/gmock.h>
-#include <signal.h>
+// Nodes of other ROS 2 distributions in a trace, with our tracetools.
+#include "tests/e2e/tracing/other_ros2_fixture.hpp"
 
-#include <algorithm>
-#include <filesystem>
-#include <map>
-#include <nlohmann/json.hpp>
-
-#include "tests/support/command.hpp"
-#include "tests/support/recorded_trace.hpp"
-#include "tests/support/sandbox.hpp"
-
+namespace other_ros2 {
 namespace {
-
-namespace fs = std::filesystem;
-using namespace test_support;
-using nlohmann::json;
-using testing::AllOf;
-using testing::Contains;
-using testing::ContainsRegex;
-using testing::Each;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::Not;
-using testing::SizeIs;
-using testing::UnorderedElementsAre;
 
 struct Distribution {
   const char* name;
@@ -48,56 +25,6 @@ const std::vector<Distribution> kDistributions = {{"humble", "4.1.1", 24, 24, fa
                                                   {"kilted", "8.6.0", 16, 16, true, true},
                                                   {"newest", "8.10.1", 16, 16, true, true}};
 
-class OtherRos2 : public testing::Test {
- protected:
-  std::string write(const std::string& actions) const {
-    const fs::path path = sandbox_.directory() / "system.launch.xml";
-    write_file(path, "<launch>\n" + actions + "\n</launch>\n");
-    return path.string();
-  }
-
-  static fs::path prefix_of(const std::string& distribution) { return fs::path(OTHER_ROS2) / distribution; }
-
-  static std::string node(const fs::path& prefix, const std::string& arguments, const std::string& name = "talker",
-                          const std::string& program = "talker") {
-    return "<executable name=\"" + name + "\" output=\"screen\" cmd=\"" + (prefix / "lib/demo" / program).string() +
-           " " + arguments + "\"><env name=\"LD_LIBRARY_PATH\" value=\"" + (prefix / "lib").string() +
-           "\"/></executable>\n";
-  }
-
-  json verdict(const std::string& session = "run") const {
-    return json::parse(read_file(sandbox_.trace_directory() / session / "verdict.json"));
-  }
-
-  RecordedTrace trace(const std::string& session) const { return read_trace(sandbox_.trace_directory() / session); }
-
-  // A session that begins when the node runs, and records cycles of it.
-  void record_late(RunningCommand& launch) {
-    RunningCommand late({.argv = {LAUNCH_PROGRAM, "trace", "-s", "late", "-u", "ros2:*"}});
-    ASSERT_TRUE(late.wait_for_output("press enter to start..."));
-    late.write("\n");
-    ASSERT_TRUE(late.wait_for_output("press enter to stop...")) << late.out() << late.err();
-    wait_for_cycles(launch, 200);
-    late.write("\n");
-    ASSERT_EQ(late.wait().exit_code, 0) << late.out() << late.err();
-  }
-
-  static void wait_for_cycles(RunningCommand& launch, int number) {
-    const std::string word = "cycle ";
-    const std::size_t last = launch.out().rfind(word);
-    const int done = last == std::string::npos ? 0 : std::stoi(launch.out().substr(last + word.size()));
-    ASSERT_TRUE(launch.wait_for_output(word + std::to_string(done + number) + ".")) << launch.out() << launch.err();
-  }
-
-  static void expect_end(RunningCommand& launch) {
-    launch.send_signal(SIGINT);
-    const CommandResult result = launch.wait();
-    EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
-  }
-
-  Sandbox sandbox_;
-};
-
 class OfEachDistribution : public OtherRos2, public testing::WithParamInterface<Distribution> {
  protected:
   std::string node(const std::string& arguments) const {
@@ -107,14 +34,6 @@ class OfEachDistribution : public OtherRos2, public testing::WithParamInterface<
 
 INSTANTIATE_TEST_SUITE_P(Distributions, OfEachDistribution, testing::ValuesIn(kDistributions),
                          [](const auto& each) { return std::string(each.param.name); });
-
-std::map<std::string, RecordedEvent> first_of_each(const RecordedTrace& trace) {
-  std::map<std::string, RecordedEvent> events;
-  for (const RecordedEvent& event : trace.events) {
-    events.emplace(event.name, event);
-  }
-  return events;
-}
 
 std::vector<std::string> names_of(const std::map<std::string, std::uint64_t>& numbers) {
   std::vector<std::string> names;
@@ -285,20 +204,6 @@ TEST_F(OtherRos2, ADistributionThatWasBuiltWithoutLttngIsRecorded) {
   EXPECT_EQ(told["processes"][0]["callbacks"], 200);
 }
 
-TEST_F(OtherRos2, WhatIsLaunchedLaterIsSaidWhenItStarts) {
-  RunningCommand launch(
-      {.argv = {LAUNCH_PROGRAM, write("<trace session-name=\"run\" tracetools=\"own\"/>\n<timer period=\"0.1\">\n" +
-                                      node(prefix_of("forked"), "1 1", "camera") + "</timer>\n" +
-                                      node(prefix_of("iron"), "3000 100"))}});
-  const CommandResult result = launch.wait();
-  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
-  EXPECT_THAT(result.out,
-              HasSubstr("[WARNING] [launch.trace]: these processes keep the tracetools of their ROS 2: camera "
-                        "(its tracetools has ros_trace_dds_write, which ours lacks); without effect on them: "
-                        "counts of events"));
-  EXPECT_EQ(result.out.find("keep the tracetools"), result.out.rfind("keep the tracetools"));
-}
-
 TEST_F(OtherRos2, ANodeInPythonGetsOursWhenItLoadsTheLibraries) {
   const CommandResult result =
       run_command({LAUNCH_PROGRAM, write("<trace session-name=\"run\"/>\n" +
@@ -337,80 +242,5 @@ TEST_F(OtherRos2, WhatANodeExecutesMayBeOfAnotherRos2) {
   EXPECT_THAT(result.out, AllOf(HasSubstr("] LD_PRELOAD: libdl.so.2\n"), HasSubstr("] LD_PRELOAD: none\n")));
 }
 
-TEST_F(OtherRos2, TheirsIsSaidOnceWithAllThatHasNoEffect) {
-  RunningCommand launch(
-      {.argv = {
-           LAUNCH_PROGRAM,
-           write("<trace session-name=\"run\" tracetools=\"theirs\" events-ust=\"ros2:* ros2_ext:rcl_node_fini\" "
-                 "max-overhead=\"50%\" snapshot-on-late-callback=\"20\" snapshot-on-late-message=\"60000\"/>\n" +
-                 node(prefix_of("iron"), "300 100", "talker") + node(prefix_of("jazzy"), "300 100", "listener"))}});
-  const CommandResult result = launch.wait();
-  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
-  const std::string warning =
-      "[WARNING] [launch.trace]: these processes keep the tracetools of their ROS 2: talker, listener "
-      "(tracetools=\"theirs\"); without effect on them: max-overhead, snapshot-on-late-callback, "
-      "snapshot-on-late-message, events-ust 'ros2_ext:rcl_node_fini', counts of events and of losses, "
-      "recorded_after_s, "
-      "a longer wait for the session daemon, names in sessions that begin later\n";
-  EXPECT_THAT(result.out, HasSubstr(warning));
-  EXPECT_EQ(result.out.find("keep the tracetools"), result.out.rfind("keep the tracetools"));
-}
-
-TEST_F(OtherRos2, TheirsRecordsWhatTheirsRecords) {
-  const CommandResult result =
-      run_command({LAUNCH_PROGRAM, write("<trace session-name=\"run\" tracetools=\"theirs\"/>\n" +
-                                         node(prefix_of("iron"), "100 100"))});
-  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
-  const json told = verdict();
-  ASSERT_THAT(told["processes"], SizeIs(1));
-  EXPECT_FALSE(told["processes"][0].contains("recorded_after_s"));
-  EXPECT_EQ(told["tracetools"], (json::array({{{"process", "talker"},
-                                               {"uses", "theirs"},
-                                               {"theirs", (prefix_of("iron") / "lib/libtracetools.so").string()},
-                                               {"version", "6.3.2"},
-                                               {"reason", "tracetools=\"theirs\""}}})));
-  std::map<std::string, RecordedEvent> events = first_of_each(trace("run"));
-  EXPECT_TRUE(events.contains("ros2:rmw_publish"));
-  EXPECT_FALSE(events.contains("ros2:rcl_publish")) << "theirs is a part of a tracetools";
-}
-
-TEST_F(OtherRos2, ALibraryThatDoesNotFitStays) {
-  const std::string actions = "<trace session-name=\"run\" TRACETOOLS max-overhead=\"50%\"/>\n" +
-                              node(prefix_of("forked"), "100 100", "camera") +
-                              "<executable name=\"arm\" cmd=\"" OTHER_ROS2 "/static_node 100 100\"/>" +
-                              node(prefix_of("iron"), "100 100");
-  const auto with = [&](const std::string& attribute) {
-    std::string text = actions;
-    return text.replace(text.find("TRACETOOLS"), 10, attribute);
-  };
-  const CommandResult result = run_command({LAUNCH_PROGRAM, write(with(""))});
-  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
-  EXPECT_THAT(result.out,
-              HasSubstr("[WARNING] [launch.trace]: these processes keep the tracetools of their ROS 2: camera (its "
-                        "tracetools has ros_trace_dds_write, which ours lacks), arm (it is linked statically); without "
-                        "effect on them: max-overhead, counts of events and of losses, recorded_after_s, a longer wait "
-                        "for the session daemon, names in sessions that begin later\n"));
-  const json told = verdict();
-  std::vector<std::string> used;
-  for (const json& use : told["tracetools"]) {
-    used.push_back(use["process"].get<std::string>() + " " + use["uses"].get<std::string>());
-  }
-  EXPECT_THAT(used, ElementsAre("camera theirs", "arm theirs", "talker own"));
-
-  const CommandResult refused = run_command({LAUNCH_PROGRAM, write(with("tracetools=\"own\" append-trace=\"true\""))});
-  EXPECT_EQ(refused.exit_code, 1);
-  EXPECT_THAT(refused.err,
-              HasSubstr("tracing setup failed: tracetools=\"own\" cannot be had for camera: its tracetools has "
-                        "ros_trace_dds_write, which ours lacks"));
-  EXPECT_THAT(refused.out, Not(HasSubstr("process started")));
-}
-
-TEST_F(OtherRos2, NothingIsSaidToBeWhereNothingWasWritten) {
-  const CommandResult result = run_command(
-      {LAUNCH_PROGRAM, write("<trace session-name=\"run\" launch-events=\"false\"/>\n<executable cmd=\"true\"/>")});
-  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
-  EXPECT_EQ(fs::exists(sandbox_.trace_directory() / "run"), result.out.find("trace written to:") != std::string::npos)
-      << result.out;
-}
-
 }  // namespace
+}  // namespace other_ros2

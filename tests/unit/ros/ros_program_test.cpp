@@ -66,9 +66,10 @@ TEST_F(RosProgram, IsAnErrorForOtherMiddlewaresWithoutACompanion) {
 
 TEST_F(RosProgram, IsAnErrorForACompanionOfAnotherVersion) {
   const std::string prefix = companion("old", "0.0.9\n").string();
-  EXPECT_EQ(error_of({{"AMENT_PREFIX_PATH", prefix}}),
-            "error: launch_companion in " + prefix + " is of version 0.0.9, this launch of " LAUNCH_VERSION
-            "\n      = help: build it again from " + sources_);
+  EXPECT_EQ(error_of({{"AMENT_PREFIX_PATH", prefix}}), "error: launch_companion in " + prefix +
+                                                           " is of version 0.0.9, this launch of " LAUNCH_VERSION
+                                                           "\n      = help: build it again from " +
+                                                           sources_);
   EXPECT_EQ(error_of({{"AMENT_PREFIX_PATH", companion("torn", "").string()}}),
             "error: launch_companion in " + (sandbox_.directory() / "torn").string() +
                 " is of version unknown, this launch of " LAUNCH_VERSION "\n      = help: build it again from " +
