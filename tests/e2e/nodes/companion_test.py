@@ -43,7 +43,7 @@ class OnThisStack(unittest.TestCase):
             subprocess.run(['cmake', '--install', BUILD / part, '--prefix', cls.prefix], capture_output=True, check=True)
         [companion] = build(BUILD / 'companion/workspace', [cls.prefix / 'share/launch/launch_companion'],
                             {'AMENT_PREFIX_PATH': '', 'CMAKE_PREFIX_PATH': ''}, cls.prefix / 'lib/launch/launch-build')
-        cls.environment = {**os.environ, 'TEST_AMENT_PREFIX_PATH': f'{companion}:{cls.prefix}'}
+        cls.environment = {**os.environ, 'TEST_AMENT_PREFIX_PATH': f'{companion}:{BUILD}/prefix'}
 
     def run_cases(self, program, filtered='*'):
         result = subprocess.run([BUILD / 'tests' / program, '--gtest_filter=' + filtered], env=self.environment, capture_output=True,
