@@ -16,7 +16,8 @@ endmacro()
 #                              [SCRIPTS_DESTINATION <dir>] [VERSION <version>] [SKIP_COMPILE])
 #
 # Installs the folder of a module, by default ./<module>. With SCRIPTS_DESTINATION, each `name = module:function` below
-# [options.entry_points] console_scripts in SETUP_CFG (by default setup.cfg) becomes a program there.
+# [options.entry_points] console_scripts in SETUP_CFG (by default setup.cfg) becomes a program there. In the build tree the
+# programs are in ament_cmake_python/<module>/scripts, where packages install them from a second time.
 function(ament_python_install_package module)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "SKIP_COMPILE" "PACKAGE_DIR;DESTINATION;VERSION;SETUP_CFG;SCRIPTS_DESTINATION" "")
   if(NOT ARG_PACKAGE_DIR)
@@ -38,9 +39,10 @@ function(ament_python_install_package module)
     file(STRINGS ${ARG_SETUP_CFG} entries REGEX "^[ \t]+[^ =]+[ \t]*=[ \t]*[A-Za-z0-9_.]+:[A-Za-z0-9_]+")
     foreach(entry IN LISTS entries)
       string(REGEX MATCH "([^ \t=]+)[ \t]*=[ \t]*([A-Za-z0-9_.]+):([A-Za-z0-9_]+)" entry "${entry}")
-      set(script ${CMAKE_CURRENT_BINARY_DIR}/ament_cmake/scripts/${CMAKE_MATCH_1})
+      set(script ${CMAKE_CURRENT_BINARY_DIR}/ament_cmake_python/${module}/scripts/${CMAKE_MATCH_1})
       file(WRITE ${script} "#!/usr/bin/env python3\nimport sys\nfrom ${CMAKE_MATCH_2} import ${CMAKE_MATCH_3}\n"
         "sys.exit(${CMAKE_MATCH_3}())\n")
+      file(CHMOD ${script} PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
       install(PROGRAMS ${script} DESTINATION ${ARG_SCRIPTS_DESTINATION})
     endforeach()
   endif()

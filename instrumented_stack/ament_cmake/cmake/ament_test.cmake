@@ -15,6 +15,9 @@ function(_ament_test_properties name label)
   if(NOT "${ARG_SKIP_RETURN_CODE}" STREQUAL "")
     set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE ${ARG_SKIP_RETURN_CODE})
   endif()
+  # Packages write NAME="${value}", where CMake keeps the quotes.
+  list(TRANSFORM ARG_ENV REPLACE "^([^=]+)=\"(.*)\"$" "\\1=\\2")
+  list(TRANSFORM ARG_APPEND_ENV REPLACE "^([^=]+)=\"(.*)\"$" "\\1=\\2")
   foreach(variable IN LISTS ARG_ENV)
     set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT ${variable})
   endforeach()
@@ -31,7 +34,8 @@ endfunction()
 #                [SKIP_RETURN_CODE <code>] [ENV <name=value>...] [APPEND_ENV <name=value>...]
 #                [APPEND_LIBRARY_DIRS <dir>...])
 #
-# A test that runs a command. Its exit code is the result; OUTPUT_FILE, RESULT_FILE and RUNNER have no effect.
+# A test that runs a command. Its exit code is the result; OUTPUT_FILE, RESULT_FILE and RUNNER have no effect, except that
+# the tests of ament_cmake_ros have a ROS domain of their own.
 function(ament_add_test name)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "SKIP_TEST;GENERATE_RESULT_FOR_RETURN_CODE_ZERO"
     "TIMEOUT;WORKING_DIRECTORY;OUTPUT_FILE;RESULT_FILE;RUNNER;PYTHON_EXECUTABLE;SKIP_RETURN_CODE"
@@ -39,7 +43,7 @@ function(ament_add_test name)
   if(NOT ARG_WORKING_DIRECTORY)
     set(ARG_WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
   endif()
-  add_test(NAME ${name} COMMAND ${ARG_COMMAND} WORKING_DIRECTORY ${ARG_WORKING_DIRECTORY})
+  add_test(NAME ${name} COMMAND ${_ament_test_runner} ${ARG_COMMAND} WORKING_DIRECTORY ${ARG_WORKING_DIRECTORY})
   _ament_test_properties(${name} ament_test TIMEOUT ${ARG_TIMEOUT} SKIP_RETURN_CODE ${ARG_SKIP_RETURN_CODE}
     ENV ${ARG_ENV} APPEND_ENV ${ARG_APPEND_ENV} APPEND_LIBRARY_DIRS ${ARG_APPEND_LIBRARY_DIRS})
   if(ARG_SKIP_TEST)

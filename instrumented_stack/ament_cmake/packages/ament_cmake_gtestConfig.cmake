@@ -22,8 +22,19 @@ function(ament_add_gtest_test target)
   _ament_test_run(${target} ${ARGN})
 endfunction()
 
+# ament_find_gtest(): sets GTEST_FOUND, GTEST_INCLUDE_DIRS, GTEST_LIBRARIES, GTEST_MAIN_LIBRARIES (which have main()) and
+# GTEST_BOTH_LIBRARIES. The name with an underscore is not public in ROS 2, but packages call it.
 macro(ament_find_gtest)
   find_package(GTest REQUIRED)
+  find_package(Threads REQUIRED)
+  get_target_property(GTEST_INCLUDE_DIRS GTest::gtest INTERFACE_INCLUDE_DIRECTORIES)
+  set(GTEST_FOUND TRUE)
+  set(GTEST_LIBRARIES GTest::gtest Threads::Threads)
+  set(GTEST_MAIN_LIBRARIES GTest::gtest_main)
+  set(GTEST_BOTH_LIBRARIES ${GTEST_LIBRARIES} ${GTEST_MAIN_LIBRARIES})
+endmacro()
+macro(_ament_cmake_gtest_find_gtest)
+  ament_find_gtest()
 endmacro()
 
 function(_ament_test target libraries run)
@@ -50,7 +61,7 @@ function(_ament_test_run target)
   if(NOT ARG_TEST_NAME)
     set(ARG_TEST_NAME ${target})
   endif()
-  add_test(NAME ${ARG_TEST_NAME} COMMAND ${target} WORKING_DIRECTORY ${ARG_WORKING_DIRECTORY})
+  add_test(NAME ${ARG_TEST_NAME} COMMAND ${_ament_test_runner} $<TARGET_FILE:${target}> WORKING_DIRECTORY ${ARG_WORKING_DIRECTORY})
   _ament_test_properties(${ARG_TEST_NAME} gtest TIMEOUT ${ARG_TIMEOUT}
     ENV ${ARG_ENV} APPEND_ENV ${ARG_APPEND_ENV} APPEND_LIBRARY_DIRS ${ARG_APPEND_LIBRARY_DIRS})
 endfunction()

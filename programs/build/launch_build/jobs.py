@@ -2,6 +2,7 @@
 """Builds packages side by side, each as soon as those that it needs are there."""
 
 import asyncio
+import errno
 import json
 import os
 import shutil
@@ -10,12 +11,12 @@ import sys
 import time
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Dict, List, Mapping, Optional, Sequence, Set
+from typing import BinaryIO, Dict, List, Mapping, Optional, Sequence, Set
 
 from .package_xml import Package
 from .prefixes import build_environment
 from .test_results import TestCounts, read_counts
-from .workspace import all_needed, built_before
+from .workspace import all_needed, built_before, used
 
 
 @dataclass
@@ -30,6 +31,7 @@ class Options:
     tests: bool = True  # are built
     run_tests: bool = False
     go_on: bool = False  # with packages that do not need one that has failed
+    ccache: bool = False  # if it is installed and nothing names another launcher of compilers
 
 
 @dataclass
@@ -51,12 +53,15 @@ class Builder:
     def __init__(self, packages: Sequence[Package], workspace: Mapping[str, Package], options: Options, observer: Observer):
         self._packages, self._workspace, self._options, self._observer = packages, workspace, options, observer
         self._processes: Set[asyncio.subprocess.Process] = set()
+        self._ended_one = asyncio.Event()  # a process of this build
         self._running = 0
         self.interrupted = False
         self.logs: Dict[str, Path] = {}  # of the packages that are being built
         self.skipped: List[Package] = []
 
     def run(self) -> List[Result]:
+        if sys.version_info < (3, 12) and hasattr(os, 'pidfd_open'):
+            asyncio.set_child_watcher(asyncio.PidfdChildWatcher())  # without a thread for each process; later the default
         return asyncio.run(self._run())
 
     async def _run(self) -> List[Result]:
@@ -115,7 +120,7 @@ class Builder:
         self._running += 1
         tree = self._options.build / package.name
         tree.mkdir(parents=True, exist_ok=True)
-        before = sorted(all_needed(package, self._workspace))
+        before = sorted(used(package, self._workspace))
         prefixes = [self.prefix(self._workspace[name]) for name in before]
         prefixes = list(dict.fromkeys(prefix for prefix in prefixes if prefix.is_dir()))
         environment = build_environment(self._options.environment, prefixes + self._options.underlays)
@@ -146,13 +151,33 @@ class Builder:
         with open(log, 'wb') as output:
             output.write(f'# {" ".join(command)}\n'.encode())
             output.flush()
-            process = await asyncio.create_subprocess_exec(*command, cwd=folder, env=dict(environment), stdin=asyncio.subprocess.DEVNULL,
-                                                           stdout=output, stderr=asyncio.subprocess.STDOUT, start_new_session=True)
+            process = await self._start(command, folder, environment, output)
+            if not process:
+                return 1
             self._processes.add(process)
             try:
                 return await process.wait()
             finally:
                 self._processes.discard(process)
+                self._ended_one.set()
+
+    async def _start(self, command: List[str], folder: Path, environment: Mapping[str, str],
+                     output: BinaryIO) -> Optional[asyncio.subprocess.Process]:
+        """None if it cannot be started, which the output tells then. Where the system has no more processes or no memory for
+        one, this waits for the end of another one of this build."""
+        while True:
+            try:
+                return await asyncio.create_subprocess_exec(
+                    *command, cwd=folder, env=dict(environment), stdin=asyncio.subprocess.DEVNULL, stdout=output,
+                    stderr=asyncio.subprocess.STDOUT, start_new_session=True)
+            except OSError as error:
+                if error.errno not in (errno.EAGAIN, errno.ENOMEM) or not self._processes:
+                    output.write(f'{command[0]}: error: cannot be started: {error.strerror}\n'.encode())
+                    return None
+            self._ended_one.clear()
+            await self._ended_one.wait()
+            if self.interrupted:
+                return None
 
     def _steps(self, package: Package, tree: Path):  # type: ignore[no-untyped-def]
         """(name, command, folder) of each step. The number of processors is asked when a step begins."""
@@ -165,6 +190,7 @@ class Builder:
             configure += ['-G', 'Ninja']
         if not any(argument.startswith('-DCMAKE_BUILD_TYPE') for argument in options.cmake_arguments):
             configure.append('-DCMAKE_BUILD_TYPE=RelWithDebInfo')
+        configure += self._compiler_launchers()
         configure += [f'-DBUILD_TESTING={"ON" if options.tests else "OFF"}', *options.cmake_arguments]
         siblings = sorted(all_needed(package, self._workspace))
         if siblings and not options.merge_install and package.build_type == 'ament_cmake':
@@ -178,6 +204,15 @@ class Builder:
         if options.run_tests and options.tests:
             yield 'test', ['ctest', '--test-dir', str(tree), '--output-on-failure', '--output-junit',
                            str(_test_results(package, tree)), '-j', processors], source
+
+    def _compiler_launchers(self) -> List[str]:
+        options = self._options
+        variables = [f'CMAKE_{language}_COMPILER_LAUNCHER' for language in ('C', 'CXX')]
+        named = any(variable in options.environment for variable in variables) \
+            or any('COMPILER_LAUNCHER' in argument for argument in options.cmake_arguments)
+        if named or not options.ccache or not shutil.which('ccache', path=options.environment.get('PATH')):
+            return []
+        return [f'-D{variable}=ccache' for variable in variables]
 
     def _python_steps(self, package: Package, tree: Path):  # type: ignore[no-untyped-def]
         prefix = self.prefix(package)

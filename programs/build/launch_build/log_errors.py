@@ -9,6 +9,7 @@ LIMIT = 24  # lines
 # Where an error begins, and how many lines belong to it at most.
 BEGINS = ((re.compile(r'^\S[^:\n]*:\d+(:\d+)?: (fatal )?error: |^.*: error: '), 4),  # compilers, the generator of messages
           (re.compile(r'^CMake Error( at|:|\b)'), 10),
+          (re.compile(r'^ninja: (fatal|error): '), 1),
           (re.compile(r'^.*: undefined reference to |^/usr/bin/ld: |^collect2: error'), 1),
           (re.compile(r'^\s*\d+ - .*\((Failed|Timeout|Not Run|SEGFAULT|Subprocess.*)\)'), 1),  # the summary of ctest
           (re.compile(r'^(Traceback|\w*Error: )'), 12))

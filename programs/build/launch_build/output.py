@@ -5,9 +5,11 @@ import os
 import re
 import shutil
 import sys
+import time
 from pathlib import Path
-from typing import Dict, List, Optional
+from typing import Dict, List, Mapping, Optional, Sequence
 
+from .estimate import Estimate, in_words
 from .jobs import Builder, Observer, Result
 from .log_errors import short_errors
 from .package_xml import Package
@@ -15,12 +17,21 @@ from .test_results import TestCounts
 
 
 class Output(Observer):
-    def __init__(self, number: int):
-        self._number, self._ended = number, 0
+    """`missing` are the packages of Debian that packages name and that are not installed; `build` holds the build trees."""
+
+    def __init__(self, order: Sequence[Package], missing: Mapping[str, List[str]], build: Path):
+        self._number, self._ended = len(order), 0
+        self._missing = missing
+        self._begin = time.monotonic()
+        self._estimate = Estimate((package.name for package in order), build)
         self._running: Dict[str, Package] = {}
         self._terminal = sys.stdout.isatty() and os.environ.get('TERM', '') not in ('', 'dumb')
         self._status = False
         self.builder: Optional[Builder] = None
+        names = sorted({name for names in missing.values() for name in names})
+        if names:
+            print(f'not installed, though {_packages(len(missing))} of the workspace need{"s" if len(missing) == 1 else ""} it: '
+                  f'sudo apt install {" ".join(names)}', flush=True)
 
     def started(self, package: Package) -> None:
         self._running[package.name] = package
@@ -29,6 +40,7 @@ class Output(Observer):
     def ended(self, result: Result) -> None:
         self._running.pop(result.package.name, None)
         self._ended += 1
+        self._estimate.ended(result.package.name, result.seconds, not result.failed_step)
         self._clear()
         width = len(str(self._number))
         if not result.failed_step:
@@ -37,11 +49,18 @@ class Output(Observer):
             what = f': {result.tests}'
         else:
             what = f': {FAILED[result.failed_step]}'
-        print(f'[{self._ended:{width}}/{self._number}] {result.package.name}{what}', flush=True)
+        left = self._left()
+        if self._terminal or left is None or left < LEAST_TO_SAY:
+            left = None
+        print(f'[{self._ended:{width}}/{self._number}] {result.package.name}{what}'
+              + (f' ({in_words(left)})' if left is not None else ''), flush=True)
         if result.failed_step and result.log:
             for line in short_errors(result.log.read_text(errors='replace')):
                 print(f'    {line}')
             print(f'    all of it: {os.path.relpath(result.log)}', flush=True)
+            missing = self._missing.get(result.package.name)
+            if missing:
+                print(f'    not installed: {", ".join(missing)}', flush=True)
         self.refresh()
 
     def refresh(self) -> None:
@@ -53,10 +72,15 @@ class Output(Observer):
             log = self.builder.logs.get(name) if self.builder else None
             step = _progress(log) if log else ''
             parts.append(f'{name} {step}'.strip())
-        text = f'[{self._ended}/{self._number}] ' + ', '.join(parts)
+        left = self._left()
+        text = f'[{self._ended}/{self._number}] ' + (f'{in_words(left)}: ' if left is not None else '') + ', '.join(parts)
         self._clear()
         print(text[:shutil.get_terminal_size().columns - 1], end='', flush=True)
         self._status = True
+
+    def _left(self) -> Optional[float]:
+        """Seconds, if something is left and enough is known."""
+        return self._estimate.seconds_left(time.monotonic() - self._begin) if self._ended < self._number else None
 
     def _clear(self) -> None:
         if self._status:
@@ -81,6 +105,8 @@ class Output(Observer):
         print(text)
         return 1 if failed else 0
 
+
+LEAST_TO_SAY = 60  # seconds that are left, where each package has a line
 
 FAILED = {'configure': 'CMake could not configure it', 'build': 'it does not compile', 'install': 'it could not be installed',
           'test': 'tests fail'}

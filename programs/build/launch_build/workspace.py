@@ -48,6 +48,17 @@ def all_needed(package: Package, packages: Mapping[str, Package]) -> Set[str]:
     return found
 
 
+def used(package: Package, packages: Mapping[str, Package]) -> Set[str]:
+    """The packages of the workspace that this one finds: what it needs, and what its tests need if that makes no circle."""
+    found = all_needed(package, packages)
+    for name in package.test_depends:
+        if name in packages and name != package.name:
+            of_test = all_needed(packages[name], packages)
+            if package.name not in of_test:
+                found |= of_test | {name}
+    return found
+
+
 def choose(names: List[str], packages: Mapping[str, Package], only: bool) -> Dict[str, Package]:
     """The named packages and, unless `only`, what they need; all without names."""
     chosen: Set[str] = set(names)
