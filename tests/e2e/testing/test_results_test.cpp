@@ -102,6 +102,14 @@ find_package(launch_testing_ament_cmake REQUIRED)
 enable_testing()
 add_launch_test(test/good.launch.xml ARGS word:=hello ENV GREETING=hello TIMEOUT 90 LABELS system)
 add_launch_test(test/bad.launch.xml TARGET bad)
+# As packages of ROS 2 do it: the file is made for each configuration, when the build files are written.
+file(GENERATE OUTPUT "${CMAKE_CURRENT_BINARY_DIR}/made_$<CONFIG>.launch.xml" CONTENT [[<launch>
+  <executable name="say" cmd="printenv MADE_PATH"/>
+  <test name="appends"><output process="say" text="/before:/one:/two"/></test>
+</launch>]])
+add_launch_test("${CMAKE_CURRENT_BINARY_DIR}/made_$<CONFIG>.launch.xml" TARGET made ENV MADE_PATH=/before
+  APPEND_ENV MADE_PATH="/one" MADE_PATH=/two PYTHON_EXECUTABLE /usr/bin/python3)
+add_launch_test(test/bad.launch.xml TARGET left_out SKIP_TEST)
 )cmake");
   const fs::path build = sandbox_.directory() / "build";
   const CommandResult configured = run_command({.argv = {CMAKE, "-S", sandbox_.directory() / "project", "-B", build,
@@ -119,6 +127,10 @@ add_launch_test(test/bad.launch.xml TARGET bad)
       run_command({.argv = {ctest, "--test-dir", build, "-R", "^bad$"}}, std::chrono::seconds(100));
   EXPECT_EQ(bad.exit_code, 8) << bad.out << bad.err;
   EXPECT_THAT(read_file(build / "test_results/mine/bad.xunit.xml"), HasSubstr("'say' has exited with code 0"));
+  const CommandResult made = run_command({.argv = {ctest, "--test-dir", build, "-R", "^(made|left_out)$", "--output-on-failure"}},
+                                         std::chrono::seconds(100));
+  EXPECT_EQ(made.exit_code, 0) << made.out << made.err;
+  EXPECT_THAT(made.out, HasSubstr("left_out (Disabled)"));
 }
 
 }  // namespace

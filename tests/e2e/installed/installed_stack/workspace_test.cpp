@@ -103,16 +103,17 @@ TEST_F(Workspace, IsBuiltTestedAndSourced) {
 }
 
 // Packages that use the stack as tf2, tf2_ros, tf2_eigen, message_filters, diagnostic_updater and bond do, and a server
-// of the kind of Navigation 2's that uses them all. Their own tests run, too.
+// of the kind of Navigation 2's that uses them all. One has plugins and benchmarks as urdf has them. Their own tests run, too.
 TEST_F(Workspace, MayHoldLibrariesOnRclcpp) {
   fs::remove_all(workspace_ / "src");
   fs::copy(LIBRARIES_SOURCES, workspace_ / "src", fs::copy_options::recursive);
   const CommandResult built = build({"--test", "--cmake-args", "-DCMAKE_BUILD_TYPE=None"});
   EXPECT_EQ(built.exit_code, 0) << built.out << built.err;
-  EXPECT_THAT(built.out, MatchesRegex(".*\n7 packages built in [0-9.]+ s, [0-9]+ tests passed\n"));
+  EXPECT_THAT(built.out, MatchesRegex(".*\n9 packages built in [0-9.]+ s, [0-9]+ tests passed\n"));
   for (const auto& [package, test] :
        {std::pair{"track_frames_ros", "test_listener"}, std::pair{"track_bond", "test_bond"},
-        std::pair{"track_navigator", "test_navigator"}}) {
+        std::pair{"track_navigator", "test_navigator"}, std::pair{"track_parsers", "test_parsers"},
+        std::pair{"track_parsers", "test_domain"}, std::pair{"track_parsers", "test_of_gmock"}}) {
     EXPECT_THAT(test_support::read_file(workspace_ / "build" / package / "test_results/ctest.xml"),
                 HasSubstr("testcase name=\"" + std::string(test) + "\""));
   }
