@@ -2,6 +2,7 @@
 """Builds packages side by side, each as soon as those that it needs are there."""
 
 import asyncio
+import configparser
 import errno
 import json
 import os
@@ -217,10 +218,15 @@ class Builder:
     def _python_steps(self, package: Package, tree: Path):  # type: ignore[no-untyped-def]
         prefix = self.prefix(package)
         python = f'lib/python{sys.version_info.major}.{sys.version_info.minor}/site-packages'
+        # Debian's Python would put data and programs below local. A package may name the folder of its programs in setup.cfg.
+        install = ['--prefix', str(prefix), '--install-lib', str(prefix / python), '--install-data', str(prefix)]
+        settings = configparser.ConfigParser(interpolation=None)
+        settings.read(package.folder / 'setup.cfg', encoding='utf-8')
+        if not any(settings.has_option('install', name) for name in ('install_scripts', 'install-scripts')):
+            install += ['--install-scripts', str(prefix / 'bin')]
         yield 'install', [sys.executable, '-W', 'ignore', 'setup.py', '-q', 'egg_info', '--egg-base', str(tree),
-                          'build', '--build-base', str(tree / 'build'), 'install', '--prefix', str(prefix),
-                          '--install-lib', str(prefix / python), '--single-version-externally-managed',
-                          '--record', str(tree / 'installed_files')], package.folder
+                          'build', '--build-base', str(tree / 'build'), 'install', *install,
+                          '--single-version-externally-managed', '--record', str(tree / 'installed_files')], package.folder
         if self._options.run_tests and (package.folder / 'test').is_dir():
             yield 'test', [sys.executable, '-m', 'pytest', 'test', '-p', 'no:cacheprovider',
                            f'--junit-xml={_test_results(package, tree)}'], package.folder

@@ -49,14 +49,21 @@ def all_needed(package: Package, packages: Mapping[str, Package]) -> Set[str]:
 
 
 def used(package: Package, packages: Mapping[str, Package]) -> Set[str]:
-    """The packages of the workspace that this one finds: what it needs, and what its tests need if that makes no circle."""
-    found = all_needed(package, packages)
-    for name in package.test_depends:
-        if name in packages and name != package.name:
-            of_test = all_needed(packages[name], packages)
-            if package.name not in of_test:
-                found |= of_test | {name}
-    return found
+    """The packages of the workspace that this one finds: what it needs, and what the tests of it and of these need, if that makes
+    no circle. A package may export what only its tests need."""
+    found: Set[str] = set()
+    waiting = [package]
+    while waiting:
+        one = waiting.pop()
+        names = needed(one, packages)
+        for name in one.test_depends:
+            if name in packages and not {one.name, package.name} & ({name} | all_needed(packages[name], packages)):
+                names.append(name)
+        for name in names:
+            if name not in found:
+                found.add(name)
+                waiting.append(packages[name])
+    return found - {package.name}
 
 
 def choose(names: List[str], packages: Mapping[str, Package], only: bool) -> Dict[str, Package]:

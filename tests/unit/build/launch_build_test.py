@@ -91,6 +91,10 @@ class Workspace(InFolder):
     def test_a_package_finds_what_its_tests_need_unless_it_needs_the_package(self):
         self.assertEqual(used(self.packages['bag'], self.packages), {'msgs', 'arm'})
         self.assertEqual(used(self.packages['arm'], self.packages), {'msgs'})
+        self.package('tested', '<test_depend>bag</test_depend>')
+        self.package('robot', '<depend>tested</depend>')
+        packages = find_packages([self.folder / 'src'], {})
+        self.assertEqual(used(packages['robot'], packages), {'tested', 'bag', 'arm', 'msgs'})
 
     def test_named_packages_bring_what_they_need(self):
         self.assertEqual(sorted(choose(['arm'], self.packages, only=False)), ['arm', 'msgs'])
@@ -230,6 +234,21 @@ class Jobs(InFolder):
                          '    cmake: error: cannot be started: Resource temporarily unavailable\n'
                          '    all of it: build/arm/launch_build_configure.log\n'
                          '0 packages built in T s, failed: arm\n')
+
+    def test_install_packages_of_python_where_they_are_found(self):
+        for name, settings in (('talk', ''), ('show', '[install]\ninstall_scripts=$base/lib/show\n')):
+            path = self.package(name, '<export><build_type>ament_python</build_type></export>')
+            (path / name).mkdir()
+            (path / name / '__init__.py').write_text('def main():\n    pass\n')
+            (path / 'setup.cfg').write_text(settings)
+            (path / 'setup.py').write_text(
+                f"from setuptools import setup\nsetup(name='{name}', version='1.0', packages=['{name}'],\n"
+                f"      data_files=[('share/{name}', ['package.xml'])], entry_points={{'console_scripts': ['{name} = {name}:main']}})\n")
+        code, out, err = self.run_command('talk', 'show')
+        self.assertEqual((code, err), (0, ''), out)
+        installed = {str(path.relative_to(self.folder / 'install')) for path in (self.folder / 'install').rglob('*') if path.is_file()}
+        self.assertLessEqual({'talk/bin/talk', 'talk/share/talk/package.xml', 'show/lib/show/show', 'show/share/show/package.xml'}, installed)
+        self.assertEqual([name for name in installed if '/local/' in name], [])
 
     def test_compile_with_ccache_if_it_is_there(self):
         (self.folder / 'bin').mkdir()
