@@ -57,6 +57,7 @@ class LaunchTest(unittest.TestCase):
         _, outcomes = self.outcomes('good.py')
         self.assertEqual(outcomes, {
             'TestWhileItRuns.test_a_name_may_mean_several': 'passed',
+            'TestWhileItRuns.test_names_of_releases': 'passed',
             'TestWhileItRuns.test_of_a_process_that_is_nowhere': 'passed',
             'TestWhileItRuns.test_output_comes': 'passed',
             'TestAfterShutdown.test_exit_codes': 'passed',
@@ -148,8 +149,8 @@ print(root.attrib['tests'], sorted({case.get('classname') + '/' + case.get('name
 
     def test_a_program_may_run_them(self):
         output = self.run_in_a_program('good')
-        self.assertIn('\ngood True 6 0 0 0\n', output)
-        self.assertIn("6 ['good.TestAfterShutdown/test_exit_codes', ", output)
+        self.assertIn('\ngood True 7 0 0 0\n', output)
+        self.assertIn("7 ['good.TestAfterShutdown/test_exit_codes', ", output)
         output = self.run_in_a_program('parametrized', 'greeting:=bonjour')
         self.assertIn('\nStarting test run parametrized[two]\n', output)
         self.assertIn('\nparametrized[three] True 3 0 0 0\n', output)

@@ -10,6 +10,11 @@ import _launch_engine
 _of_launcher = os.environ
 
 
+def of_process():
+    """The environment of this process itself, which tests have that run beside a launch."""
+    return _of_launcher
+
+
 class LaunchVariables(MutableMapping):
     """The launch's environment, or its configurations. Changes take effect in the launch."""
 

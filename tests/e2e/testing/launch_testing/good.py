@@ -12,6 +12,9 @@ import launch_testing.actions
 import launch_testing.asserts
 import pytest
 from launch_testing.asserts import assertSequentialStdout
+from launch_testing.tools.text import normalize_lineseps
+from launch_testing_ros.actions import EnableRmwIsolation
+from launch_testing_ros.actions import enable_rmw_isolation
 
 PROGRAM = os.path.join(os.path.dirname(__file__), 'program.py')
 
@@ -20,7 +23,7 @@ PROGRAM = os.path.join(os.path.dirname(__file__), 'program.py')
 def generate_test_description():
     program = launch.actions.ExecuteProcess(cmd=[sys.executable, PROGRAM, '--wait'], name='program')
     other = launch.actions.ExecuteProcess(cmd=[sys.executable, PROGRAM, '--wait', 'again'], name='program_other')
-    return launch.LaunchDescription([program, other, launch_testing.actions.ReadyToTest()]), {'program': program}
+    return launch.LaunchDescription([EnableRmwIsolation(), program, other, launch_testing.actions.ReadyToTest()]), {'program': program}
 
 
 class TestWhileItRuns(unittest.TestCase):
@@ -31,6 +34,11 @@ class TestWhileItRuns(unittest.TestCase):
 
     def setUp(self, proc_info):
         proc_info.assertWaitForStartup(process=self.program_of_class, timeout=60)
+
+    def test_names_of_releases(self):
+        self.assertIs(enable_rmw_isolation.EnableRmwIsolation, EnableRmwIsolation)
+        self.assertEqual(normalize_lineseps('a\r\nb\n'), 'a\nb\n')
+        self.assertGreater(int(os.environ['ROS_DOMAIN_ID']), 0)
 
     def test_output_comes(self, proc_output, program):
         proc_output.assertWaitFor('Waiting', process=program, timeout=60)

@@ -18,6 +18,11 @@ def get_default_filtered_patterns():
     return []
 
 
+def normalize_lineseps(lines):
+    r"""A text in which each line ends with '\n', also what a terminal has ended with '\r\n'."""
+    return lines.replace(os.linesep, '\n').replace('\r\n', '\n')
+
+
 def basic_output_filter(filtered_prefixes=None, filtered_patterns=None):
     """A function that removes the lines that begin with a prefix or match a pattern."""
     prefixes = tuple(get_default_filtered_prefixes() if filtered_prefixes is None else filtered_prefixes)
