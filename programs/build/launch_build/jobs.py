@@ -125,15 +125,15 @@ class Builder:
         prefixes = [self.prefix(self._workspace[name]) for name in before]
         prefixes = list(dict.fromkeys(prefix for prefix in prefixes if prefix.is_dir()))
         environment = build_environment(self._options.environment, prefixes + self._options.underlays)
-        # Its tests find the package itself, too.
-        own = build_environment(environment, [self.prefix(package)])
         result = Result(package, 0)
         for step, command, folder in self._steps(package, tree):
             log = tree / f'launch_build_{step}.log'
             self.logs[package.name] = log
             if step == 'test':
+                # Its tests find the package itself, too, which has been installed by now.
+                environment = build_environment(environment, [self.prefix(package)])
                 _test_results(package, tree).unlink(missing_ok=True)
-            code = await self._command(command, folder, own if step == 'test' else environment, log)
+            code = await self._command(command, folder, environment, log)
             if step == 'test':
                 result.tests = read_counts(_test_results(package, tree))
             if code != 0:

@@ -127,8 +127,9 @@ add_launch_test(test/bad.launch.xml TARGET left_out SKIP_TEST)
       run_command({.argv = {ctest, "--test-dir", build, "-R", "^bad$"}}, std::chrono::seconds(100));
   EXPECT_EQ(bad.exit_code, 8) << bad.out << bad.err;
   EXPECT_THAT(read_file(build / "test_results/mine/bad.xunit.xml"), HasSubstr("'say' has exited with code 0"));
-  const CommandResult made = run_command({.argv = {ctest, "--test-dir", build, "-R", "^(made|left_out)$", "--output-on-failure"}},
-                                         std::chrono::seconds(100));
+  const CommandResult made =
+      run_command({.argv = {ctest, "--test-dir", build, "-R", "^(made|left_out)$", "--output-on-failure"}},
+                  std::chrono::seconds(100));
   EXPECT_EQ(made.exit_code, 0) << made.out << made.err;
   EXPECT_THAT(made.out, HasSubstr("left_out (Disabled)"));
 }

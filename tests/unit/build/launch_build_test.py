@@ -8,6 +8,7 @@ import io
 import json
 import os
 import re
+import sys
 import tempfile
 import unittest
 import unittest.mock
@@ -180,6 +181,12 @@ class Tests(InFolder):
 
     def test_none(self):
         self.assertEqual(self.build(''), (0, '[1/1] arm T s, no tests\n1 package built in T s, no tests\n'))
+
+    def test_find_the_package_that_has_just_been_installed(self):
+        python = f'lib/python{sys.version_info.major}.{sys.version_info.minor}/site-packages'
+        code, out = self.build(f'install(CODE "file(WRITE ${{CMAKE_INSTALL_PREFIX}}/{python}/arm_of_test.py [[]])")\n'
+                               f'add_test(imports {sys.executable} -B -c "import arm_of_test")\n')
+        self.assertEqual((code, out), (0, '[1/1] arm T s, 1 test passed\n1 package built in T s, 1 test passed\n'))
 
     def test_results_of_pytest(self):
         file = self.folder / 'pytest.xml'

@@ -103,7 +103,8 @@ TEST_F(Workspace, IsBuiltTestedAndSourced) {
 }
 
 // Packages that use the stack as tf2, tf2_ros, tf2_eigen, message_filters, diagnostic_updater and bond do, and a server
-// of the kind of Navigation 2's that uses them all. One has plugins and benchmarks as urdf has them. Their own tests run, too.
+// of the kind of Navigation 2's that uses them all. One has plugins and benchmarks as urdf has them. Their own tests
+// run, too.
 TEST_F(Workspace, MayHoldLibrariesOnRclcpp) {
   fs::remove_all(workspace_ / "src");
   fs::copy(LIBRARIES_SOURCES, workspace_ / "src", fs::copy_options::recursive);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages of each type of test_msgs, for tests that send, convert or store messages. The values are those of ROS 2, so tests
-// that expect them pass. test_msgs/message_fixtures.py has the same messages in Python.
+// Messages of each type of test_msgs, for tests that send, convert or store messages. The values are those of ROS 2, so
+// tests that expect them pass. test_msgs/message_fixtures.py has the same messages in Python.
 #pragma once
 
 #include <algorithm>
@@ -321,7 +321,8 @@ inline test_msgs::fixtures::Messages<test_msgs::msg::Builtins> get_messages_buil
 inline test_msgs::fixtures::Messages<test_msgs::msg::WStrings> get_messages_wstrings() {
   using test_msgs::fixtures::set;
   test_msgs::fixtures::Messages<test_msgs::msg::WStrings> messages;
-  for (const char16_t* text : {u"", u"ascii", u"Hell\u00F6 W\u00F6rld!", u"\u30CF\u30ED\u30FC\u30EF\u30FC\u30EB\u30C9"}) {
+  for (const char16_t* text :
+       {u"", u"ascii", u"Hell\u00F6 W\u00F6rld!", u"\u30CF\u30ED\u30FC\u30EF\u30FC\u30EB\u30C9"}) {
     messages.push_back(std::make_shared<test_msgs::msg::WStrings>());
     messages.back()->wstring_value = text;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Requests of each service of test_msgs with their responses, for tests. The values are those of ROS 2, so tests that expect
-// them pass. test_msgs/service_fixtures.py has the same in Python.
+// Requests of each service of test_msgs with their responses, for tests. The values are those of ROS 2, so tests that
+// expect them pass. test_msgs/service_fixtures.py has the same in Python.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,8 @@
 namespace test_msgs::fixtures {
 
 template <class Service>
-using Services = std::vector<std::pair<std::shared_ptr<typename Service::Request>, std::shared_ptr<typename Service::Response>>>;
+using Services =
+    std::vector<std::pair<std::shared_ptr<typename Service::Request>, std::shared_ptr<typename Service::Response>>>;
 
 template <class Service>
 std::pair<std::shared_ptr<typename Service::Request>, std::shared_ptr<typename Service::Response>> make_service() {
@@ -43,8 +44,8 @@ template <class Part>
 void swap_first_two(Part& part) {
   const auto swap = [](auto&... values) { (std::swap(values[0], values[1]), ...); };
   swap(part.bool_values, part.byte_values, part.char_values, part.float32_values, part.float64_values, part.int8_values,
-       part.uint8_values, part.int16_values, part.uint16_values, part.int32_values, part.uint32_values, part.int64_values,
-       part.uint64_values, part.string_values, part.basic_types_values);
+       part.uint8_values, part.int16_values, part.uint16_values, part.int32_values, part.uint32_values,
+       part.int64_values, part.uint64_values, part.string_values, part.basic_types_values);
 }
 
 }  // namespace test_msgs::fixtures
