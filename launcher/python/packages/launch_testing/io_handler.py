@@ -87,18 +87,25 @@ class ActiveIoHandler(IoHandler):
         with self._condition:
             return self._io_handler[key]
 
-    def waitFor(self, expected_output, process=None, cmd_args=None, *, stream='stdout',  # noqa: N802
+    def waitFor(self, expected_output, process=None, cmd_args=None, *, stream=None,  # noqa: N802
                 strict_proc_matching=True, output_filter=None, timeout=10, strip_ansi_escape_sequences=True):
-        """Whether the output comes within `timeout` seconds; the arguments are those of assertInStdout."""
+        """
+        Whether the output comes within `timeout` seconds; the arguments are those of assertInStdout.
 
-        def is_there():
+        Without a `stream`, it may come on either, where ROS 2 looks at 'stderr'.
+        """
+
+        def is_in(one):
             try:
                 assertInStream(self._io_handler, expected_output, process, cmd_args, output_filter=output_filter,
                                strict_proc_matching=strict_proc_matching,
-                               strip_ansi_escape_sequences=strip_ansi_escape_sequences, stream=stream)
+                               strip_ansi_escape_sequences=strip_ansi_escape_sequences, stream=one)
             except (NoMatchingProcessException, AssertionError):
                 return False
             return True
+
+        def is_there():
+            return any(is_in(one) for one in (('stderr', 'stdout') if stream is None else (stream,)))
 
         with self._condition:
             if self._condition.wait_for(is_there, timeout=timeout):

@@ -114,7 +114,8 @@ TEST_F(Workspace, MayHoldLibrariesOnRclcpp) {
   for (const auto& [package, test] :
        {std::pair{"track_frames_ros", "test_listener"}, std::pair{"track_bond", "test_bond"},
         std::pair{"track_navigator", "test_navigator"}, std::pair{"track_parsers", "test_parsers"},
-        std::pair{"track_parsers", "test_domain"}, std::pair{"track_parsers", "test_of_gmock"}}) {
+        std::pair{"track_parsers", "test_domain"}, std::pair{"track_parsers", "test_of_gmock"},
+        std::pair{"track_parsers", "test_own_library"}}) {
     EXPECT_THAT(test_support::read_file(workspace_ / "build" / package / "test_results/ctest.xml"),
                 HasSubstr("testcase name=\"" + std::string(test) + "\""));
   }

@@ -44,6 +44,8 @@ class TestWhileItRuns(unittest.TestCase):
         proc_output.assertWaitFor('Waiting', process=program, timeout=60)
         self.proc_output.assertWaitFor(re.compile(r'^Loop \d$', re.MULTILINE), process=program, timeout=60)
         proc_output.assertWaitFor('a complaint', process=program, stream='stderr', timeout=60)
+        proc_output.assertWaitFor(expected_output='a complaint', process=program, timeout=60)
+        self.assertFalse(proc_output.waitFor('a complaint', process=program, stream='stdout', timeout=0.01))
         proc_output.assertWaitFor(['Loop 1', 'Loop 3'], process=program, timeout=60)
         self.assertFalse(proc_output.waitFor(['Loop 3', 'Loop 1'], process=program, timeout=0.01))
         proc_output.assertWaitFor('Waiting', process='program', cmd_args=['again'], timeout=60)
