@@ -227,6 +227,11 @@ print(root.attrib['tests'], sorted({case.get('classname') + '/' + case.get('name
         empty.write_text('')
         self.assertIn(f"'{empty}' has no generate_test_description(), which returns a LaunchDescription",
                       self.run_tests(empty, code=1))
+        parametrized = self.directory / 'no_values.py'
+        text = (FILES / 'parametrized.py').read_text()
+        parametrized.write_text(re.sub(r"(@launch_testing\.parametrize\('\w+', )\[[^\]]*\]", r'\1[]', text))
+        self.assertNotEqual(parametrized.read_text(), text)
+        self.assertIn(f"'{parametrized}' has no test runs: its parametrize() has no values", self.run_tests(parametrized, code=1))
         nothing = self.directory / 'nothing.py'
         nothing.write_text((FILES / 'fails.py').read_text().replace('unittest.TestCase', 'object'))
         self.assertIn('launch_test: nothing.nothing.launch_tests: the file has no tests\n',

@@ -5,9 +5,16 @@ import sys
 
 
 def same_module(module, *names):
-    """Makes a module importable by other names as well."""
+    """Makes a module importable by other names as well. It is an attribute of their packages, too, as in ROS 2."""
     for name in names:
         sys.modules[name] = sys.modules[module]
+        _set_attribute(name)
+
+
+def _set_attribute(name):
+    package, _, last = name.rpartition('.')
+    if package in sys.modules and last not in vars(sys.modules[package]):
+        setattr(sys.modules[package], last, sys.modules[name])
 
 
 def snake_case(name):
@@ -30,4 +37,6 @@ def one_class_modules(module_name):
     module = sys.modules[module_name]
     for name, value in list(vars(module).items()):
         if isinstance(value, type) and name[0] != '_':
-            sys.modules.setdefault(f'{module_name}.{snake_case(name)}', module)
+            own_module = f'{module_name}.{snake_case(name)}'
+            sys.modules.setdefault(own_module, module)
+            _set_attribute(own_module)

@@ -85,7 +85,9 @@ class TestRun:
 
 def runs_of(module):
     generate = module.generate_test_description
-    pairs = generate() if hasattr(generate, '__parametrized__') else [(generate, {})]
+    pairs = list(generate()) if hasattr(generate, '__parametrized__') else [(generate, {})]
+    if not pairs:
+        raise TestFileError(f"'{module.__file__}' has no test runs: its parametrize() has no values")
     return [TestRun(module, description, arguments) for description, arguments in pairs]
 
 

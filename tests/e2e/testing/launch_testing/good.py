@@ -37,6 +37,8 @@ class TestWhileItRuns(unittest.TestCase):
 
     def test_names_of_releases(self):
         self.assertIs(enable_rmw_isolation.EnableRmwIsolation, EnableRmwIsolation)
+        self.assertIs(launch.actions.execute_process.ExecuteProcess, launch.actions.ExecuteProcess)
+        self.assertIs(launch.event_handlers.on_process_start.OnProcessStart, launch.event_handlers.OnProcessStart)
         self.assertEqual(normalize_lineseps('a\r\nb\n'), 'a\nb\n')
         self.assertGreater(int(os.environ['ROS_DOMAIN_ID']), 0)
 
