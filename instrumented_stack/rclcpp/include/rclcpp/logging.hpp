@@ -51,6 +51,16 @@ struct LogThrottle {
   }
 };
 
+// Of _FUNCTION: a function, something that can be called, or a pointer to it.
+template <class Function>
+bool is_true(Function&& function) {
+  if constexpr (std::is_invocable_v<Function>) {
+    return function();
+  } else {
+    return (*function)();
+  }
+}
+
 }  // namespace rclcpp::detail
 
 // The two forms of a line. `before` is done if the line is written, before its arguments are evaluated.
@@ -91,7 +101,7 @@ struct LogThrottle {
 #define RCLCPP_LOG_EXPRESSION_(form, level, logger, expression, ...) \
   RCLCPP_LOG_##form##_(RCUTILS_LOG_SEVERITY_##level, logger, expression, __VA_ARGS__)
 #define RCLCPP_LOG_FUNCTION_(form, level, logger, function, ...) \
-  RCLCPP_LOG_##form##_(RCUTILS_LOG_SEVERITY_##level, logger, (function)(), __VA_ARGS__)
+  RCLCPP_LOG_##form##_(RCUTILS_LOG_SEVERITY_##level, logger, ::rclcpp::detail::is_true(function), __VA_ARGS__)
 #define RCLCPP_LOG_SKIPFIRST_(form, level, logger, ...) \
   RCLCPP_LOG_##form##_(RCUTILS_LOG_SEVERITY_##level, logger, RCLCPP_LOG_SKIPFIRST_CONDITION_, __VA_ARGS__)
 #define RCLCPP_LOG_THROTTLE_(form, level, logger, clock, duration, ...)                                       \

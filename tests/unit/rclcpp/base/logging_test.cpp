@@ -3,6 +3,7 @@
 #include <rcutils/logging.h>
 
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <rcl_interfaces/msg/log.hpp>
 #include <string>
@@ -68,9 +69,12 @@ TEST_F(LoggingTest, OnceSkipfirstAndExpressionRememberTheirPlace) {
     RCLCPP_INFO_STREAM_ONCE(logger_, "stream once " << i);
     RCLCPP_INFO_FUNCTION(
         logger_, [i] { return i == 2; }, "function %d", i);
+    std::function<bool()> stored = [i] { return i == 2; };
+    RCLCPP_INFO_FUNCTION(logger_, &stored, "stored %d", i);
   }
   EXPECT_THAT(lines(), ElementsAre("INFO logger: once 0", "INFO logger: stream once 0", "INFO logger: skip 1",
-                                   "INFO logger: if 1", "INFO logger: skip 2", "INFO logger: function 2"));
+                                   "INFO logger: if 1", "INFO logger: skip 2", "INFO logger: function 2",
+                                   "INFO logger: stored 2"));
 }
 
 // A clock that the test sets.
