@@ -213,7 +213,7 @@ struct LaunchRun::State {
     }
     result.out = read_file(out());
     result.err = read_file(err());
-    result.left = launch::left_behind(result.err);
+    result.left = launch::left_behind(result.out + result.err);
     return result;
   }
 };

@@ -2,6 +2,7 @@
 #include "rclcpp_action/types.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace rclcpp_action {
 
@@ -19,10 +20,16 @@ std::string to_string(const GoalUUID& goal_id) {
 }
 
 void convert(const GoalUUID& goal_id, rcl_action_goal_info_t* info) {
+  if (info == nullptr) {
+    throw std::invalid_argument("info is nullptr");
+  }
   std::copy(goal_id.begin(), goal_id.end(), info->goal_id.uuid);
 }
 
 void convert(const rcl_action_goal_info_t& info, GoalUUID* goal_id) {
+  if (goal_id == nullptr) {
+    throw std::invalid_argument("goal_id is nullptr");
+  }
   std::copy(std::begin(info.goal_id.uuid), std::end(info.goal_id.uuid), goal_id->begin());
 }
 

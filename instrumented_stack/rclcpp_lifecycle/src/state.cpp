@@ -16,7 +16,7 @@ State::State(uint8_t id, const std::string& label) : id_(id), label_(label) {
 
 State::State(const rcl_lifecycle_state_t* rcl_lifecycle_state) {
   if (rcl_lifecycle_state == nullptr) {
-    throw std::invalid_argument("rcl_lifecycle_state_handle is null");
+    throw std::runtime_error("rcl_lifecycle_state_handle is null");
   }
   id_ = static_cast<uint8_t>(rcl_lifecycle_state->id);
   label_ = rcl_lifecycle_state->label;
@@ -43,7 +43,7 @@ Transition::Transition(uint8_t id, const std::string& label, State&& start, Stat
 
 Transition::Transition(const rcl_lifecycle_transition_t* rcl_lifecycle_transition) {
   if (rcl_lifecycle_transition == nullptr) {
-    throw std::invalid_argument("rcl_lifecycle_transition_handle is null");
+    throw std::runtime_error("rcl_lifecycle_transition_handle is null");
   }
   id_ = static_cast<uint8_t>(rcl_lifecycle_transition->id);
   label_ = rcl_lifecycle_transition->label;

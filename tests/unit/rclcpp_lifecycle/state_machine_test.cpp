@@ -186,12 +186,12 @@ TEST(LifecycleValues, StatesAndTransitionsAreValues) {
   EXPECT_EQ(unknown.label(), "unknown");
   EXPECT_EQ(rclcpp_lifecycle::State(3, "active").label(), "active");
   EXPECT_THROW(rclcpp_lifecycle::State(3, ""), std::runtime_error);
-  EXPECT_THROW(rclcpp_lifecycle::State(nullptr), std::invalid_argument);
+  EXPECT_THROW(rclcpp_lifecycle::State(nullptr), std::runtime_error);
   const rclcpp_lifecycle::Transition transition(3, "activate", rclcpp_lifecycle::State(2, "inactive"),
                                                 rclcpp_lifecycle::State(13, "activating"));
   EXPECT_EQ(transition.start_state().label(), "inactive");
   EXPECT_EQ(transition.goal_state().id(), 13);
-  EXPECT_THROW(rclcpp_lifecycle::Transition(nullptr), std::invalid_argument);
+  EXPECT_THROW(rclcpp_lifecycle::Transition(nullptr), std::runtime_error);
 
   struct Taken : rclcpp_lifecycle::Transition {
     Taken() : Transition(3, "activate") { reset(); }

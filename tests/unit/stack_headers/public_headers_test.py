@@ -23,7 +23,7 @@ USES = {
     'rclcpp/rclcpp.hpp': '''
         rclcpp::executors::SingleThreadedExecutor a; rclcpp::executors::MultiThreadedExecutor b;
         rclcpp::experimental::executors::EventsExecutor c; rclcpp::executors::EventsCBGExecutor d;
-        rclcpp::Rate rate(1.0); rclcpp::WaitSet wait_set; rclcpp::Serialization<rcl_interfaces::msg::Log>* s = nullptr; (void)s;
+        rclcpp::Rate rate(1.0); rclcpp::WaitSet wait_set; rclcpp::Serialization<rcl_interfaces::msg::Parameter>* s = nullptr; (void)s;
         auto copy = [](auto& x, auto& y) { rclcpp::copy_all_parameter_values(x, y); }; (void)copy;
         rclcpp::ParameterEventHandler* handler = nullptr; (void)handler;
         std::this_thread::sleep_for(std::chrono::seconds(0)); std::mutex mutex; std::map<int, std::vector<std::string>> map;''',
@@ -62,9 +62,8 @@ def include_directories():
     """Those of the stack and of its messages, of all commands of the build."""
     found = {}
     for command in json.loads((BUILD / 'compile_commands.json').read_text(encoding='utf-8')):
-        if '/instrumented_stack/' in command['file'] or 'tests/unit/' in command['output']:
-            for word in re.findall(r'-I(\S*instrumented_stack\S*)', command['command']):
-                found[word] = None
+        for word in re.findall(r'-I(\S*/instrumented_stack/\S*include)(?=\s)', command['command']):
+            found[word] = None
     return list(found)
 
 

@@ -2,8 +2,7 @@
 // How a node gets its publishers, subscriptions, services, clients, timers and waitables: each in a callback group.
 #include <tracetools/tracetools.h>
 
-#include <stdexcept>
-
+#include "rclcpp/exceptions.hpp"
 #include "rclcpp/node_interfaces/node_services.hpp"
 #include "rclcpp/node_interfaces/node_timers.hpp"
 #include "rclcpp/node_interfaces/node_topics.hpp"
@@ -15,9 +14,9 @@ namespace {
 
 // The group that serves an entity: `group`, or the one that a node has for those without.
 CallbackGroup::SharedPtr serving(NodeBaseInterface& node_base, const CallbackGroup::SharedPtr& group,
-                                 const char* error) {
+                                 const char* kind) {
   if (group && !node_base.callback_group_in_node(group)) {
-    throw std::runtime_error(error);
+    throw exceptions::MissingGroupNodeException(kind);
   }
   return group ? group : node_base.get_default_callback_group();
 }
@@ -36,7 +35,7 @@ SubscriptionBase::SharedPtr NodeTopics::create_subscription(const std::string& t
 }
 
 void NodeTopics::add_publisher(PublisherBase::SharedPtr publisher, CallbackGroup::SharedPtr group) {
-  group = serving(*node_base_, group, "Cannot create publisher, group not in node.");
+  group = serving(*node_base_, group, "publisher");
   publisher->set_callback_group(group);
   for (const auto& [type, handler] : publisher->get_event_handlers()) {
     group->add_waitable(handler);
@@ -44,7 +43,7 @@ void NodeTopics::add_publisher(PublisherBase::SharedPtr publisher, CallbackGroup
 }
 
 void NodeTopics::add_subscription(SubscriptionBase::SharedPtr subscription, CallbackGroup::SharedPtr group) {
-  group = serving(*node_base_, group, "Cannot create subscription, callback group not in node.");
+  group = serving(*node_base_, group, "subscription");
   group->add_subscription(subscription);
   for (const auto& [type, handler] : subscription->get_event_handlers()) {
     group->add_waitable(handler);
@@ -55,21 +54,21 @@ void NodeTopics::add_subscription(SubscriptionBase::SharedPtr subscription, Call
 }
 
 void NodeServices::add_service(ServiceBase::SharedPtr service, CallbackGroup::SharedPtr group) {
-  serving(*node_base_, group, "Cannot create service, group not in node.")->add_service(service);
+  serving(*node_base_, group, "service")->add_service(service);
 }
 
 void NodeServices::add_client(ClientBase::SharedPtr client, CallbackGroup::SharedPtr group) {
-  serving(*node_base_, group, "Cannot create client, group not in node.")->add_client(client);
+  serving(*node_base_, group, "client")->add_client(client);
 }
 
 void NodeTimers::add_timer(TimerBase::SharedPtr timer, CallbackGroup::SharedPtr group) {
-  serving(*node_base_, group, "Cannot create timer, group not in node.")->add_timer(timer);
+  serving(*node_base_, group, "timer")->add_timer(timer);
   TRACETOOLS_TRACEPOINT(rclcpp_timer_link_node, static_cast<const void*>(timer->get_timer_handle().get()),
                         static_cast<const void*>(node_base_->get_rcl_node_handle()));
 }
 
 void NodeWaitables::add_waitable(Waitable::SharedPtr waitable, CallbackGroup::SharedPtr group) {
-  serving(*node_base_, group, "Cannot create waitable, group not in node.")->add_waitable(waitable);
+  serving(*node_base_, group, "waitable")->add_waitable(waitable);
 }
 
 void NodeWaitables::remove_waitable(Waitable::SharedPtr waitable, CallbackGroup::SharedPtr group) noexcept {

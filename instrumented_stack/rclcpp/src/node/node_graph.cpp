@@ -8,6 +8,7 @@
 
 #include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/exceptions.hpp"
+#include "rclcpp/expand_topic_or_service_name.hpp"
 
 namespace rclcpp {
 
@@ -73,6 +74,9 @@ using AskForEndpoints = rcl_ret_t (*)(const rcl_node_t*, rcl_allocator_t*, const
 
 std::vector<TopicEndpointInfo> endpoints(const NodeBaseInterface& node_base, const std::string& topic_name,
                                          bool no_mangle, AskForEndpoints ask) {
+  if (!no_mangle) {  // throws exceptions::InvalidTopicNameError
+    (void)expand_topic_or_service_name(topic_name, node_base.get_name(), node_base.get_namespace());
+  }
   const std::string name = no_mangle ? topic_name : node_base.resolve_topic_or_service_name(topic_name, false);
   rcl_allocator_t allocator = rcl_get_default_allocator();
   rcl_topic_endpoint_info_array_t infos = rcl_get_zero_initialized_topic_endpoint_info_array();

@@ -5,6 +5,7 @@
 #include <type_description_interfaces/srv/get_type_description.hpp>
 
 #include "rclcpp/create_service.hpp"
+#include "rclcpp/exceptions.hpp"
 
 namespace rclcpp::node_interfaces {
 
@@ -73,7 +74,12 @@ NodeTypeDescriptions::NodeTypeDescriptions(const NodeBaseInterface::SharedPtr& n
     descriptor.read_only = true;
     parameters->declare_parameter(kParameter, ParameterValue(true), descriptor);
   }
-  if (!parameters->get_parameter(kParameter).as_bool()) {
+  const Parameter parameter = parameters->get_parameter(kParameter);
+  if (parameter.get_type() != PARAMETER_BOOL) {
+    throw exceptions::InvalidParameterTypeException(kParameter,
+                                                    "expected [bool] got [" + to_string(parameter.get_type()) + "]");
+  }
+  if (!parameter.as_bool()) {
     return;
   }
   service_ = create_service<GetTypeDescription>(

@@ -3,6 +3,7 @@
 
 #include <tracetools/tracetools.h>
 
+#include "rclcpp/contexts/default_context.hpp"
 #include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/exceptions.hpp"
 
@@ -13,6 +14,9 @@ using detail::require_ok;
 TimerBase::TimerBase(Clock::SharedPtr clock, std::chrono::nanoseconds period, Context::SharedPtr context,
                      bool autostart)
     : clock_(std::move(clock)) {
+  if (!context) {
+    context = contexts::get_global_default_context();
+  }
   const std::shared_ptr<rcl_context_t> rcl_context = context->get_rcl_context();
   auto timer = std::make_unique<rcl_timer_t>(rcl_get_zero_initialized_timer());
   {

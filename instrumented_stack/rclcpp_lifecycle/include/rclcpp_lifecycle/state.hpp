@@ -15,7 +15,7 @@ class State {
   State() = default;  // unknown
   // Throws std::runtime_error if the label is empty.
   State(uint8_t id, const std::string& label);
-  // Throws std::invalid_argument for null.
+  // Throws std::runtime_error for null.
   explicit State(const rcl_lifecycle_state_t* rcl_lifecycle_state);
   virtual ~State() = default;
   State(const State&) = default;

@@ -16,7 +16,7 @@ class Transition {
  public:
   explicit Transition(uint8_t id, const std::string& label = "");
   Transition(uint8_t id, const std::string& label, State&& start, State&& goal);
-  // Throws std::invalid_argument for null.
+  // Throws std::runtime_error for null.
   explicit Transition(const rcl_lifecycle_transition_t* rcl_lifecycle_transition);
   virtual ~Transition() = default;
   Transition(const Transition&) = default;

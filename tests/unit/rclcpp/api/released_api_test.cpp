@@ -261,6 +261,20 @@ TEST_F(ReleasedApi, WrongUsesThrowWhatRclcppThrows) {
                 [&] { node_->create_generic_client("s", "std_srvs/srv/None"); }),
             "no error");
 
+  EXPECT_EQ(error_of([] { rclcpp::node_interfaces::get_node_base_interface(rclcpp::Node::SharedPtr()); }),
+            "node cannot be nullptr");
+  EXPECT_EQ(error_of([] {
+              rclcpp::create_timer(static_cast<rclcpp::Node*>(nullptr), nullptr, rclcpp::Duration(1, 0), [] {});
+            }),
+            "node cannot be nullptr");
+  rclcpp::Node other("other");
+  const auto foreign = other.get_node_base_interface()->get_default_callback_group();
+  EXPECT_EQ(error_of<rclcpp::exceptions::MissingGroupNodeException>([&] {
+              node_->create_wall_timer(
+                  std::chrono::hours(1), [] {}, foreign);
+            }),
+            "cannot create: timer , callback group not in node");
+
   rclcpp::AnyServiceCallback<AddTwoInts> callback;
   EXPECT_EQ(error_of<std::runtime_error>([&] { callback.dispatch(nullptr, nullptr, nullptr); }),
             "unexpected request without any callback set");

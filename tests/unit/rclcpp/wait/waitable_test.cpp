@@ -168,7 +168,7 @@ TEST_F(WaitableTest, BelongsToAGroupOfItsNode) {
     node_->get_node_waitables_interface()->add_waitable(std::make_shared<Counter>(), group);
     FAIL() << "no exception";
   } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "Cannot create waitable, group not in node.");
+    EXPECT_STREQ(error.what(), "cannot create: waitable , callback group not in node");
   }
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 
@@ -18,9 +19,15 @@ struct IsPointerLike<NodeT, std::void_t<decltype(*std::declval<NodeT&>())>> : st
 template <typename NodeT, typename InterfaceT>
 using IsSharedInterface = std::is_same<std::remove_cv_t<std::remove_reference_t<NodeT>>, std::shared_ptr<InterfaceT>>;
 
+// Throws std::invalid_argument for a null pointer.
 template <typename NodeT>
 auto& dereferenced(NodeT& node) {
   if constexpr (IsPointerLike<NodeT>::value) {
+    if constexpr (std::is_constructible_v<bool, NodeT&>) {
+      if (!static_cast<bool>(node)) {
+        throw std::invalid_argument("node cannot be nullptr");
+      }
+    }
     return *node;
   } else {
     return node;
