@@ -35,8 +35,9 @@ bool boolean(const rclcpp::Parameter& argument) {
 }
 
 using SetOption = rclcpp::NodeOptions& (rclcpp::NodeOptions::*)(bool);
-constexpr std::array<std::pair<std::string_view, SetOption>, 8> kExtraArguments = {
-    {{"enable_logger_service", &rclcpp::NodeOptions::enable_logger_service},
+constexpr std::array<std::pair<std::string_view, SetOption>, 9> kExtraArguments = {
+    {{"allow_undeclared_parameters", &rclcpp::NodeOptions::allow_undeclared_parameters},
+     {"enable_logger_service", &rclcpp::NodeOptions::enable_logger_service},
      {"enable_rosout", &rclcpp::NodeOptions::enable_rosout},
      {"enable_topic_statistics", &rclcpp::NodeOptions::enable_topic_statistics},
      {"forward_global_arguments", &rclcpp::NodeOptions::use_global_arguments},

@@ -216,7 +216,8 @@ TEST_F(ComponentManagerTest, ErrorsAreInTheResponseAndTheContainerGoesOn) {
             "Unknown extra component argument 'use_intra_process_comm'; did you mean 'use_intra_process_comms'?");
   request.extra_arguments = {parameter("priority", 1)};
   EXPECT_EQ(client_.load(request).error_message,
-            "Unknown extra component argument 'priority'; known are enable_logger_service, enable_rosout, "
+            "Unknown extra component argument 'priority'; known are allow_undeclared_parameters, "
+            "enable_logger_service, enable_rosout, "
             "enable_topic_statistics, enable_type_description_service, forward_global_arguments, "
             "start_parameter_event_publisher, start_parameter_services, use_clock_thread, use_intra_process_comms");
   request.extra_arguments.clear();

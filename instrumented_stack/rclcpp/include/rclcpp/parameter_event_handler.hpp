@@ -79,7 +79,7 @@ class ParameterEventHandler {
   // Whether `event` has a new or changed value of that parameter and node. The node's name is fully qualified.
   static bool get_parameter_from_event(const rcl_interfaces::msg::ParameterEvent& event, Parameter& parameter,
                                        const std::string& parameter_name, const std::string& node_name = "");
-  // Throws std::runtime_error if the event has no such value.
+  // Without a value if the event of that node has none. Throws std::runtime_error for an event of another node.
   static Parameter get_parameter_from_event(const rcl_interfaces::msg::ParameterEvent& event,
                                             const std::string& parameter_name, const std::string& node_name = "");
   // New parameters first, then changed ones.

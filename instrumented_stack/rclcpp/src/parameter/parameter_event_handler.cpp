@@ -120,8 +120,11 @@ Parameter ParameterEventHandler::get_parameter_from_event(const rcl_interfaces::
                                                           const std::string& node_name) {
   Parameter parameter;
   if (!get_parameter_from_event(event, parameter, parameter_name, node_name)) {
-    throw std::runtime_error("Parameter '" + parameter_name + "' of node '" + node_name +
-                             "' is not part of parameter event");
+    if (event.node == node_name) {
+      return Parameter(parameter_name, PARAMETER_NOT_SET);
+    }
+    throw std::runtime_error("The node name '" + node_name + "' of parameter '" + parameter_name +
+                             "' doesn't match the node name '" + event.node + "' in parameter event");
   }
   return parameter;
 }

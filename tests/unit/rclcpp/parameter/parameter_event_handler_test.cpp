@@ -90,11 +90,15 @@ TEST(ParameterEventHandler, FindsAParameterInAnEvent) {
   EXPECT_TRUE(rclcpp::ParameterEventHandler::get_parameter_from_event(event, parameter, "speed", "/owner"));
   EXPECT_EQ(parameter.as_int(), 3);
   EXPECT_FALSE(rclcpp::ParameterEventHandler::get_parameter_from_event(event, parameter, "speed", "/other"));
+  EXPECT_EQ(rclcpp::ParameterEventHandler::get_parameter_from_event(event, "height", "/owner"),
+            rclcpp::Parameter("height", rclcpp::PARAMETER_NOT_SET));
   try {
-    rclcpp::ParameterEventHandler::get_parameter_from_event(event, "height", "/owner");
+    rclcpp::ParameterEventHandler::get_parameter_from_event(event, "height", "/other");
     FAIL();
   } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "Parameter 'height' of node '/owner' is not part of parameter event");
+    EXPECT_STREQ(
+        error.what(),
+        "The node name '/other' of parameter 'height' doesn't match the node name '/owner' in parameter event");
   }
 }
 
