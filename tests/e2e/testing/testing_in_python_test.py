@@ -125,7 +125,8 @@ class Runs(unittest.TestCase):
             run.wait()
 
     def test_a_program_that_leaves_a_process(self):
-        result = LaunchRun(programs=[['/bin/sh', '-c', 'setsid sleep 600 & exit 0']], events=[]).wait()
+        script = "x=$(setsid /bin/sh -c 'exec sleep 600 >/dev/null' &)"  # ends when the other one is in its own session
+        result = LaunchRun(programs=[['/bin/sh', '-c', script]], events=[]).wait()
         self.assertEqual(len(result.left), 1, result.out + result.err)
         self.assertRegex(result.left[0], r'^sh-1 left 1 process running: sleep \([0-9]+\)$')
 
