@@ -29,6 +29,34 @@ Locator with_file_number(Locator locator) {
   return locator;
 }
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wnon-virtual-dtor"  // the destructor of the base
+
+// Gives what another iterator gives, as the transport in shared memory gets it. It moves the other one.
+class LocatorsWithFileNumbers final : public rtps::LocatorsIterator {
+ public:
+  explicit LocatorsWithFileNumbers(rtps::LocatorsIterator& locators) : locators_(locators) {}
+
+  LocatorsIterator& operator++() override {
+    ++locators_;
+    return *this;
+  }
+  bool operator==(const LocatorsIterator& other) const override {
+    return locators_ == static_cast<const LocatorsWithFileNumbers&>(other).locators_;
+  }
+  bool operator!=(const LocatorsIterator& other) const override { return !(*this == other); }
+  const Locator& operator*() const override {
+    current_ = with_file_number(*locators_);
+    return current_;
+  }
+
+ private:
+  rtps::LocatorsIterator& locators_;
+  mutable Locator current_;
+};
+
+#pragma GCC diagnostic pop
+
 // Of messages, only announcements of participants and endpoints are copied.
 struct SeparateSender : rtps::SenderResource {
   static void become(rtps::SenderResource& sender, bool is_shared_memory) {
@@ -46,13 +74,8 @@ struct SeparateSender : rtps::SenderResource {
       if (!is_shared_memory) {
         return send(data, size, begin, end, deadline);
       }
-      static thread_local std::vector<Locator> destinations;  // keeps its memory
-      destinations.clear();
-      for (; *begin != *end; ++*begin) {
-        destinations.push_back(with_file_number(**begin));
-      }
-      rtps::Locators first(destinations.begin());
-      rtps::Locators last(destinations.end());
+      LocatorsWithFileNumbers first(*begin);
+      LocatorsWithFileNumbers last(*end);
       return send(data, size, &first, &last, deadline);
     };
   }

@@ -79,7 +79,9 @@ def explain(error, trace, with_traceback):
         return str(error), place, error.help, text, number
     if unknown := _unknown_name(error):
         module, name = unknown
-        near = difflib.get_close_matches(name, dir(sys.modules.get(module)), 1)
+        # Each class has a module of its own name as well, which nobody means.
+        names = [known for known, value in vars(sys.modules.get(module)).items() if not isinstance(value, types.ModuleType)]
+        near = difflib.get_close_matches(name, names, 1)
         return (f"this launcher's {module} has no '{name}'", place, f"did you mean '{near[0]}'?" if near else '',
                 text, number)
     if isinstance(error, SyntaxError) and error.filename and error.lineno:
