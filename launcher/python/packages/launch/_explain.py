@@ -80,7 +80,7 @@ def explain(error, trace, with_traceback):
     if unknown := _unknown_name(error):
         module, name = unknown
         # Each class has a module of its own name as well, which nobody means.
-        names = [known for known, value in vars(sys.modules.get(module)).items() if not isinstance(value, types.ModuleType)]
+        names = [known for known, value in getattr(sys.modules.get(module), '__dict__', {}).items() if not isinstance(value, types.ModuleType)]
         near = difflib.get_close_matches(name, names, 1)
         return (f"this launcher's {module} has no '{name}'", place, f"did you mean '{near[0]}'?" if near else '',
                 text, number)
