@@ -101,6 +101,8 @@ const rosidl_message_type_support_t& DescribedType::handle() const {
 }
 
 struct NativeMessage::Storage {
+  explicit Storage(DescribedMessage of) : message(std::move(of)) {}
+
   DescribedMessage message;
 };
 

@@ -53,7 +53,7 @@ class NativeMessage {
  private:
   struct Storage;
 
-  const DescribedType& type_;
+  [[maybe_unused]] const DescribedType& type_;  // one of the two libraries needs it
   std::unique_ptr<Storage> storage_;
 };
 
