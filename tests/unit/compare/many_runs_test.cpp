@@ -104,6 +104,17 @@ TEST(ManyRuns, OneOfThemMayBeUnlikeTheOthers) {
   EXPECT_THAT(subjects(compare(side("before", 2, 4), after, {})), ElementsAre("/node_5"));
 }
 
+// A slow run before makes the change look like the opposite in its pairs.
+TEST(ManyRuns, TellTheDirectionOfMostPairs) {
+  Runs before = side("before", 2, 4);
+  before.runs[1] = run(78, 5, 1.25);
+  const Comparison comparison = compare(before, side("after", 3, 4, 5, 1.2), {});
+  ASSERT_THAT(subjects(comparison), ElementsAre("/node_5"));
+  EXPECT_TRUE(comparison.changes.front().is_slower());
+  EXPECT_NEAR(comparison.changes.front().shift_ns(), 0.2 * kUsual, 0.06 * kUsual);
+  EXPECT_GT(comparison.changes.front().shift_low_ns(), -0.1 * kUsual);
+}
+
 TEST(ManyRuns, OfTheMachineAloneAreTakenForNoChange) {
   Runs after = side("after", 3, 4);
   for (RunSummary& one : after.runs) {

@@ -86,7 +86,7 @@ TEST(AnnouncedHosts, AreThoseOfSharedMemoryInEachAnnouncement) {
   Message message;
   message.data(std::string("\0\0\1\3", 4)).end();  // of an application
   message.data(kParticipants).locator(kDefaultUnicast, LOCATOR_KIND_UDPv4, 1).locator(kDefaultUnicast, 16, 2).end();
-  message.add("\x09\1\10\0timetime");
+  message.add("\x09\1\10\0timetime").add("\x09\3\0\0");  // the second one: no time
   message.data(kPublications, true).locator(kUnicast, 16, 3).locator(0x50, 16, 4).end();
   EXPECT_THAT(message.found(), ElementsAre(message.places()[1], message.places()[2]));
 }

@@ -13,6 +13,7 @@
 
 #include "tracing/model/compare/change_cause.hpp"
 #include "tracing/model/compare/disturbance.hpp"
+#include "tracing/model/compare/many_runs.hpp"
 #include "tracing/model/compare/quantity_tests.hpp"
 #include "tracing/model/compare/tested_quantity.hpp"
 
@@ -48,6 +49,27 @@ bool is_estimated(const Found& side) {
   return std::any_of(side.begin(), side.end(), [](const Measurement* one) { return one->estimated; });
 }
 
+// Of several pairs of runs the smallest shift is told, with an interval that holds those of all pairs. Of many runs one
+// may be unlike all others, and its pairs show nothing, or the opposite: the shift in the middle is told, with an
+// interval that holds those of three quarters of the pairs.
+Shift told_shift(const TestedQuantity& tested, const CompareOptions& options) {
+  std::vector<double> estimates;
+  std::vector<double> lows;
+  std::vector<double> highs;
+  for (const PairTest& pair : tested.pairs) {
+    const Shift shift = shift_between(pair.blocks.before, pair.blocks.after, options.confidence);
+    estimates.push_back(shift.estimate);
+    lows.push_back(shift.low);
+    highs.push_back(shift.high);
+  }
+  if (has_many_runs(tested)) {
+    return {quantile(estimates, 0.5), quantile(lows, 0.125), quantile(highs, 0.875)};
+  }
+  return {*std::min_element(estimates.begin(), estimates.end(),
+                            [](double a, double b) { return std::abs(a) < std::abs(b); }),
+          *std::min_element(lows.begin(), lows.end()), *std::max_element(highs.begin(), highs.end())};
+}
+
 Change change_of(const TestedQuantity& tested, double probability, const CompareOptions& options) {
   Change change;
   std::tie(change.kind, change.subject, change.quantity) = tested.key;
@@ -57,20 +79,7 @@ Change change_of(const TestedQuantity& tested, double probability, const Compare
   change.after_ns = value_of(*tested.after, share_of(tested.statistic));
   change.doubtful = is_doubtful(*tested.before) || is_doubtful(*tested.after);
   change.estimated = is_estimated(*tested.before) || is_estimated(*tested.after);
-  // Of several pairs of runs the smallest shift is told, with an interval that holds those of all pairs.
-  std::optional<Shift> told;
-  for (const PairTest& pair : tested.pairs) {
-    const Shift shift = shift_between(pair.blocks.before, pair.blocks.after, options.confidence);
-    if (!told) {
-      told = shift;
-    }
-    if (std::abs(shift.estimate) < std::abs(told->estimate)) {
-      told->estimate = shift.estimate;
-    }
-    told->low = std::min(told->low, shift.low);
-    told->high = std::max(told->high, shift.high);
-  }
-  change.shift = told.value_or(Shift{});
+  change.shift = told_shift(tested, options);
   return change;
 }
 

@@ -8,7 +8,8 @@
 // quantities of the sort differ between the runs, and, unless it is the 10th percentile of a callback's duration, than
 // what the machine delays callbacks in either run and, unless both sides have several runs, than two other
 // callbacks take. Probabilities are corrected for the number of tests. If a side has several runs, a difference must
-// hold between every two of them.
+// hold between every two of them; the work of callbacks, with four runs or more on both sides, between three quarters
+// of the pairs (many_runs.hpp).
 #pragma once
 
 #include "tracing/model/compare/compare_options.hpp"

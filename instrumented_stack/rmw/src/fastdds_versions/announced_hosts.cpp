@@ -81,12 +81,15 @@ void find_in_data(Bytes data, std::size_t at, std::vector<std::size_t>& hosts) {
 
 std::vector<std::size_t> announced_hosts(Bytes message) {
   constexpr std::size_t kMessageHeader = 20;
+  constexpr std::uint8_t kPad = 0x01;
+  constexpr std::uint8_t kInfoTimestamp = 0x09;
   constexpr std::uint8_t kData = 0x15;
   std::vector<std::size_t> hosts;
   for (std::size_t at = kMessageHeader; at + kShortHeader <= message.size();) {
     const std::size_t size = number(message, at + 2, 2, (message[at + 1] & 1) != 0);
-    // The last submessage may leave its size to the message.
-    const std::size_t end = size == 0 ? message.size() : std::min(at + kShortHeader + size, message.size());
+    // The last submessage may leave its size to the message. Two kinds may be empty.
+    const bool goes_to_the_end = size == 0 && message[at] != kPad && message[at] != kInfoTimestamp;
+    const std::size_t end = goes_to_the_end ? message.size() : std::min(at + kShortHeader + size, message.size());
     if (message[at] == kData) {
       find_in_data(message.first(end), at, hosts);
     }
