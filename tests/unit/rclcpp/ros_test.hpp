@@ -7,6 +7,7 @@
 #include <chrono>
 #include <initializer_list>
 #include <rclcpp/rclcpp.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,17 @@ class RosTest : public ::testing::Test {
 
 // The longest time that a step of these tests may take on a busy machine.
 inline constexpr std::chrono::seconds kPatience{20};
+
+// What the exception says that the action throws; "no error" if it throws none of this kind.
+template <typename ErrorT = std::invalid_argument, typename ActionT>
+std::string error_of(ActionT action) {
+  try {
+    action();
+  } catch (const ErrorT& error) {
+    return error.what();
+  }
+  return "no error";
+}
 
 // Executes callbacks until `condition` holds. The condition is checked after each callback. It is also checked every
 // few milliseconds, because not everything that may change it wakes the executor (discovery does not).

@@ -26,16 +26,6 @@ class Library : public RosTest {
   rclcpp::Node::SharedPtr node_ = std::make_shared<rclcpp::Node>("library", "ns");
 };
 
-template <typename ErrorT = std::invalid_argument, typename ActionT>
-std::string error_of(ActionT action) {
-  try {
-    action();
-  } catch (const ErrorT& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 // Like message filters: it subscribes with the interfaces that it keeps of a node, and may subscribe again.
 class Filter {
  public:

@@ -20,16 +20,6 @@ using rclcpp::Parameter;
 using rclcpp::ParameterValue;
 using testing::ElementsAre;
 
-template <typename ErrorT, typename ActionT>
-std::string error_of(ActionT action) {
-  try {
-    action();
-  } catch (const ErrorT& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 ParameterDescriptor dynamic_typing() {
   ParameterDescriptor descriptor;
   descriptor.dynamic_typing = true;
