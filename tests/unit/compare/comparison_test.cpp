@@ -10,6 +10,8 @@
 #include <functional>
 #include <random>
 
+#include "changed_subjects.hpp"
+
 namespace tracing::compare {
 namespace {
 
@@ -65,16 +67,6 @@ RunSummary run(std::uint64_t seed, int changed = -1, const std::function<double(
 
 Comparison compared(RunSummary before, RunSummary after, const CompareOptions& options = {}) {
   return compare({"before", {std::move(before)}}, {"after", {std::move(after)}}, options);
-}
-
-std::vector<std::string> subjects(const Comparison& comparison) {
-  std::vector<std::string> names;
-  for (const Change& change : comparison.changes) {
-    if (names.empty() || names.back() != change.subject) {
-      names.push_back(change.subject);
-    }
-  }
-  return names;
 }
 
 TEST(Comparison, FindsTwoMillisecondsInOneOfFiftyCallbacksEachTime) {

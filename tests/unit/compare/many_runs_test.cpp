@@ -11,6 +11,7 @@
 #include <functional>
 #include <random>
 
+#include "changed_subjects.hpp"
 #include "tracing/model/compare/comparison.hpp"
 
 namespace tracing::compare::many_runs {
@@ -56,16 +57,6 @@ Runs side(const char* name, std::uint64_t seed, int runs, int changed = -1, doub
     side.runs.push_back(run(1000 * seed + static_cast<std::uint64_t>(number), changed, change));
   }
   return side;
-}
-
-std::vector<std::string> subjects(const Comparison& comparison) {
-  std::vector<std::string> names;
-  for (const Change& change : comparison.changes) {
-    if (names.empty() || names.back() != change.subject) {
-      names.push_back(change.subject);
-    }
-  }
-  return names;
 }
 
 // How often the callback that takes this much longer is named, and no other one, in twenty comparisons.
