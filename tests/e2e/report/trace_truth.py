@@ -5,12 +5,15 @@ import collections
 import re
 import subprocess
 
+from rows_truth import Rows
+
 LINE = re.compile(r'\[(\d+)\.(\d{9})\] .*? (ros2(?:_ext)?:\w+): (.*)')
+OTHER = re.compile(r'\[(\d+)\.(\d{9})\] .*? (\w+):\w+: ')
 FIELD = re.compile(r'(\w+) = (?:"((?:[^"\\]|\\.)*)"|(-?(?:0x)?[0-9A-Fa-f]+)|(\[.*?\](?= \}|, \w+ = )))')
 
 
 def events_of(trace):
-    """(time, name, fields) of the events of ROS 2, in the order of time. An array is its text."""
+    """(time, name, fields) of the events of ROS 2, in the order of time. An array is its text. Others have no name and no fields."""
     text = subprocess.run(['babeltrace2', '--clock-seconds', trace], check=True, stdout=subprocess.PIPE,
                           stderr=subprocess.DEVNULL, text=True).stdout
     for line in text.splitlines():
@@ -19,6 +22,8 @@ def events_of(trace):
             for name, string, number, array in FIELD.findall(match[4]):
                 fields[name] = array or (int(number, 0) if number else string)
             yield int(match[1]) * 10**9 + int(match[2]), match[3].split(':')[1], fields
+        elif (match := OTHER.match(line)) and match[3] != 'launch':
+            yield int(match[1]) * 10**9 + int(match[2]), '', {'vpid': 0, 'vtid': 0}
 
 
 def place_in(long, short):
@@ -72,6 +77,8 @@ class Truth:
         self.waited = collections.Counter()  # by process and thread
         self.callbacks_of = collections.Counter()
         self.states = []  # of lifecycle nodes: goals
+        events = list(events)
+        self.rows = Rows(events)
         self.read(events)
 
     def read(self, events):

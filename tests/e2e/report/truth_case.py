@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """
 The tables of `launch report`, those of JSON and the rows of SQL, against a computation of its own, from what babeltrace2 prints
-of the same trace: callbacks, timers, topics, messages, services and executors.
+of the same trace: callbacks, timers, topics, messages, services, actions, lifecycle states, executors and chains with their hops.
 """
 
 import collections
@@ -23,7 +23,13 @@ EXAMPLES = Path(os.environ['SOURCE_DIRECTORY']) / 'launch_examples'
 NAMES = f'''<include file="{EXAMPLES / "02_names.launch.xml"}"><arg name="seconds" value="100"/></include>
   <on_process_io pattern="I heard.*World: 3"><shutdown/></on_process_io>'''
 
-# What the tables hold of each event.
+NODE = 'processes.vpid, nodes.name'
+OF_NODE = 'LEFT JOIN nodes ON {}.node = nodes.id LEFT JOIN processes ON nodes.process = processes.id'
+INSTANCE = """(SELECT processes.vpid || ' ' || callbacks.address || ' ' || start_ns FROM callback_instances
+  JOIN callbacks ON callback = callbacks.id JOIN processes ON process = processes.id WHERE callback_instances.id = {})"""
+OBJECT = "(SELECT processes.vpid || ' ' || nodes.name || ' ' || {0}s.name FROM {0}s " + OF_NODE.format('{0}s') + ' WHERE {0}s.id = {0})'
+
+# What the tables hold of each event. The first column tells the process, but in those of NOT_OF_ONE_PROCESS.
 ROWS = {
     'callback_instances': '''SELECT processes.vpid, callbacks.address, start_ns, duration_ns FROM callback_instances
       JOIN callbacks ON callback = callbacks.id JOIN processes ON process = processes.id WHERE callbacks.kind <> 'client' ''',
@@ -31,7 +37,27 @@ ROWS = {
       WHERE intra_process = 0 AND taken_ns IS NOT NULL''',
     'executor_waits': '''SELECT processes.vpid, threads.vtid, begin_ns, end_ns FROM executor_waits
       JOIN threads ON thread = threads.id JOIN processes ON threads.process = processes.id''',
+    'nodes': 'SELECT vpid, nodes.name FROM nodes JOIN processes ON process = processes.id',
+    'publishers': f'SELECT {NODE}, topics.name, queue_depth FROM publishers {OF_NODE.format("publishers")} JOIN topics ON topic = topics.id',
+    'subscriptions': f'''SELECT {NODE}, topics.name, queue_depth FROM subscriptions {OF_NODE.format("subscriptions")}
+      JOIN topics ON topic = topics.id''',
+    'timers': f'SELECT {NODE}, period_ns FROM timers {OF_NODE.format("timers")}',
+    'services': f'SELECT {NODE}, services.name FROM services {OF_NODE.format("services")}',
+    'clients': f'SELECT {NODE}, clients.name FROM clients {OF_NODE.format("clients")}',
+    'lifecycle_states': f'SELECT {NODE}, state, begin_ns, end_ns FROM lifecycle_states {OF_NODE.format("lifecycle_states")}',
+    'event_counts': "SELECT vpid, substr(event, instr(event, ':') + 1), events FROM event_counts WHERE event GLOB 'ros2:*' OR event GLOB 'ros2_ext:*'",
+    'ways': f'''SELECT topics.name, called_ns, rclcpp_ns, rcl_ns, published_ns, {INSTANCE.format("publishing_instance")}, taken_ns,
+      {INSTANCE.format("receiving_instance")}, intra_process FROM messages JOIN topics ON topic = topics.id
+      WHERE receiving_instance IS NOT NULL''',
+    'calls': f'SELECT {OBJECT.format("client")}, {OBJECT.format("service")}, sent_ns, taken_ns, answered_ns, received_ns FROM calls',
+    'goals': f'''SELECT action, {NODE}, sent_ns, answered_ns, asked_ns, result_ns FROM goals
+      LEFT JOIN nodes ON client = nodes.id LEFT JOIN processes ON nodes.process = processes.id''',
 }
+NOT_OF_ONE_PROCESS = ('messages', 'ways', 'calls', 'goals')
+STEPS = '''SELECT vpid, address FROM chain_steps JOIN callbacks ON callback_id = callbacks.id
+  JOIN processes ON callbacks.process = processes.id WHERE chain = ? ORDER BY step'''
+HOPS = '''SELECT chain_instance, step, chain_hops.begin_ns, duration_ns, until_publish_ns, transfer_ns, executor_ns, take_ns
+  FROM chain_hops JOIN chain_instances ON chain_instance = chain_instances.id WHERE chain = ? ORDER BY chain_instance, step'''
 
 
 def percentile(values, part):
@@ -70,8 +96,11 @@ class TruthCase(unittest.TestCase):
                 self.assertEqual(summary[key], percentile(values, part), key)
         self.compared += 1
 
-    def check(self, trace, least, code=0, truth=None, is_whole=True):
-        """At least so many distributions have values. The report ends with this code, and says whether anything is missing."""
+    def check(self, trace, least, hops=0, code=0, truth=None, is_whole=True):
+        """
+        At least so many distributions have values, and chains so many hops. The report ends with this code, and says whether
+        anything is missing.
+        """
         rows = self.directory / 'rows.sqlite'
         for words in (('--sql', rows), ('--json',)):
             run = subprocess.run([os.environ['LAUNCH_REPORT'], trace, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
@@ -83,8 +112,8 @@ class TruthCase(unittest.TestCase):
             print('events were lost, because this machine is busy: what is there is compared', file=sys.stderr)
         self.assertEqual(not missing, is_whole)
         truth = truth or Truth(events_of(trace))
-        self.compared = 0
-        self.check_rows(rows, truth)
+        self.compared = self.compared_hops = 0
+        self.check_rows(rows, truth, is_whole)
         at_address = collections.defaultdict(list)  # one may be where another one was that has gone
         for callback in report['callbacks']:
             at_address[callback['vpid'], callback['address']].append(callback)
@@ -134,16 +163,39 @@ class TruthCase(unittest.TestCase):
                     self.assertGreaterEqual(executor['waited_ns'], truth.waited[key])
                 self.assertEqual(executor['callbacks'], truth.callbacks_of[key], executor)
         self.assertGreaterEqual(self.compared, least)
+        self.assertGreaterEqual(self.compared_hops, hops)
 
-    def check_rows(self, file, truth):
-        """Each callback instance, message and wait, not only their numbers and distributions."""
-        expected = {'callback_instances': truth.instances, 'messages': truth.ways, 'executor_waits': truth.waits}
+    def check_rows(self, file, truth, is_whole):
+        """Each row, not only their numbers and distributions. Which way a message took is not certain if events are missing."""
+        rows = truth.rows
+        expected = {
+            'callback_instances': truth.instances, 'messages': truth.ways, 'executor_waits': truth.waits, 'nodes': rows.nodes,
+            'event_counts': rows.count_rows(), 'ways': rows.way_rows(), 'calls': rows.call_rows(), 'goals': rows.goal_rows(),
+            **{table: rows.of_nodes(getattr(rows, table))
+               for table in ('publishers', 'subscriptions', 'timers', 'services', 'clients', 'lifecycle_states')},
+        }
         with sqlite3.connect(file) as database:
             for table, query in ROWS.items():
-                found = collections.Counter(row for row in database.execute(query)
-                                            if table == 'messages' or row[0] in self.started)
+                if table == 'ways' and not is_whole:
+                    continue
                 with self.subTest(table=table):
-                    own = collections.Counter(row for row in expected[table] if table == 'messages' or row[0] in self.started)
-                    self.assertEqual(sorted(map(str, own - found)), [])
-                    self.assertEqual(sorted(map(str, found - own)), [])
+                    self.compare_rows(*(collections.Counter(row for row in rows if table in NOT_OF_ONE_PROCESS or row[0] in self.started)
+                                        for rows in (database.execute(query), expected[table])))
+            chains = database.execute('SELECT id, name FROM chains').fetchall() if is_whole else []
+            for chain, name in chains:
+                steps = list(database.execute(STEPS, (chain,)))
+                divided = [rows.has_one_executor(process) for process, _ in steps]
+                hops = collections.defaultdict(list)
+                for instance, step, begin, duration, until_publish, transfer, executor, take in database.execute(HOPS, (chain,)):
+                    way = (until_publish, transfer, executor if divided[step] else None, take) if step else ()
+                    hops[instance].append((begin, duration, *way))
+                expected_hops = rows.hops_of(steps, name is not None)
+                for each in expected_hops:
+                    self.compared_hops += len(each)
+                with self.subTest(chain=chain, name=name, steps=len(steps)):
+                    self.compare_rows(collections.Counter(map(tuple, hops.values())), collections.Counter(expected_hops))
         database.close()
+
+    def compare_rows(self, found, own):
+        self.assertEqual(sorted(map(str, own - found)), [])
+        self.assertEqual(sorted(map(str, found - own)), [])

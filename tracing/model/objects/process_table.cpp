@@ -95,19 +95,21 @@ ProcessId ProcessTable::find(const Key& key) {
   return found->second;
 }
 
-ProcessId ProcessTable::shared_with(ProcessId known, const Key& key, std::uint64_t address) {
+ProcessId ProcessTable::shared_with(ProcessId known, const Key& key, const Event& event, std::uint64_t address) {
   const Space& space = spaces_[key.place];
   if (space.recording.machine.empty() || space.recording.of_kernel) {
     return kNoProcess;  // equal addresses of two machines mean nothing
   }
-  const auto [found, is_new] = by_context_.try_emplace({space.machine, *key.vpid, address}, kNoProcess);
-  if (is_new || found->second == kNoProcess || found->second == known || keys_[found->second].place == key.place) {
+  const auto [found, is_new] =
+      by_context_.try_emplace({space.machine, *key.vpid, address}, FirstInit{kNoProcess, event.vtid});
+  const ProcessId shared = found->second.process;
+  if (is_new || shared == kNoProcess || shared == known || keys_[shared].place == key.place) {
     return kNoProcess;
   }
-  const ProcessId shared = found->second;
   is_shared_.resize(std::max<std::size_t>(is_shared_.size(), shared + 1));
   is_shared_[shared] = true;
-  is_newly_shared_ = true;
+  // A thread of the tracer tells a session that begins late what there is.
+  is_newly_shared_ = found->second.vtid == event.vtid;
   by_space_[key] = shared;
   if (contexts_[known].empty() && keys_[known] == key) {
     processes_[known].merged_into = shared;
@@ -126,7 +128,7 @@ std::string ProcessTable::host_of(ProcessId process) const {
 }
 
 ProcessId ProcessTable::of_context(ProcessId known, const Key& key, const Event& event, std::uint64_t address) {
-  if (const ProcessId shared = shared_with(known, key, address); shared != kNoProcess) {
+  if (const ProcessId shared = shared_with(known, key, event, address); shared != kNoProcess) {
     return shared;
   }
   const std::vector<std::uint64_t>& contexts = contexts_[known];
@@ -159,8 +161,8 @@ ProcessId ProcessTable::of_context(ProcessId known, const Key& key, const Event&
   if (!is_same) {
     contexts_[process].push_back(address);
     if (const auto found = by_context_.find({spaces_[key.place].machine, *key.vpid, address});
-        found != by_context_.end() && found->second == kNoProcess) {
-      found->second = process;
+        found != by_context_.end() && found->second.process == kNoProcess) {
+      found->second.process = process;
     }
   }
   return process;

@@ -122,7 +122,7 @@ class ProcessTable {
   // The process of an rcl_init, which may be a new one.
   ProcessId of_context(ProcessId known, const Key& key, const Event& event, std::uint64_t address);
   // The process of another session with the context, if it is certain that it is the same one.
-  ProcessId shared_with(ProcessId known, const Key& key, std::uint64_t address);
+  ProcessId shared_with(ProcessId known, const Key& key, const Event& event, std::uint64_t address);
   static void learn_name(ProcessObject& process, const Event& event, bool of_kernel);
 
   std::vector<ProcessObject> processes_;
@@ -145,7 +145,11 @@ class ProcessTable {
       return std::tie(machine, vpid, address) < std::tie(other.machine, other.vpid, other.address);
     }
   };
-  std::map<Context, ProcessId> by_context_;
+  struct FirstInit {
+    ProcessId process = kNoProcess;
+    std::optional<std::int64_t> vtid;  // of the event
+  };
+  std::map<Context, FirstInit> by_context_;
   // By process, which is one of a session that has nothing but its id in common with a process of another one so far.
   std::map<ProcessId, ProcessDoubt> doubts_;
   std::vector<bool> is_shared_;   // by process: several sessions have it; may be shorter

@@ -165,7 +165,7 @@ Table lifecycle_table(System system) {
        {"state", kText, [](System, const LifecycleState& stay) { return Cell{std::string_view(stay.state)}; }},
        {"begin_ns", kInteger, [](System, const LifecycleState& stay) { return Cell{stay.begin_ns}; }},
        {"end_ns", kInteger, [](System, const LifecycleState& stay) { return Cell{stay.end_ns}; },
-        "of the last one: the end of the trace"}});
+        "of the last one: the end of the node's state machine, or of the trace"}});
 }
 
 Table state_table(System system) {

@@ -101,7 +101,7 @@ void add_object_tables(const TracedSystem& system, std::vector<Table>& tables) {
        "1: it takes messages of some contents only"});
   tables.push_back(table_of("subscriptions", "", system, timeline.subscriptions, subscription_columns));
   tables.push_back(table_of<timeline::Timer>(
-      "timers", "", system, timeline.timers,
+      "timers", "those of nodes", system, timeline.timers,
       {{"node", kInteger, [](System, const auto& timer) { return reference(timer.node); }, "in `nodes`"},
        {"period_ns", kInteger, [](System, const auto& timer) { return number(timer.period_ns); }}}));
   tables.push_back(table_of("services", "", system, timeline.services, service_columns()));
