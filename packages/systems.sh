@@ -26,6 +26,13 @@ packages_of() {
   rows_of "$1" "$2" | awk '$2 != "-" { print $2 }'
 }
 
+# wanted_packages_of GROUP SYSTEM: those without the ones of programs that may come from elsewhere, and are there.
+wanted_packages_of() {
+  rows_of "$1" "$2" | awk '$2 != "-"' | while read -r probe name; do
+    [[ $probe == found:* ]] && is_there "$probe" || echo "$name"
+  done
+}
+
 # own_system [OS-RELEASE]: the column of the table for this system, or nothing. Systems that are derived from Debian and Ubuntu
 # without names of their own for the packages (Raspberry Pi OS, Mint) say the code name of what they were made of.
 own_system() (
@@ -55,7 +62,7 @@ is_there() {
   local what=${1#*:}
   case $1 in
     program:clang*) compgen -c "$what" >/dev/null ;;  # with any version behind it
-    program:*) command -v "$what" >/dev/null || [ -x "/usr/sbin/$what" ] || [ -x "/sbin/$what" ] ;;
+    program:* | found:*) command -v "$what" >/dev/null || [ -x "/usr/sbin/$what" ] || [ -x "/sbin/$what" ] ;;
     module:*) pkg-config --exists "$what" 2>/dev/null ;;
     header:*) [ -e "/usr/include/$what" ] || [ -e "/usr/local/include/$what" ] || compgen -G "/usr/include/*-linux-gnu*/$what" >/dev/null ;;
     python:*) python3 -c "import $what" 2>/dev/null ;;
@@ -118,7 +125,7 @@ need() {
     exit 1
   fi
   for group in "$@"; do
-    mapfile -t -O ${#names[@]} names < <(packages_of "$group" "$system")
+    mapfile -t -O ${#names[@]} names < <(wanted_packages_of "$group" "$system")
   done
   install_packages "${names[@]}"
   if [ -n "${LAUNCH_CROSS:-}" ]; then

@@ -15,7 +15,7 @@ SOURCE = Path(os.environ['SOURCE_DIRECTORY'])
 TABLE = SOURCE / 'packages/table.txt'
 FUNCTIONS = SOURCE / 'packages/systems.sh'
 
-GROUPS = {'build', 'test', 'bench', 'format', 'lint', 'fuzz', 'docs', 'guest', 'guest-arm64', 'package', 'abi', 'root', 'emulator'}
+GROUPS = {'build', 'test', 'bench', 'format', 'lint', 'fuzz', 'docs', 'editor', 'guest', 'guest-arm64', 'package', 'abi', 'root', 'emulator'}
 ABOUT_THE_SYSTEM = {'suite', 'also', 'verified'}
 
 
@@ -40,7 +40,7 @@ class Table(unittest.TestCase):
             with self.subTest(' '.join(line[:2])):
                 self.assertEqual(len(line), 2 + len(systems))
                 self.assertIn(line[0], GROUPS | ABOUT_THE_SYSTEM)
-                self.assertRegex(line[1], r'^(-|(program|module|header|python):\S+)$')
+                self.assertRegex(line[1], r'^(-|(program|found|module|header|python):\S+)$')
                 self.assertNotEqual(line[2], '=', 'nothing stands before the first system')
                 for word in line[2:]:
                     self.assertRegex(word, r'^(=|-|[a-z0-9][a-z0-9+.-]+)$')
@@ -108,6 +108,10 @@ class Need(unittest.TestCase):
         self.assertEqual(bash('packages_of emulator debian:12').stdout, bash('packages_of emulator debian:13').stdout)
         self.assertEqual(bash('packages_of emulator debian:testing').stdout, 'qemu-user\n')
         self.assertEqual(bash('packages_of format debian:13').stdout, '')
+
+    def test_a_program_that_came_from_elsewhere_needs_no_package(self):
+        script = 'is_there() { [ "$1" = found:node ]; }; wanted_packages_of editor debian:12'
+        self.assertEqual(bash(script).stdout, 'npm\n')
 
     def test_on_a_system_that_is_not_known_it_says_what_is_missing(self):
         # As Fedora would be: nothing is installed, apt is not called.
