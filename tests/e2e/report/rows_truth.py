@@ -301,7 +301,7 @@ class Rows:
         message, taken = instance.message, self.taken[instance]
         waits = self.waits.get((instance.process, instance.thread), [])
         if not waits or waits[0][0] > message.published:
-            return None  # a session that began later does not tell whether it waited before
+            return None  # whether it waited before is not in a session that began later
         waited = sum(max(0, min(end, taken) - max(begin, message.published)) for begin, end in waits)
         return taken - message.published - waited
 

@@ -4,6 +4,7 @@
 import asyncio
 import contextlib
 import errno
+import importlib.util
 import io
 import json
 import os
@@ -242,6 +243,7 @@ class Jobs(InFolder):
                          '    all of it: build/arm/launch_build_configure.log\n'
                          '0 packages built in T s, failed: arm\n')
 
+    @unittest.skipUnless(importlib.util.find_spec('setuptools'), 'because python3-setuptools is not installed')
     def test_install_packages_of_python_where_they_are_found(self):
         for name, settings in (('talk', ''), ('show', '[install]\ninstall_scripts=$base/lib/show\n')):
             path = self.package(name, '<export><build_type>ament_python</build_type></export>')
