@@ -13,6 +13,7 @@ namespace launch {
 
 int check_command(const Words& words);
 int explain_command(const Words& words);
+int export_command(const Words& words);
 int graph_command(const Words& words);
 int lsp_command(const Words& words);
 int reference_command(const Words& words);

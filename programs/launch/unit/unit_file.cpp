@@ -4,37 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <string_view>
 
+#include "launcher/deploy/shell_variables.hpp"
+#include "launcher/deploy/systemd_text.hpp"
+
 namespace launch {
-namespace {
-
-constexpr std::array<std::string_view, 12> kPrefixes = {"ROS_",        "RMW_",   "AMENT_",    "COLCON_",
-                                                        "RCUTILS_",    "RCL_",   "FASTRTPS_", "FASTDDS_",
-                                                        "CYCLONEDDS_", "ZENOH_", "LTTNG_",    "OVERRIDE_LAUNCH_"};
-constexpr std::array<std::string_view, 7> kNames = {
-    "PATH", "LD_LIBRARY_PATH", "PYTHONPATH", "CMAKE_PREFIX_PATH", "PKG_CONFIG_PATH", "PYTHONUNBUFFERED", "LANG"};
-
-// In quotes, as systemd reads them. "%" begins a specifier everywhere, "$" a variable in a command.
-std::string quoted(std::string_view text, bool in_command) {
-  std::string all = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      all += '\\';
-    } else if (c == '%' || (c == '$' && in_command)) {
-      all += c;
-    } else if (c == '\n') {
-      all += "\\n";
-      continue;
-    }
-    all += c;
-  }
-  return all + '"';
-}
-
-}  // namespace
 
 std::string unit_text(const UnitFile& unit) {
   std::string text =
@@ -46,16 +22,16 @@ std::string unit_text(const UnitFile& unit) {
   text += "Type=notify\nNotifyAccess=all\nTimeoutStartSec=infinity\nWatchdogSec=30\n";
   text += "ExecStart=";
   for (const std::string& word : unit.command) {
-    text += (&word == &unit.command.front() ? "" : " ") + quoted(word, true);
+    text += (&word == &unit.command.front() ? "" : " ") + systemd_quoted(word, true);
   }
   // The file as it is then. `systemctl reload` fails, and nothing changes, if the file has an error.
-  text += fmt::format("\nExecReload={} reload --launch $MAINPID", quoted(unit.command.front(), true));
+  text += fmt::format("\nExecReload={} reload --launch $MAINPID", systemd_quoted(unit.command.front(), true));
   text += fmt::format("\nWorkingDirectory={}\n", unit.directory);
   if (!unit.user.empty()) {
     text += fmt::format("User={}\n", unit.user);
   }
   for (const auto& [name, value] : unit.variables) {
-    text += fmt::format("Environment={}\n", quoted(name + "=" + value, false));
+    text += fmt::format("Environment={}\n", systemd_quoted(name + "=" + value, false));
   }
   // SIGTERM for the launch alone, which gives each process its signals; SIGKILL for all that is left then.
   text += fmt::format("KillMode=mixed\nTimeoutStopSec={}\n", unit.stop_timeout.count());
@@ -78,10 +54,7 @@ std::vector<std::pair<std::string, std::string>> variables_for_unit(const Enviro
                                                                     const std::vector<std::string>& also) {
   std::vector<std::pair<std::string, std::string>> found;
   for (const auto& [name, value] : environment.variables()) {
-    const std::string_view text = name;
-    const bool known =
-        std::any_of(kPrefixes.begin(), kPrefixes.end(), [&](auto prefix) { return text.starts_with(prefix); }) ||
-        std::find(kNames.begin(), kNames.end(), text) != kNames.end();
+    const bool known = is_setting_variable(name) || is_path_variable(name);
     if (known || std::find(also.begin(), also.end(), name) != also.end()) {
       found.emplace_back(name, value);
     }
@@ -98,12 +71,7 @@ std::string unit_name_of(const std::string& launch_file) {
       break;
     }
   }
-  for (char& c : name) {
-    const bool allowed =
-        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.' || c == ':';
-    c = allowed ? c : '-';
-  }
-  return "launch-" + name;
+  return "launch-" + unit_name(name);
 }
 
 }  // namespace launch

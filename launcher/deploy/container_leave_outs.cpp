@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/deploy/container_leave_outs.hpp"
+
+#include <fmt/format.h>
+
+namespace launch {
+
+void leave_out_of_containers(const Service& service, std::vector<LeftOut>& left_out) {
+  const ProcessSpec& spec = *service.spec;
+  const auto leave_out = [&](bool is_there, const char* what) {
+    if (is_there) {
+      left_out.push_back({fmt::format("{} of '{}'", what, service.name), spec.origin});
+    }
+  };
+  leave_out(service.delay > Duration{0}, "the timer before the start");
+  leave_out(spec.required || spec.shutdown_on_exit, "the end of all with the end");
+  leave_out(spec.respawn.enabled && spec.respawn.backoff != 1.0, "the growing delay of the respawns");
+  leave_out(spec.start_limit.starts > 0, "the limit of starts");
+  leave_out(spec.allowed_exits.any || !spec.allowed_exits.codes.empty(), "the allowed exit codes");
+  leave_out(spec.limits.niceness.has_value(), "the niceness");
+  leave_out(spec.limits.policy.has_value(), "the scheduling policy");
+  leave_out(spec.limits.timer_slack.has_value(), "the timer slack");
+  leave_out(spec.control_limits.memory_high.has_value(), "memory_high");
+  leave_out(spec.control_limits.io_weight.has_value(), "io_weight");
+  leave_out(!spec.control_groups.empty(), "the limits of the group");
+}
+
+}  // namespace launch

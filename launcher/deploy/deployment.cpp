@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launcher/deploy/deployment.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <variant>
+
+#include "base/overloaded.hpp"
+#include "launcher/deploy/shell_variables.hpp"
+#include "launcher/plan/dry_run.hpp"
+
+namespace launch {
+namespace {
+
+class Collector {
+ public:
+  explicit Collector(const LaunchPlan& plan) : plan_(plan) {}
+
+  DeploymentPlan collect() {
+    std::map<std::string, std::size_t> count;
+    for (std::size_t i = 0; i < plan_.processes.size(); ++i) {
+      const ProcessSpec& spec = plan_.processes[i];
+      const std::size_t number = ++count[spec.name];
+      result_.services.push_back({.name = number == 1 ? spec.name : fmt::format("{}-{}", spec.name, number),
+                                  .spec = &spec,
+                                  .delay = i < plan_.delays.size() ? plan_.delays[i] : Duration{0},
+                                  .before = {}});
+      add_what_no_service_has(spec);
+    }
+    for (const Dependency& dependency : plan_.dependencies) {
+      add_dependency(dependency);
+    }
+    add_requests();
+    return std::move(result_);
+  }
+
+ private:
+  void leave_out(std::string what, const SourceRange& where) { result_.left_out.push_back({std::move(what), where}); }
+
+  void add_what_no_service_has(const ProcessSpec& spec) {
+    for (const HealthWatch& watch : spec.watches) {
+      leave_out(fmt::format("'{}' is healthy while {}", spec.name, describe(watch)), spec.origin);
+    }
+    if (spec.tty || spec.terminal_input) {
+      leave_out(fmt::format("the terminal of '{}'", spec.name), spec.origin);
+    }
+    if (!spec.crash_directory.empty()) {
+      leave_out(fmt::format("the crash directory of '{}'", spec.name), spec.origin);
+    }
+    if (spec.start_limit.starts > 0 && spec.start_limit.cool_down) {
+      leave_out(fmt::format("the pause of '{}' after too many starts", spec.name), spec.origin);
+    }
+    if (spec.scalable) {
+      leave_out(fmt::format("further copies of '{}'", spec.name), spec.origin);
+    }
+  }
+
+  std::optional<std::size_t> service_named(const std::string& name) const {
+    for (std::size_t i = 0; i < plan_.processes.size(); ++i) {
+      const ProcessSpec& spec = plan_.processes[i];
+      if (spec.name == name || fmt::format("{}-{}", spec.name, i + 1) == name ||
+          std::find(spec.other_names.begin(), spec.other_names.end(), name) != spec.other_names.end()) {
+        return i;
+      }
+    }
+    return std::nullopt;
+  }
+
+  void add_dependency(const Dependency& dependency) {
+    Service& service = result_.services[dependency.process];
+    const std::string waits = fmt::format("'{}' waits until {}", service.name, describe(dependency));
+    const auto* const process = std::get_if<ProcessCondition>(&dependency.condition);
+    const std::optional<std::size_t> other = process == nullptr ? std::nullopt : service_named(process->process);
+    if (!other) {
+      leave_out(waits, dependency.where);
+      return;
+    }
+    ServiceBefore before{.service = *other, .wanted = dependency.on_failure == OnFailure::kStart};
+    const auto* const exited = std::get_if<UntilExited>(&process->state);
+    if (exited != nullptr) {
+      before.ended = true;
+      before.succeeded = exited->exit_code.is_listed() && exited->exit_code.codes() == std::vector<int>{0};
+      if (!before.succeeded && exited->exit_code.text() != "any") {
+        leave_out(waits + ", with this code", dependency.where);
+      }
+      if (result_.services[*other].spec->respawn.enabled) {
+        leave_out(waits + ": it starts again when it has ended", dependency.where);
+        return;
+      }
+    } else if (!std::holds_alternative<UntilStarted>(process->state)) {
+      leave_out(waits + "; the start is what is waited for", dependency.where);
+    }
+    if (dependency.timeout) {
+      leave_out(fmt::format("'{}' waits at most {} s", service.name,
+                            std::chrono::duration<double>(*dependency.timeout).count()),
+                dependency.where);
+    }
+    service.before.push_back(before);
+  }
+
+  void add_requests() {
+    for_each_request(
+        plan_, Overloaded{
+                   [&](const RunScopePtr& scope) { leave_out(fmt::format("the {}", scope->kind()), scope->origin()); },
+                   [&](const EventHandler& handler) { leave_out(describe(handler), handler.where); },
+                   [&](const LoadRequest& request) {
+                     for (const ComposableNode& node : request.nodes) {
+                       leave_out(fmt::format("{} {} is loaded into {}", node.package, node.plugin, request.target),
+                                 node.origin);
+                     }
+                   },
+                   [&](const TransitionRequest& request) {
+                     leave_out(fmt::format("the states of {}: {}", request.node, fmt::join(request.transitions, ", ")),
+                               request.origin);
+                   },
+                   [&](const CoroutineRequest& request) { leave_out("a coroutine", request.where); },
+                   [&](const TestRequest&) {},
+                   PassOver<ProcessSpec, ProcessCommand, UnregisterRequest, TimerRequest, ShutdownRequest,
+                            NodeDescription, Dependency>(),
+               });
+    for (const LeftToRun& left : plan_.left_to_run) {
+      leave_out(left.function.empty() ? "an action that depends on functions of the file"
+                                      : fmt::format("what the function {} gives", left.function),
+                left.where);
+    }
+  }
+
+  const LaunchPlan& plan_;
+  DeploymentPlan result_;
+};
+
+}  // namespace
+
+std::string export_mark(const DeploymentOptions& options) {
+  return fmt::format("# Made by 'launch export' with the name '{}', which may make it anew.", options.name);
+}
+
+DeploymentPlan deployment_of(const LaunchPlan& plan) { return Collector(plan).collect(); }
+
+std::vector<std::string> command_line_of(const ProcessSpec& spec, const std::vector<std::string>& paths_of_files) {
+  std::vector<std::string> words = spec.argv;
+  for (std::size_t i = 0; i < spec.files.size(); ++i) {
+    words[spec.files[i].argument] = paths_of_files[i];
+  }
+  if (!spec.shell) {
+    return words;
+  }
+  return {"/bin/sh", "-c", fmt::format("{}", fmt::join(words, " "))};
+}
+
+std::vector<std::string> file_names_of(const Service& service) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < service.spec->files.size(); ++i) {
+    names.push_back(i == 0 ? service.name + ".yaml" : fmt::format("{}.{}.yaml", service.name, i + 1));
+  }
+  return names;
+}
+
+ServiceVariables variables_of(const ProcessSpec& spec, const Environment& shell, ShellVariables of_shell) {
+  ServiceVariables result;
+  const auto changes = environment_difference(spec.environment, shell);
+  for (const auto& [name, value] : spec.environment) {
+    const bool is_taken = is_setting_variable(name) || (of_shell == ShellVariables::kAll && is_path_variable(name));
+    if (is_taken || changes.contains(name)) {
+      result.set.emplace_back(name, value);
+    }
+  }
+  for (const auto& [name, value] : changes) {
+    if (!value) {
+      result.removed.push_back(name);
+    }
+  }
+  return result;
+}
+
+}  // namespace launch

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+// A unit for each process and a target for all (systemd.service(5), systemd.target(5)).
+#include <fmt/format.h>
+#include <sched.h>
+#include <string.h>
+
+#include <chrono>
+#include <cmath>
+#include <set>
+#include <system_error>
+
+#include "launcher/deploy/deployment.hpp"
+#include "launcher/deploy/systemd_text.hpp"
+#include "launcher/process/spawn/program_search.hpp"
+
+namespace launch {
+namespace {
+
+constexpr double kPercent = 100.0;
+
+double seconds_of(Duration time) { return std::chrono::duration<double>(time).count(); }
+
+class UnitWriter {
+ public:
+  UnitWriter(const LaunchPlan& plan, const DeploymentOptions& options)
+      : options_(options), plan_(deployment_of(plan)), target_(unit_name(options.name) + ".target") {
+    result_.left_out = plan_.left_out;
+  }
+
+  Deployment write() {
+    // Whoever is waited for until it has ended is a unit that is "activating" for so long.
+    for (const Service& service : plan_.services) {
+      for (const ServiceBefore& before : service.before) {
+        if (before.ended) {
+          awaited_.insert(before.service);
+        }
+      }
+    }
+    std::string wants;
+    for (std::size_t i = 0; i < plan_.services.size(); ++i) {
+      wants += fmt::format("Wants={}\n", write_service(i));
+    }
+    result_.files.insert(
+        result_.files.begin(),
+        {target_, fmt::format("{}\n[Unit]\nDescription={}\n{}\n[Install]\nWantedBy={}\n", export_mark(options_), options_.name,
+                              wants, options_.of_user ? "default.target" : "multi-user.target")});
+    return std::move(result_);
+  }
+
+ private:
+  void leave_out(const Service& service, const std::string& what) {
+    result_.left_out.push_back({fmt::format("{} of '{}'", what, service.name), service.spec->origin});
+  }
+
+  std::string unit_of(const Service& service) const {
+    return fmt::format("{}-{}.service", unit_name(options_.name), unit_name(service.name));
+  }
+
+  // Returns what the target wants: the unit, or the timer that starts it.
+  std::string write_service(std::size_t index) {
+    const Service& service = plan_.services[index];
+    const std::string unit = unit_of(service);
+    std::string text = fmt::format("{}\n# {}\n[Unit]\nDescription={}\nPartOf={}\n", export_mark(options_),
+                                   to_string(service.spec->origin), service.name, target_);
+    text += order_of(service) + start_limit_of(service);
+    text += "\n[Service]\n" + command_of(service, awaited_.contains(index)) + restarts_of(service) +
+            limits_of_service(service);
+    result_.files.push_back({unit, text});
+    write_slices(*service.spec);
+    if (service.delay <= Duration{0}) {
+      return unit;
+    }
+    const std::string timer = unit.substr(0, unit.rfind('.')) + ".timer";
+    result_.files.push_back({timer, fmt::format("{}\n[Unit]\nDescription=starts {}\nPartOf={}\n\n[Timer]\nOnActiveSec={}\n"
+                                                "AccuracySec=1ms\nRemainAfterElapse=no\n",
+                                                export_mark(options_), service.name, target_, seconds_of(service.delay))});
+    return timer;
+  }
+
+  std::string order_of(const Service& service) const {
+    std::string text;
+    for (const ServiceBefore& before : service.before) {
+      const std::string other = unit_of(plan_.services[before.service]);
+      const bool must = !before.wanted && (!before.ended || before.succeeded);
+      text += fmt::format("After={}\n{}={}\n", other, must ? "Requires" : "Wants", other);
+    }
+    return text;
+  }
+
+  static std::string start_limit_of(const Service& service) {
+    const ProcessSpec& spec = *service.spec;
+    if (spec.start_limit.starts > 0) {
+      return fmt::format("StartLimitIntervalSec={}\nStartLimitBurst={}\n", seconds_of(spec.start_limit.within),
+                         spec.start_limit.starts);
+    }
+    if (spec.respawn.enabled && spec.respawn.max_retries >= 0) {
+      return fmt::format("StartLimitIntervalSec=infinity\nStartLimitBurst={}\n", spec.respawn.max_retries + 1);
+    }
+    return "StartLimitIntervalSec=0\n";
+  }
+
+  std::string command_of(const Service& service, bool is_awaited) {
+    const ProcessSpec& spec = *service.spec;
+    std::vector<std::string> paths;
+    const std::vector<std::string> names = file_names_of(service);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const std::string path = "parameters/" + unit_name(options_.name) + "/" + names[i];
+      result_.files.push_back({path, fmt::format("{}\n{}", export_mark(options_), spec.files[i].content)});
+      paths.push_back(options_.directory + "/" + path);
+    }
+    // A unit that has only been asked to start is "started" for its order: as soon as the program runs.
+    // The search of systemd knows folders of its own only.
+    std::vector<std::string> words = command_line_of(spec, paths);
+    if (!spec.shell) {
+      words.front() = program_of(spec);
+    }
+    std::string text = is_awaited ? "Type=oneshot\nRemainAfterExit=yes\n" : "Type=exec\n";
+    text += "ExecStart=";
+    for (const std::string& word : words) {
+      text += (text.back() == '=' ? "" : " ") + systemd_quoted(word, true);
+    }
+    text += fmt::format("\nWorkingDirectory={}\n",
+                        spec.working_directory.empty() ? options_.directory : spec.working_directory);
+    if (!options_.user.empty()) {
+      text += fmt::format("User={}\n", options_.user);
+    }
+    const ServiceVariables variables = variables_of(spec, options_.shell, ShellVariables::kAll);
+    for (const auto& [name, value] : variables.set) {
+      text += fmt::format("Environment={}\n", systemd_quoted(name + "=" + value, false));
+    }
+    for (const std::string& name : variables.removed) {
+      text += fmt::format("UnsetEnvironment={}\n", name);
+    }
+    return text;
+  }
+
+  // Where it is now; as it was given if it is not there.
+  static std::string program_of(const ProcessSpec& spec) {
+    try {
+      return find_program(spec);
+    } catch (const std::system_error&) {
+      return spec.argv.front();
+    }
+  }
+
+  std::string restarts_of(const Service& service) {
+    const ProcessSpec& spec = *service.spec;
+    // The end of a launch is SIGINT, then SIGTERM, then SIGKILL. systemd has two of these.
+    std::string text = fmt::format("KillSignal=SIGINT\nTimeoutStopSec={}\n",
+                                   seconds_of(spec.sigterm_timeout + spec.sigkill_timeout));
+    if (spec.respawn.enabled) {
+      text += fmt::format("Restart=always\nRestartSec={}\n", seconds_of(spec.respawn.delay));
+      if (spec.respawn.backoff != 1.0) {
+        leave_out(service, "the growing delay of the respawns");
+      }
+    }
+    if (spec.allowed_exits.any) {
+      leave_out(service, "the permission to end with any exit code");
+    } else if (!spec.allowed_exits.codes.empty()) {
+      text += "SuccessExitStatus=";
+      for (const int code : spec.allowed_exits.codes) {
+        text += fmt::format("{}{}", text.back() == '=' ? "" : " ",
+                            code < 0 ? fmt::format("SIG{}", ::sigabbrev_np(-code)) : std::to_string(code));
+      }
+      text += "\n";
+    }
+    if (spec.required || spec.shutdown_on_exit) {
+      text += fmt::format("ExecStopPost={}systemctl {}--no-block stop {}\n", options_.of_user ? "" : "+",
+                          options_.of_user ? "--user " : "", target_);
+    }
+    return text;
+  }
+
+  std::string limits_of_service(const Service& service) {
+    const ResourceLimits& limits = service.spec->limits;
+    std::string text;
+    const auto add = [&](const char* key, const auto& value) {
+      if (value) {
+        text += fmt::format("{}={}\n", key, *value);
+      }
+    };
+    add("Nice", limits.niceness);
+    if (limits.policy == kDeadlinePolicy) {
+      leave_out(service, "the scheduling policy deadline");
+    } else if (limits.policy) {
+      text += fmt::format("CPUSchedulingPolicy={}\n", scheduling_policy_name(*limits.policy));
+      if (*limits.policy == SCHED_FIFO || *limits.policy == SCHED_RR) {
+        text += fmt::format("CPUSchedulingPriority={}\n", limits.priority);
+      }
+    }
+    if (!limits.cpus.empty()) {
+      text += fmt::format("CPUAffinity={}\n", cpu_list(limits.cpus));
+    }
+    add("LimitDATA", limits.memory);
+    add("LimitNOFILE", limits.open_files);
+    if (limits.core_files) {
+      text += "LimitCORE=infinity\n";
+    }
+    if (limits.timer_slack) {
+      text += fmt::format("TimerSlackNSec={}\n", limits.timer_slack->count());
+    }
+    add("OOMScoreAdjust", limits.oom_score_adj);
+    if (limits.locked_memory) {
+      text += *limits.locked_memory == kUnlimited ? std::string("LimitMEMLOCK=infinity\n")
+                                                  : fmt::format("LimitMEMLOCK={}\n", *limits.locked_memory);
+    }
+    if (const std::string slice = slice_of(service.spec->control_groups); !slice.empty()) {
+      text += fmt::format("Slice={}\n", slice);
+    }
+    return text + control_limits(service.spec->control_limits);
+  }
+
+  static std::string control_limits(const ControlGroupLimits& limits) {
+    std::string text;
+    const auto add = [&](const char* key, const auto& value) {
+      if (value) {
+        text += fmt::format("{}={}\n", key, *value);
+      }
+    };
+    add("MemoryMax", limits.memory_max);
+    add("MemoryHigh", limits.memory_high);
+    if (limits.cpu_quota) {
+      text += fmt::format("CPUQuota={}%\n", std::max(std::lround(*limits.cpu_quota * kPercent), 1L));
+    }
+    add("CPUWeight", limits.cpu_weight);
+    add("IOWeight", limits.io_weight);
+    add("TasksMax", limits.pids_max);
+    return text;
+  }
+
+  // The slice of the innermost group: "robot-1-2.slice" is one in "robot-1.slice", in "robot.slice".
+  std::string slice_of(const std::vector<std::shared_ptr<const ControlGroup>>& groups) {
+    if (groups.empty()) {
+      return "";
+    }
+    std::string name = unit_name(options_.name);
+    std::replace(name.begin(), name.end(), '-', '_');
+    for (const auto& group : groups) {
+      name += fmt::format("-{}", slices_.try_emplace(group.get(), slices_.size() + 1).first->second);
+    }
+    return name + ".slice";
+  }
+
+  void write_slices(const ProcessSpec& spec) {
+    for (std::size_t depth = 1; depth <= spec.control_groups.size(); ++depth) {
+      const ControlGroup& group = *spec.control_groups[depth - 1];
+      if (written_.insert(&group).second) {
+        result_.files.push_back({slice_of({spec.control_groups.begin(), spec.control_groups.begin() + depth}),
+                                 fmt::format("{}\n# {}\n[Slice]\n{}", export_mark(options_), to_string(group.where),
+                                             control_limits(group.limits))});
+      }
+    }
+  }
+
+  const DeploymentOptions& options_;
+  const DeploymentPlan plan_;
+  const std::string target_;
+  std::set<std::size_t> awaited_;
+  std::map<const ControlGroup*, std::size_t> slices_;
+  std::set<const ControlGroup*> written_;
+  Deployment result_;
+};
+
+}  // namespace
+
+Deployment as_systemd_units(const LaunchPlan& plan, const DeploymentOptions& options) {
+  return UnitWriter(plan, options).write();
+}
+
+}  // namespace launch
