@@ -95,9 +95,10 @@ class ComposeWriter {
     std::vector<std::string> paths;
     for (const std::string& name : file_names_of(service)) {
       paths.push_back("/launch/parameters/" + name);
-      json["volumes"].push_back(fmt::format("./parameters/{}:/launch/parameters/{}:ro", compose_text(name), compose_text(name)));
-      result_.files.push_back({"parameters/" + name,
-                               fmt::format("{}\n{}", export_mark(options_), spec.files[paths.size() - 1].content)});
+      json["volumes"].push_back(
+          fmt::format("./parameters/{}:/launch/parameters/{}:ro", compose_text(name), compose_text(name)));
+      result_.files.push_back(
+          {"parameters/" + name, fmt::format("{}\n{}", export_mark(options_), spec.files[paths.size() - 1].content)});
     }
     for (const std::string& word : command_line_of(spec, paths)) {
       json["command"].push_back(compose_text(word));

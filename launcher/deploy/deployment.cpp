@@ -139,7 +139,9 @@ std::string export_mark(const DeploymentOptions& options) {
   return fmt::format("# Made by 'launch export' with the name '{}', which may make it anew.", options.name);
 }
 
-DeploymentPlan deployment_of(const LaunchPlan& plan) { return Collector(plan).collect(); }
+DeploymentPlan deployment_of(const LaunchPlan& plan) {
+  return Collector(plan).collect();
+}
 
 std::vector<std::string> command_line_of(const ProcessSpec& spec, const std::vector<std::string>& paths_of_files) {
   std::vector<std::string> words = spec.argv;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A launch as other supervisors can run it: what of a plan becomes a service of theirs, and what they can't say.
 //
-// A service is a process with its command line, environment, order, restarts and limits. Handlers, traces, health and the
-// like are the launcher's own. They are listed, never dropped without a word.
+// A service is a process with its command line, environment, order, restarts and limits. Handlers, traces, health and
+// the like are the launcher's own. They are listed, never dropped without a word.
 #pragma once
 
 #include <cstddef>

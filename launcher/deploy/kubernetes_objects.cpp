@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Objects for `kubectl apply -f DIR`: for each process a Deployment, or a Pod if it does not respawn, and a ConfigMap with
-// the parameter files.
+// Objects for `kubectl apply -f DIR`: for each process a Deployment, or a Pod if it does not respawn, and a ConfigMap
+// with the parameter files.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -89,12 +89,12 @@ class ObjectWriter {
 
   Json object_of(const Service& service, const std::string& name) {
     const ProcessSpec& spec = *service.spec;
-    Json pod = {{"hostNetwork", true},
-                {"hostIPC", true},
-                {"terminationGracePeriodSeconds",
-                 std::lround(std::ceil(
-                     std::chrono::duration<double>(spec.sigterm_timeout + spec.sigkill_timeout).count()))},
-                {"containers", Json::array({container_of(service)})}};
+    Json pod = {
+        {"hostNetwork", true},
+        {"hostIPC", true},
+        {"terminationGracePeriodSeconds",
+         std::lround(std::ceil(std::chrono::duration<double>(spec.sigterm_timeout + spec.sigkill_timeout).count()))},
+        {"containers", Json::array({container_of(service)})}};
     if (!spec.files.empty()) {
       pod["volumes"] = Json::array({{{"name", "parameters"}, {"configMap", {{"name", whole_ + "-parameters"}}}}});
     }

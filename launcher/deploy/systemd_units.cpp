@@ -18,7 +18,9 @@ namespace {
 
 constexpr double kPercent = 100.0;
 
-double seconds_of(Duration time) { return std::chrono::duration<double>(time).count(); }
+double seconds_of(Duration time) {
+  return std::chrono::duration<double>(time).count();
+}
 
 class UnitWriter {
  public:
@@ -42,8 +44,8 @@ class UnitWriter {
     }
     result_.files.insert(
         result_.files.begin(),
-        {target_, fmt::format("{}\n[Unit]\nDescription={}\n{}\n[Install]\nWantedBy={}\n", export_mark(options_), options_.name,
-                              wants, options_.of_user ? "default.target" : "multi-user.target")});
+        {target_, fmt::format("{}\n[Unit]\nDescription={}\n{}\n[Install]\nWantedBy={}\n", export_mark(options_),
+                              options_.name, wants, options_.of_user ? "default.target" : "multi-user.target")});
     return std::move(result_);
   }
 
@@ -71,9 +73,10 @@ class UnitWriter {
       return unit;
     }
     const std::string timer = unit.substr(0, unit.rfind('.')) + ".timer";
-    result_.files.push_back({timer, fmt::format("{}\n[Unit]\nDescription=starts {}\nPartOf={}\n\n[Timer]\nOnActiveSec={}\n"
-                                                "AccuracySec=1ms\nRemainAfterElapse=no\n",
-                                                export_mark(options_), service.name, target_, seconds_of(service.delay))});
+    result_.files.push_back(
+        {timer, fmt::format("{}\n[Unit]\nDescription=starts {}\nPartOf={}\n\n[Timer]\nOnActiveSec={}\n"
+                            "AccuracySec=1ms\nRemainAfterElapse=no\n",
+                            export_mark(options_), service.name, target_, seconds_of(service.delay))});
     return timer;
   }
 
@@ -146,8 +149,8 @@ class UnitWriter {
   std::string restarts_of(const Service& service) {
     const ProcessSpec& spec = *service.spec;
     // The end of a launch is SIGINT, then SIGTERM, then SIGKILL. systemd has two of these.
-    std::string text = fmt::format("KillSignal=SIGINT\nTimeoutStopSec={}\n",
-                                   seconds_of(spec.sigterm_timeout + spec.sigkill_timeout));
+    std::string text =
+        fmt::format("KillSignal=SIGINT\nTimeoutStopSec={}\n", seconds_of(spec.sigterm_timeout + spec.sigkill_timeout));
     if (spec.respawn.enabled) {
       text += fmt::format("Restart=always\nRestartSec={}\n", seconds_of(spec.respawn.delay));
       if (spec.respawn.backoff != 1.0) {

@@ -33,6 +33,7 @@ struct AccessRules {
   std::vector<std::string> hosts;  // names by which this machine is asked for, besides addresses and "localhost"
   bool tls = false;
   bool allow_control = false;
+  bool open_metrics = false;  // metrics are for whoever reaches the service
 };
 
 class Access {
@@ -57,6 +58,7 @@ class Access {
 
   bool allows_control() const { return rules_.allow_control; }
   bool has_tls() const { return rules_.tls; }
+  bool opens_metrics() const { return rules_.open_metrics; }
 
   // Returns the id of a new session, or "" if the token is wrong. The oldest session ends if there are too many.
   std::string log_in(std::string_view token);

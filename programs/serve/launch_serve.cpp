@@ -69,10 +69,13 @@ int serve(const ServeOptions& options) {
   const ListenAddress address = parse_listen_address(options.listen);
   check_exposure(options, address);
   const bool tls = !options.tls_certificate.empty();
-  AccessRules rules{.token = read_token(options.token_file),
+  // Without a token file there are metrics alone, and nobody knows the token.
+  constexpr std::size_t kTokenBytes = 32;
+  AccessRules rules{.token = options.token_file.empty() ? random_text(kTokenBytes) : read_token(options.token_file),
                     .hosts = options.hosts,
                     .tls = tls,
-                    .allow_control = options.allow_control};
+                    .allow_control = options.allow_control,
+                    .open_metrics = options.open_metrics};
   rules.hosts.push_back(own_name());
   const Certificate certificate =
       tls ? Certificate{read_pem(options.tls_certificate, "certificate"), read_pem(options.tls_key, "key")}
@@ -86,12 +89,15 @@ int serve(const ServeOptions& options) {
   Service service(access, own_environment(), stop.get(), log_line, options.nodes);
   HttpServer server(std::move(listener), tls ? &certificate : nullptr,
                     [&service](const HttpRequest& request) { return service.answer(request); });
-  log_line(fmt::format("{} launches at {}, until Ctrl-C", options.allow_control ? "shows and steers" : "shows", url));
+  log_line(options.token_file.empty() ? fmt::format("metrics at {}metrics, until Ctrl-C", url)
+                                      : fmt::format("{} launches at {}, until Ctrl-C",
+                                                    options.allow_control ? "shows and steers" : "shows", url));
 
   constexpr int kTurn = 1000;  // milliseconds
   pollfd ended{signals.get(), POLLIN, 0};
   while (::poll(&ended, 1, kTurn) <= 0) {
     server.cut_late_connections();
+    service.rest();
   }
   const std::uint64_t one = 1;
   static_cast<void>(!::write(stop.get(), &one, sizeof one));  // feeds end, and the server with them

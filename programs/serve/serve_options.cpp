@@ -60,12 +60,14 @@ std::optional<int> parse_serve_options(const std::vector<std::string>& words, Se
   command.take_text("--tls-key", options.tls_key, "the key of the certificate, PEM");
   command.take_texts("--host", options.hosts, "another name by which browsers ask for this machine");
   command.take_flag("--allow-control", options.allow_control, "not only show: start, stop, signal, shut down");
-  command.take_flag("--nodes", options.nodes, "show what nodes do: record them while a page shows it");
+  command.take_flag("--nodes", options.nodes,
+                    "show what nodes do: record them while a page shows it, or while /metrics is read");
+  command.take_flag("--open-metrics", options.open_metrics, "answer /metrics without the token");
   command.take_flag("--insecure", options.insecure, "listen on other addresses without TLS");
   if (const auto exit_code = command.parse(words)) {
     return exit_code;
   }
-  if (options.token_file.empty()) {
+  if (options.token_file.empty() && !options.open_metrics) {
     return wrong("--token-file is required", token_recipe("FILE"));
   }
   if (options.tls_certificate.empty() != options.tls_key.empty()) {

@@ -31,6 +31,7 @@ struct ServeOptions {
   std::vector<std::string> hosts;
   bool allow_control = false;
   bool nodes = false;
+  bool open_metrics = false;
   bool insecure = false;
 };
 

@@ -23,6 +23,7 @@ using Json = ControlClient::Json;
 
 constexpr std::string_view kLaunches = "/api/launches";
 constexpr std::string_view kNodes = "/api/nodes";
+constexpr std::string_view kMetrics = "/metrics";
 
 std::string text_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -151,6 +152,9 @@ HttpAnswer Service::answer(const HttpRequest& request) {
       if (request.path == "/" && request.method == "GET") {
         return page(false);
       }
+      if (request.path == kMetrics && request.method == "GET" && access_.opens_metrics()) {
+        return metrics(request);
+      }
       if (!request.header_or_empty("authorization").empty()) {
         log_(fmt::format("wrong token from {}", request.client));
       }
@@ -173,6 +177,9 @@ HttpAnswer Service::answer(const HttpRequest& request) {
   }
   if (request.path == kLaunches) {
     return request.method == "GET" ? launches() : wrong_method("GET");
+  }
+  if (request.path == kMetrics) {
+    return request.method == "GET" ? metrics(request) : wrong_method("GET");
   }
   if (request.path == kNodes) {
     return request.method == "GET" ? nodes(request) : wrong_method("GET");
@@ -304,6 +311,17 @@ HttpAnswer Service::nodes(const HttpRequest& request) {
   answer.parts = [feed, counted, request, this]() -> std::optional<std::string> {
     return access_.is_known(request) ? feed->next() : std::nullopt;
   };
+  return answer;
+}
+
+HttpAnswer Service::metrics(const HttpRequest& request) {
+  std::string families = launch_metrics(ask_all_launches(environment_));
+  if (shows_nodes_) {
+    families += node_metrics_.families();
+  }
+  const MetricsFormat format = metrics_format_for(request.header_or_empty("accept"));
+  HttpAnswer answer{.type = metrics_content_type(format)};
+  answer.body = metrics_text(families, format);
   return answer;
 }
 

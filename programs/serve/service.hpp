@@ -10,6 +10,7 @@
 #include "base/environment/environment.hpp"
 #include "programs/serve/access.hpp"
 #include "programs/serve/http_message.hpp"
+#include "programs/serve/metrics.hpp"
 #include "programs/serve/node_feed.hpp"
 
 namespace launch::serve {
@@ -25,6 +26,8 @@ class Service {
           bool shows_nodes = false);
 
   HttpAnswer answer(const HttpRequest& request);
+  // To be called now and then: ends what nobody has asked for of late.
+  void rest() { node_metrics_.rest(); }
 
  private:
   HttpAnswer page(bool is_known);
@@ -35,6 +38,7 @@ class Service {
   HttpAnswer control(const HttpRequest& request, const std::string& number);
   HttpAnswer feed(const HttpRequest& request, const std::string& number);
   HttpAnswer nodes(const HttpRequest& request);
+  HttpAnswer metrics(const HttpRequest& request);
   // Counts a feed until the last copy is gone; null if there are too many.
   std::shared_ptr<void> count_feed();
 
@@ -44,6 +48,7 @@ class Service {
   std::function<void(const std::string&)> log_;
   bool shows_nodes_;
   NodeRecordings recordings_;
+  NodeMetrics node_metrics_;
   std::shared_ptr<std::atomic<int>> feeds_ = std::make_shared<std::atomic<int>>(0);
 };
 

@@ -3,7 +3,8 @@
 //
 // A line of input is the width of the terminal in columns. The output consists of texts, each of which ends with a form
 // feed. The first line of a text says what it is: `view`, once a second; `report`, the last one; `error`, a last one,
-// too.
+// too. With --metrics there are no views and no report, but `metrics` once a second, from the begin of the recording
+// on.
 #include <fmt/format.h>
 #include <poll.h>
 #include <unistd.h>
@@ -16,9 +17,11 @@
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <string_view>
 
 #include "programs/watch/traced_nodes.hpp"
 #include "tracing/decode/reader/trace_read_error.hpp"
+#include "tracing/show/live/live_metrics.hpp"
 #include "tracing/show/live/live_view.hpp"
 
 namespace {
@@ -80,10 +83,15 @@ class Input {
 
 class Watch {
  public:
+  explicit Watch(bool tells_metrics) : tells_metrics_(tells_metrics) {}
+
   void run() {
     tracing::TracedNodes nodes;
     watch(nodes);
     nodes.end();
+    if (tells_metrics_) {
+      return;
+    }
     read_rest(nodes.reader());
     const tracing::Report report{"what launch top has recorded", view_.finish(), ""};
     tell("report", text_report(report, options()));
@@ -94,11 +102,14 @@ class Watch {
 
   // Until the input ends.
   void watch(tracing::TracedNodes& nodes) {
-    tell("view", "no events yet\n");
+    if (!tells_metrics_) {
+      tell("view", "no events yet\n");
+    }
+    tracing::TraceSink& sink = tells_metrics_ ? static_cast<tracing::TraceSink&>(metrics_) : view_;
     Clock::time_point drawn = Clock::now();
     milliseconds wait{0};
     while (input_.look(wait)) {
-      const LiveReader::State state = read_some(nodes.reader(), view_);
+      const LiveReader::State state = read_some(nodes.reader(), sink);
       nodes.catch_up();
       wait = state == LiveReader::State::kItem ? milliseconds(0) : kRetry;
       const Clock::duration since = Clock::now() - drawn;
@@ -108,7 +119,9 @@ class Watch {
       const double seconds = std::chrono::duration<double>(since).count();
       tracing::ReportOptions all = options();
       all.top = 0;
-      if (view_.events() > 0) {
+      if (tells_metrics_) {
+        tell("metrics", metrics_.text());
+      } else if (view_.events() > 0) {
         tell("view", view_.screen(seconds, all));
       }
       view_.clear();
@@ -129,16 +142,18 @@ class Watch {
     }
   }
 
+  const bool tells_metrics_;
   Input input_;
   tracing::LiveView view_;
+  tracing::LiveMetrics metrics_;
 };
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   try {
-    Watch().run();
+    Watch(argc > 1 && std::string_view(argv[1]) == "--metrics").run();
     return 0;
   } catch (const tracing::TraceReadError& error) {
     tell("error", error.remedy().empty() ? error.what() : fmt::format("{}\n= help: {}", error.what(), error.remedy()));

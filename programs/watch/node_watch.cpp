@@ -31,13 +31,17 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 }  // namespace
 
-NodeWatch::NodeWatch() : lines_{"A recording of the nodes begins."} {
+NodeWatch::NodeWatch(Tells tells) : lines_{"A recording of the nodes begins."} {
   ::signal(SIGPIPE, SIG_IGN);  // launch-watch may have ended when a width is written
   Pipe input = make_pipe();
   Pipe output = make_pipe();
   const std::string program = own_library_file("launch-watch");
+  std::vector<std::string> argv = {program};
+  if (tells == Tells::kMetrics) {
+    argv.emplace_back("--metrics");
+  }
   pid_ = spawn({.program = program,
-                .argv = {program},
+                .argv = std::move(argv),
                 .descriptors = {{STDIN_FILENO, input.read.get()},
                                 {STDOUT_FILENO, output.write.get()},
                                 {STDERR_FILENO, kDevNull}},
@@ -87,11 +91,12 @@ void NodeWatch::take(const std::string& text) {
   const std::size_t line_end = text.find('\n');
   const std::string what = text.substr(0, line_end);
   const std::string rest = line_end == std::string::npos ? std::string() : text.substr(line_end + 1);
-  if (what != "report") {
-    lines_ = lines_of(rest);
-  }
   if (what == "report") {
     report_ = rest;
+  } else if (what == "metrics") {
+    metrics_ = rest;
+  } else {
+    lines_ = lines_of(rest);
   }
 }
 

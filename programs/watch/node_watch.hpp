@@ -14,8 +14,12 @@ namespace launch {
 
 class NodeWatch {
  public:
+  enum class Tells {
+    kViews,    // texts for a terminal
+    kMetrics,  // counters and histograms
+  };
   // Starts it. Throws SpawnError.
-  NodeWatch();
+  explicit NodeWatch(Tells tells = Tells::kViews);
   // Ends it and the recording.
   ~NodeWatch();
   NodeWatch(const NodeWatch&) = delete;
@@ -28,6 +32,8 @@ class NodeWatch {
 
   // The newest view, or why there is none.
   const std::vector<std::string>& lines() const { return lines_; }
+  // The newest families of OpenMetrics; "" before the first ones. The end of the exposition is not there.
+  const std::string& metrics() const { return metrics_; }
   // The lines that hold `text`, and those that are no rows of a table.
   std::vector<std::string> lines_with(const std::string& text) const;
 
@@ -45,6 +51,7 @@ class NodeWatch {
   std::size_t width_ = 0;
   std::string received_;
   std::vector<std::string> lines_;
+  std::string metrics_;
   std::string report_;
 };
 

@@ -61,8 +61,8 @@ struct ExportWords {
 std::string next_step(const ExportWords& words, const DeploymentOptions& options) {
   if (!words.systemd.empty()) {
     const char* const user = words.of_user ? "--user " : "";
-    return fmt::format("next: systemctl {}link {}/*, then systemctl {}enable --now {}.target\n", user, options.directory,
-                       user, unit_name(options.name));
+    return fmt::format("next: systemctl {}link {}/*, then systemctl {}enable --now {}.target\n", user,
+                       options.directory, user, unit_name(options.name));
   }
   return words.compose.empty() ? fmt::format("next: kubectl apply -f {}\n", options.directory)
                                : fmt::format("next: docker compose -f {} up\n", words.compose);
@@ -85,8 +85,12 @@ std::string user_of(const std::string& given) {
 
 DeploymentOptions options_of(const ExportWords& words, const std::vector<std::string>& files) {
   const std::string beginning = "launch-";
-  DeploymentOptions options{.name = words.name, .directory = "", .image = words.image, .of_user = words.of_user,
-                            .user = words.of_user || words.systemd.empty() ? "" : user_of(words.user), .shell = own_environment()};
+  DeploymentOptions options{.name = words.name,
+                            .directory = "",
+                            .image = words.image,
+                            .of_user = words.of_user,
+                            .user = words.of_user || words.systemd.empty() ? "" : user_of(words.user),
+                            .shell = own_environment()};
   if (options.name.empty()) {
     options.name = files.front() == "-" ? "launch" : unit_name_of(files.front()).substr(beginning.size());
   }
@@ -116,9 +120,10 @@ Deployment deployment_for(const ExportWords& words, const LaunchPlan& plan, cons
 
 int export_command(const Words& given) {
   ExportWords words;
-  Subcommand command("launch export",
-                     "Makes of a launch file what systemd, Compose or Kubernetes runs, without the launcher: a service for "
-                     "each process. What can't be said there is listed.");
+  Subcommand command(
+      "launch export",
+      "Makes of a launch file what systemd, Compose or Kubernetes runs, without the launcher: a service for "
+      "each process. What can't be said there is listed.");
   command.take_target(words.target);
   command.take_text("--systemd", words.systemd, "write units of systemd and their target into this folder");
   command.take_text("--compose", words.compose, "write this file for docker compose or podman compose");
@@ -126,7 +131,8 @@ int export_command(const Words& given) {
   command.take_text("--name", words.name, "name of the target, project or objects (default: that of the file)");
   command.take_text("--image", words.image, "image of the containers, with the programs of the file at their places");
   command.take_flag("--user", words.of_user, "units for the service manager of a user");
-  command.take_text("--as", words.user, "the user whose processes they are (default: who exports; of root, who has called sudo)");
+  command.take_text("--as", words.user,
+                    "the user whose processes they are (default: who exports; of root, who has called sudo)");
   command.take_flag("--strict", words.strict, "write nothing, and exit with 1, if something can't be said there");
   command.take_python_limits(words.python);
   if (const auto exit_code = command.parse(given)) {

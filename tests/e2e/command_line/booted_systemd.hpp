@@ -77,7 +77,8 @@ class BootedSystemd : public testing::Test {
     while (std::chrono::steady_clock::now() < end && ::kill(boot_->pid(), 0) == 0) {
       const std::vector<pid_t> children = children_of(boot_->pid());
       systemd_ = children.empty() ? 0 : children.front();
-      const std::string name = systemd_ == 0 ? "" : std::filesystem::path("/proc/" + std::to_string(systemd_)).string() + "/comm";
+      const std::string name =
+          systemd_ == 0 ? "" : std::filesystem::path("/proc/" + std::to_string(systemd_)).string() + "/comm";
       std::ifstream file(name);
       std::string comm;
       if (std::getline(file, comm) && comm == "systemd" &&

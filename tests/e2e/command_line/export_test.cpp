@@ -30,7 +30,9 @@ TEST_F(Export, UnitsRunInTheirOrderAndEndTogether) {
   if (const std::string why = boot(); !why.empty()) {
     GTEST_SKIP() << why;
   }
-  write_file(path("node.sh"), "trap 'echo gentle > end; exit 0' INT\ntest -e calibrated || exit 1\necho > begun\nwhile :; do sleep 0.01; done\n");
+  write_file(path("node.sh"),
+             "trap 'echo gentle > end; exit 0' INT\ntest -e calibrated || exit 1\necho > begun\nwhile :; do sleep "
+             "0.01; done\n");
   const std::string file = write(R"xml(
 <executable name="calibrate" cmd="touch calibrated" shell="true"/>
 <executable name="node" cmd="sh node.sh" cpu_weight="50">
@@ -41,9 +43,11 @@ TEST_F(Export, UnitsRunInTheirOrderAndEndTogether) {
   ASSERT_EQ(exported.exit_code, 0) << exported.err;
   EXPECT_EQ(exported.out, path("units/robot.target") + "\n" + path("units/robot-calibrate.service") + "\n" +
                               path("units/robot-node.service") + "\n" + path("units/robot-again.service") +
-                              "\nnext: systemctl link " + path("units") + "/*, then systemctl enable --now robot.target\n");
-  ASSERT_EQ(inside({"sh", "-c", "sed -i s:^WorkingDirectory=.*:WorkingDirectory=" + sandbox_.directory().string() +
-                                    ": units/*.service && cp units/* /etc/systemd/system && systemctl daemon-reload"})
+                              "\nnext: systemctl link " + path("units") +
+                              "/*, then systemctl enable --now robot.target\n");
+  ASSERT_EQ(inside({"sh", "-c",
+                    "sed -i s:^WorkingDirectory=.*:WorkingDirectory=" + sandbox_.directory().string() +
+                        ": units/*.service && cp units/* /etc/systemd/system && systemctl daemon-reload"})
                 .exit_code,
             0);
   ASSERT_EQ(inside({"systemctl", "enable", "--now", "robot.target"}).exit_code, 0);
@@ -73,8 +77,10 @@ TEST_F(Export, AnalysisOfSystemdFindsNothingWrong) {
   start_limit="3" allowed-exit-codes="3,SIGTERM" on_exit="shutdown"/></group>
 <timer period="2"><executable name="b" cmd="echo $HOME 100% &quot;a b&quot;" shell="true"/></timer>)xml");
   ASSERT_EQ(export_launch({"--systemd", "units", "--as", "root", file}).exit_code, 0);
-  const CommandResult verified = run_command({"sh", "-c", "cd " + path("units") + " && SYSTEMD_UNIT_PATH=$PWD:/lib/systemd/system "
-                                              "systemd-analyze verify --man=no robot.target robot-*"});
+  const CommandResult verified = run_command({"sh", "-c",
+                                              "cd " + path("units") +
+                                                  " && SYSTEMD_UNIT_PATH=$PWD:/lib/systemd/system "
+                                                  "systemd-analyze verify --man=no robot.target robot-*"});
   EXPECT_EQ(verified.exit_code, 0);
   EXPECT_EQ(verified.err, "");
 }
@@ -86,10 +92,13 @@ TEST_F(Export, MakesItsOwnFilesAnewAndNoOthers) {
   EXPECT_FALSE(fs::exists(path("units/robot-a.service"))) << "it is of the earlier export";
   EXPECT_TRUE(fs::exists(path("units/other.service")));
   write_file(path("units/robot-c.service"), "[Unit]\n");
-  const CommandResult refused = export_launch({"--systemd", "units", write(R"xml(<executable name="c" cmd="true"/>)xml")});
+  const CommandResult refused =
+      export_launch({"--systemd", "units", write(R"xml(<executable name="c" cmd="true"/>)xml")});
   EXPECT_EQ(refused.exit_code, 1);
-  EXPECT_EQ(refused.err, "launch export: error: '" + path("units/robot-c.service") +
-                             "' is there, and no export with the name 'robot' has made it; choose another --name or another place\n");
+  EXPECT_EQ(
+      refused.err,
+      "launch export: error: '" + path("units/robot-c.service") +
+          "' is there, and no export with the name 'robot' has made it; choose another --name or another place\n");
   EXPECT_TRUE(fs::exists(path("units/robot-b.service")));
 }
 
@@ -97,10 +106,13 @@ TEST_F(Export, WhatCantBeSaidIsListedAndStrictRefusesIt) {
   const std::string file = write(R"xml(<executable name="a" cmd="true" tty="true"/>)xml");
   const CommandResult listed = export_launch({"--compose", "deploy/compose.yaml", "--image", "robot:1", file});
   EXPECT_EQ(listed.exit_code, 0) << listed.err;
-  EXPECT_EQ(listed.out, path("deploy/compose.yaml") + "\nnot exported: the terminal of 'a' (robot.launch.xml:2:2)\nnext: docker compose -f deploy/compose.yaml up\n");
+  EXPECT_EQ(listed.out, path("deploy/compose.yaml") +
+                            "\nnot exported: the terminal of 'a' (robot.launch.xml:2:2)\nnext: docker compose -f "
+                            "deploy/compose.yaml up\n");
   const CommandResult strict = export_launch({"--kubernetes", "objects", "--image", "robot:1", "--strict", file});
   EXPECT_EQ(strict.exit_code, 1);
-  EXPECT_EQ(strict.out, "not exported: the terminal of 'a' (robot.launch.xml:2:2)\nnothing is written, because of --strict\n");
+  EXPECT_EQ(strict.out,
+            "not exported: the terminal of 'a' (robot.launch.xml:2:2)\nnothing is written, because of --strict\n");
   EXPECT_FALSE(fs::exists(path("objects")));
 }
 
@@ -113,9 +125,11 @@ TEST_F(Export, WrongWordsAreNamed) {
     return refused.err.substr(0, refused.err.find('\n'));
   };
   EXPECT_EQ(error_of({}), "launch export: error: one of --systemd DIR, --compose FILE and --kubernetes DIR is needed");
-  EXPECT_EQ(error_of({"--compose", "compose.yaml"}),
-            "launch export: error: containers need --image IMAGE, which has the programs of the launch file at their places");
-  EXPECT_EQ(error_of({"--systemd", "units", "--image", "a"}), "launch export: error: --image is for --compose and --kubernetes");
+  EXPECT_EQ(
+      error_of({"--compose", "compose.yaml"}),
+      "launch export: error: containers need --image IMAGE, which has the programs of the launch file at their places");
+  EXPECT_EQ(error_of({"--systemd", "units", "--image", "a"}),
+            "launch export: error: --image is for --compose and --kubernetes");
   EXPECT_EQ(error_of({"--systemd", "units", "--user", "--as", "root"}),
             "launch export: error: --as needs units of the system, which --user excludes");
 }

@@ -78,6 +78,30 @@ TEST_F(ServeNodesTest, AreRecordedWhileSomebodyLooks) {
   sandbox_.wait_until_daemons_are_left();
 }
 
+TEST_F(ServeNodesTest, AreInTheMetrics) {
+  RunningCommand run({.argv = {LAUNCH_PROGRAM, PING_PONG, "count:=1000000"}, .directory = sandbox_.directory()});
+  ASSERT_TRUE(run.wait_for_output("process started", kPatience)) << run.out() << run.err();
+  RunningCommand service(serve({"--nodes", "--open-metrics"}));
+  ASSERT_TRUE(service.wait_for_output(" launches at ", kPatience)) << service.err();
+  std::string metrics;
+  const std::string wanted = "launch_message_latency_seconds_bucket{topic=\"/pong\",node=\"/ping\",le=\"+Inf\"} ";
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (metrics.find(wanted) == std::string::npos) {
+    ASSERT_LT(std::chrono::steady_clock::now(), end) << metrics;
+    metrics = run_command(Command{.argv = {"python3", "-c",
+                                           "import urllib.request as u; "
+                                           "print(u.urlopen('http://127.0.0.1:7411/metrics').read().decode())"}})
+                  .out;
+  }
+  EXPECT_THAT(metrics, HasSubstr("launch_callback_duration_seconds_count{node=\"/ping\",callback=\"timer "));
+  EXPECT_THAT(metrics, HasSubstr("\nlaunch_trace_lost_events_total 0\n"));
+  service.send_signal(SIGINT);
+  EXPECT_EQ(service.wait(kPatience).exit_code, 0);
+  run.send_signal(SIGINT);
+  EXPECT_EQ(run.wait(kPatience).exit_code, 0);
+  sandbox_.wait_until_daemons_are_left();
+}
+
 TEST_F(ServeNodesTest, NobodyRecordsUnasked) {
   RunningCommand service(serve({}));
   ASSERT_TRUE(service.wait_for_output(" launches at ", kPatience)) << service.err();

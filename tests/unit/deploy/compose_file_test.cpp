@@ -52,9 +52,12 @@ services:
 }
 
 TEST(ComposeFile, HasTheLimits) {
-  EXPECT_THAT(exported(as_compose_file, R"(<executable cmd="true" name="a" cpus="0,2" memory_max="100M" cpu_quota="150%" cpu_weight="200" pids_max="9" open_files_limit="64" locked_memory_limit="unlimited"/>)"),
-              HasSubstr("    mem_limit: 104857600\n    cpus: 1.5\n    cpu_shares: 2048\n    pids_limit: 9\n"
-                        "    cpuset: \"0,2\"\n    ulimits:\n      nofile: 64\n      memlock: -1\n"));
+  EXPECT_THAT(
+      exported(
+          as_compose_file,
+          R"(<executable cmd="true" name="a" cpus="0,2" memory_max="100M" cpu_quota="150%" cpu_weight="200" pids_max="9" open_files_limit="64" locked_memory_limit="unlimited"/>)"),
+      HasSubstr("    mem_limit: 104857600\n    cpus: 1.5\n    cpu_shares: 2048\n    pids_limit: 9\n"
+                "    cpuset: \"0,2\"\n    ulimits:\n      nofile: 64\n      memlock: -1\n"));
 }
 
 TEST(ComposeFile, WhatItCantSayIsListed) {

@@ -11,7 +11,9 @@
 
 namespace test_support {
 
-inline launch::Environment shell() { return {{"HOME", "/home/user"}, {"PATH", "/usr/bin:/bin"}}; }
+inline launch::Environment shell() {
+  return {{"HOME", "/home/user"}, {"PATH", "/usr/bin:/bin"}};
+}
 
 // Throws LaunchError.
 inline launch::LaunchPlan plan_of(const std::string& xml) {

@@ -48,8 +48,9 @@ spec:
 TEST(KubernetesObjects, AreADeploymentForAProcessThatRespawns) {
   const std::string text = exported(as_kubernetes_objects, R"(<executable cmd="true" name="a" respawn="true"/>)");
   EXPECT_THAT(text, HasSubstr("kind: \"Deployment\"\n"));
-  EXPECT_THAT(text, HasSubstr("spec:\n  replicas: 1\n  strategy:\n    type: \"Recreate\"\n  selector:\n    matchLabels:\n"
-                              "      app.kubernetes.io/name: \"robot-a\"\n"));
+  EXPECT_THAT(text,
+              HasSubstr("spec:\n  replicas: 1\n  strategy:\n    type: \"Recreate\"\n  selector:\n    matchLabels:\n"
+                        "      app.kubernetes.io/name: \"robot-a\"\n"));
 }
 
 TEST(KubernetesObjects, TwoOfOneNameAreToldApart) {

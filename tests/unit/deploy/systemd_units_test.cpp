@@ -43,7 +43,8 @@ TimeoutStopSec=10
 }
 
 TEST(SystemdUnits, AProgramIsWhereThePathHasIt) {
-  EXPECT_THAT(exported(as_systemd_units, R"(<executable cmd="env" name="a"/>)"), HasSubstr("\nExecStart=\"/usr/bin/env\"\n"));
+  EXPECT_THAT(exported(as_systemd_units, R"(<executable cmd="env" name="a"/>)"),
+              HasSubstr("\nExecStart=\"/usr/bin/env\"\n"));
   EXPECT_THAT(exported(as_systemd_units, R"(<executable cmd="no-such-program" name="a"/>)"),
               HasSubstr("\nExecStart=\"no-such-program\"\n"));
   EXPECT_THAT(exported(as_systemd_units, R"(<executable cmd="a | b" name="a" shell="true"/>)"),
@@ -69,8 +70,9 @@ TEST(SystemdUnits, HaveTheOrderOfTheProcesses) {
   <depends_on process="base" on_failure="start"/>
 </executable>
 <timer period="2.5"><executable cmd="true" name="late"/></timer>)");
-  EXPECT_THAT(text, HasSubstr("Description=last\nPartOf=robot.target\nAfter=robot-first.service\nRequires=robot-first.service\n"
-                              "After=robot-base.service\nWants=robot-base.service\n"));
+  EXPECT_THAT(
+      text, HasSubstr("Description=last\nPartOf=robot.target\nAfter=robot-first.service\nRequires=robot-first.service\n"
+                      "After=robot-base.service\nWants=robot-base.service\n"));
   EXPECT_THAT(text, HasSubstr("Description=first\nPartOf=robot.target\nStartLimitIntervalSec=0\n\n[Service]\n"
                               "Type=oneshot\nRemainAfterExit=yes\n"));
   EXPECT_THAT(text, HasSubstr("\nWants=robot-late.timer\n"));
@@ -104,15 +106,17 @@ TEST(SystemdUnits, EndAllWithARequiredProcess) {
 }
 
 TEST(SystemdUnits, WhatTheyCantSayIsListed) {
-  EXPECT_THAT(left_out(as_systemd_units, R"(
+  EXPECT_THAT(
+      left_out(as_systemd_units, R"(
 <executable cmd="true" name="a" tty="true" sched_policy="deadline" sched_runtime="0.001" sched_deadline="0.01"/>
 <executable cmd="true" name="b" respawn="true" respawn_delay="1" respawn_backoff="2" allowed-exit-codes="any"/>
 <executable cmd="true" name="c"><depends_on topic="/map"/></executable>
 <executable cmd="true" name="d"><depends_on process="b" condition="exited" timeout="5"/></executable>
 <on_process_exit process="a"><log message="gone"/></on_process_exit>)"),
-              ElementsAre("the terminal of 'a'", "'c' waits until topic '/map' is published", "'d' waits until 'b' has exited with exit code 0: it starts again when it has ended",
-                          "on_process_exit of 'a' with exit code any", "the scheduling policy deadline of 'a'",
-                          "the growing delay of the respawns of 'b'", "the permission to end with any exit code of 'b'"));
+      ElementsAre("the terminal of 'a'", "'c' waits until topic '/map' is published",
+                  "'d' waits until 'b' has exited with exit code 0: it starts again when it has ended",
+                  "on_process_exit of 'a' with exit code any", "the scheduling policy deadline of 'a'",
+                  "the growing delay of the respawns of 'b'", "the permission to end with any exit code of 'b'"));
 }
 
 }  // namespace
