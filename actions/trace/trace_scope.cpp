@@ -100,6 +100,9 @@ void TraceScope::begin(EventLoop& loop, Tell tell, Completion done) {
 }
 
 void TraceScope::record(const LaunchRecord& record) {
+  if (record.kind == LaunchRecord::Kind::kExec) {
+    run_.process_started(record.pid);
+  }
   if (record.kind != LaunchRecord::Kind::kExit) {
     return;
   }

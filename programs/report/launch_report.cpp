@@ -25,6 +25,7 @@
 #include "tracing/model/selection/missing_names.hpp"
 #include "tracing/show/live/live_report.hpp"
 #include "tracing/show/report/comparison_command.hpp"
+#include "tracing/show/report/launch_filter.hpp"
 #include "tracing/show/report/output_files.hpp"
 #include "tracing/show/report/recorded_facts.hpp"
 #include "tracing/show/report/recorded_processes.hpp"
@@ -134,6 +135,9 @@ int write_files(const Arguments& arguments) {
   const tracing::WrittenFiles written =
       tracing::write_files(arguments.paths, arguments.files, named_chains(arguments.paths));
   say_what_is_open(written.open);
+  if (!written.others.empty()) {
+    fmt::print(stderr, "launch report: note: {}\n", tracing::others_phrase(written.others));
+  }
   for (const std::string& line : written.lines) {
     print_out(line + "\n");
   }
@@ -207,9 +211,10 @@ int print_report(const Arguments& arguments) {
   report.verdict = tracing::read_verdicts(arguments.paths);
   tracing::TraceReader reader(arguments.paths, tracing::TraceReader::Clocks::kOne);
   report.open = reader.open_directories();
+  tracing::LaunchFilter filter(reader, arguments.paths, analysis, arguments.text.all);
   ExitCode exit_code = kSuccess;
   try {
-    reader.read(analysis);
+    reader.read(filter);
     report.results = analysis.finish();
   } catch (const tracing::TraceReadError& error) {
     analysis.doubt_all();
@@ -221,6 +226,7 @@ int print_report(const Arguments& arguments) {
     print_error(error.what(), error.remedy());
     exit_code = kFailure;
   }
+  report.others = filter.others();
   say_what_is_not_there(arguments.text, report.results.ros2);
   report.lacks_descriptions = reader.lacks_descriptions();
   report.clocks = reader.clock_notes();

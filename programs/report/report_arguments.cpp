@@ -168,7 +168,8 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
       ->option_text("A B")
       ->expected(2);
   app.add_flag("--events", arguments.text.events, "Also losses by buffer, and events by process");
-  app.add_flag("--all", arguments.text.all, "Everything");
+  app.add_flag("--all", arguments.text.all,
+               "Everything; of the recording of a launch also the processes that do not belong to the launch");
   add_comparison(app, arguments);
   for (const char* option : {"--diff", "--baseline", "--save-baseline"}) {
     live->excludes(app.get_option(option));
@@ -204,6 +205,7 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
     return kUsage;
   }
   arguments.comparison.json = arguments.json;
+  arguments.comparison.all = arguments.files.all = arguments.text.all;
   return std::nullopt;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tracing/model/analysis/results.hpp"
+#include "tracing/model/timeline/other_process.hpp"
 #include "tracing/model/timeline/recorded_verdict.hpp"
 #include "tracing/model/timeline/timeline.hpp"
 
@@ -21,6 +22,7 @@ struct TracedSystem {
   std::string error;                        // why reading stopped early; empty when all was read
   std::vector<std::filesystem::path> open;  // traces that were still being written
   RecordedVerdict verdict = {};
+  std::vector<OtherProcess> others = {};  // whose events were left out
 };
 
 }  // namespace tracing

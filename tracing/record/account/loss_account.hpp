@@ -132,13 +132,14 @@ struct LossAccount {
   bool stuck = false;                   // LTTng had data left and wrote nothing any more
   std::vector<std::string> notes = {};  // on the end of the session; nothing that the trace lacks
   std::vector<Absence> absences = {};
-  std::vector<TracetoolsUse> tracetools = {};  // of processes of another ROS 2
-  std::string damage = {};                     // a sentence on data that is missing and was not counted, or ""
-  std::string directory = {};                  // of the recording or of the snapshots; "" if it is not on this machine
-  bool wrote_nothing = false;                  // that directory is not there
-  bool of_snapshots = false;                   // the session kept the newest events only, so its losses mean nothing
-  std::string unwritten_verdict = {};          // why verdict.json could not be written
-  std::vector<SessionStep> steps = {};         // of the end: "stop", "last data", "destroy", …
+  std::vector<std::int64_t> launch_processes = {};  // launch_processes.hpp; empty: of a session without a launch
+  std::vector<TracetoolsUse> tracetools = {};       // of processes of another ROS 2
+  std::string damage = {};                          // a sentence on data that is missing and was not counted, or ""
+  std::string directory = {};           // of the recording or of the snapshots; "" if it is not on this machine
+  bool wrote_nothing = false;           // that directory is not there
+  bool of_snapshots = false;            // the session kept the newest events only, so its losses mean nothing
+  std::string unwritten_verdict = {};   // why verdict.json could not be written
+  std::vector<SessionStep> steps = {};  // of the end: "stop", "last data", "destroy", …
 };
 
 }  // namespace tracing

@@ -10,6 +10,7 @@
 
 #include "base/monotonic_clock.hpp"
 #include "tracing/record/account/absence.hpp"
+#include "tracing/record/account/counters/launch_processes.hpp"
 #include "tracing/record/account/counters/session_pauses.hpp"
 #include "tracing/record/account/event_cuts.hpp"
 #include "tracing/record/account/loss_account.hpp"
@@ -41,6 +42,7 @@ LossesByProcess::LossesByProcess(const TraceConfig& config, LossAccount& losses)
   } catch (const TraceError&) {
     unknown_ = true;
   }
+  losses.launch_processes = read_launch_processes(counters_, counts_);
   losses.absences = absent_processes(counts_);
   losses.processes = account_processes(counts_, events_, static_cast<std::uint64_t>(launch::monotonic_time()));
 }

@@ -261,6 +261,9 @@ std::string verdict_as_json(const LossAccount& account, const std::string& sessi
   for (const ProcessAccount& process : account.processes) {
     json["processes"].push_back(process_as_json(process, account.cost));
   }
+  if (!account.launch_processes.empty()) {
+    json["launch_processes"] = account.launch_processes;
+  }
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -323,6 +326,9 @@ void write_snapshot_verdict(const std::filesystem::path& directory, const std::s
   for (const UnwrittenRange& range : account.unwritten) {
     json["unwritten"].push_back(
         {{"channel", range.channel}, {"cpu", range.cpu}, {"begin_ns", range.begin_ns}, {"end_ns", range.end_ns}});
+  }
+  if (!account.launch_processes.empty()) {
+    json["launch_processes"] = account.launch_processes;
   }
   write_file(directory, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }

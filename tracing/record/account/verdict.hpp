@@ -43,8 +43,9 @@ void note_appended(const std::filesystem::path& appended, bool complete);
 struct SnapshotAccount {
   std::vector<std::string> reasons = {};
   std::vector<Absence> absences = {};
-  std::vector<UnwrittenRange> unwritten = {};  // streams that end before that moment
-  std::string damage = {};                     // a sentence on them
+  std::vector<UnwrittenRange> unwritten = {};       // streams that end before that moment
+  std::string damage = {};                          // a sentence on them
+  std::vector<std::int64_t> launch_processes = {};  // as of LossAccount
 };
 void write_snapshot_verdict(const std::filesystem::path& directory, const std::string& session_name,
                             const SnapshotAccount& account, const std::vector<Stream>& streams);

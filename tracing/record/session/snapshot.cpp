@@ -13,6 +13,7 @@
 #include "base/monotonic_clock.hpp"
 #include "tracing/record/account/absence.hpp"
 #include "tracing/record/account/counters/event_counters.hpp"
+#include "tracing/record/account/counters/launch_processes.hpp"
 #include "tracing/record/account/loss_text.hpp"
 #include "tracing/record/account/readable_traces.hpp"
 #include "tracing/record/account/stream_packets.hpp"
@@ -131,6 +132,7 @@ std::string judge_snapshot(const fs::path& snapshot, const std::string& name, co
   const std::vector<Stream> streams = read_streams(snapshot);
   const std::vector<EventCounts> counts =
       counters.empty() ? std::vector<EventCounts>() : EventCounters(counters).read();
+  account.launch_processes = read_launch_processes(counters, counts);
   if (has_buffers_of_processes(name)) {
     // Programs that do not count their events are not among these.
     std::vector<Absence> ended = absent_from_snapshot(counts, streams);

@@ -13,6 +13,7 @@
 
 #include "base/monotonic_clock.hpp"
 #include "base/text/quoted_text.hpp"
+#include "tracing/record/account/counters/launch_processes.hpp"
 #include "tracing/record/account/counters/process_ends.hpp"
 #include "tracing/record/account/loss_text.hpp"
 #include "tracing/record/lttng/installed_program.hpp"
@@ -96,6 +97,7 @@ std::vector<std::string> TracedRun::clean_up_command() {
 
 void TracedRun::start(const Tell& tell, const SnapshotObserver& observer) {
   const std::vector<std::string> warnings = std::move(setup_.warnings);
+  note_launch_processes(config_.event_counters, related_processes());
   setup_ = tracer_->start(config_);
   try {
     if (config_.max_overhead != 0) {
@@ -148,6 +150,7 @@ std::string TracedRun::write_chains() const {
 }
 
 void TracedRun::look_around(const Tell& tell) {
+  note_launch_processes(config_.event_counters, related_processes());
   // In a session with buffers for each process it would have a trace of its own, for nothing.
   if (config_.buffers_ust != BufferOwner::kProcess) {
     run_traced(prefix_ + "/lib/launch/launch-trace-probe");
@@ -196,6 +199,10 @@ void TracedRun::request_snapshot(const std::string& reason, const std::string& d
   if (flight_recorder_) {
     flight_recorder_->request(reason, died);
   }
+}
+
+void TracedRun::process_started(pid_t pid) {
+  note_launch_processes(config_.event_counters, {pid});
 }
 
 void TracedRun::process_ended(const std::string& name, pid_t pid, bool died) {

@@ -3,7 +3,8 @@
 //
 // Call start(), then look_around() and request_snapshot() as you like, then finish(). start(), look_around() and
 // finish() block, some for hundreds of milliseconds: call them from a thread of your own, one at a time. The others
-// return at once, and request_snapshot(), process_ended() and hurry() may be called from any thread meanwhile.
+// return at once, and request_snapshot(), process_started(), process_ended() and hurry() may be called from any thread
+// meanwhile.
 #pragma once
 
 #include <sys/types.h>
@@ -81,6 +82,8 @@ class TracedRun {
   void look_around(const Tell& tell);
   // Does nothing if there is no flight recorder at the time. `died`: as of FlightRecorder::request().
   void request_snapshot(const std::string& reason, const std::string& died = "");
+  // A process of the run has begun, in the trace or not.
+  void process_started(pid_t pid);
   // A process of the run has ended just now: find out whether it has died within an event, at once or at the end.
   // `died`: not with exit code 0.
   void process_ended(const std::string& name, pid_t pid, bool died);

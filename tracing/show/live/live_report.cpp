@@ -17,6 +17,7 @@
 #include "tracing/decode/reader/trace_read_error.hpp"
 #include "tracing/model/findings/quantity_text.hpp"
 #include "tracing/show/live/live_view.hpp"
+#include "tracing/show/report/launch_filter.hpp"
 
 namespace tracing {
 
@@ -183,12 +184,14 @@ std::optional<Reading> read(const std::vector<fs::path>& directories, const Live
   Reading reading{.report = {directories.front(), {}, ""}};
   reading.report.open = reader->open_directories();
   TraceAnalysis analysis(nullptr, options.chains ? options.chains() : std::vector<ChainDefinition>());
+  LaunchFilter filter(*reader, directories, analysis, options.text.all);
   try {
-    reader->read(analysis);
+    reader->read(filter);
   } catch (const TraceReadError& error) {
     reading.report.error = error.what();
   }
   reading.report.results = analysis.finish();
+  reading.report.others = filter.others();
   reading.report.lacks_descriptions = reader->lacks_descriptions();
   reading.took = Clock::now() - begin;
   return reading;

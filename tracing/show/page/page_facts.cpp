@@ -313,7 +313,7 @@ Json estimates(const TracedSystem& system) {
   return list;
 }
 
-// starts, startup, calls, actions, state_memory, callback_memory, cost, absences, overwritten.
+// starts, startup, calls, actions, state_memory, callback_memory, cost, absences, overwritten, others.
 Json result_facts(const TracedSystem& system) {
   const ResultFacts facts(system.timeline.begin_ns);
   return {{"starts", starts(system)},
@@ -324,7 +324,8 @@ Json result_facts(const TracedSystem& system) {
           {"callback_memory", callback_memory(system)},
           {"cost", cost(system.verdict)},
           {"absences", system.verdict.absences},
-          {"overwritten", system.verdict.overwritten}};
+          {"overwritten", system.verdict.overwritten},
+          {"others", system.others.size()}};
 }
 
 }  // namespace

@@ -77,8 +77,9 @@ class Columns {
 
 class System {
  public:
-  explicit System(const std::vector<std::filesystem::path>& directories) {
+  System(const std::vector<std::filesystem::path>& directories, bool all) {
     SystemOptions options;
+    options.all = all;
     options.with_details = true;
     for (const std::filesystem::path& directory : directories) {
       try {
@@ -154,7 +155,7 @@ PYBIND11_MODULE(_tables, module) {
       .def("parts", &Columns::parts)
       .def("stream", &Columns::stream);
   py::class_<System>(module, "System")
-      .def(py::init<const std::vector<std::filesystem::path>&>())
+      .def(py::init<const std::vector<std::filesystem::path>&, bool>())
       .def("columns", &System::columns)
       .def("help", &System::help)
       .def_property_readonly("error", &System::error)

@@ -9,6 +9,7 @@
 #include "tracing/model/compare/subject_names.hpp"
 #include "tracing/model/timeline/time_window.hpp"
 #include "tracing/show/page/page.hpp"
+#include "tracing/show/report/launch_filter.hpp"
 #include "tracing/show/report/output_files.hpp"
 #include "tracing/show/report/read_system.hpp"
 #include "tracing/show/report/recorded_facts.hpp"
@@ -39,14 +40,15 @@ compare::RunSummary complete(compare::RunSummary run, const fs::path& directory,
 
 }  // namespace
 
-compare::RunSummary read_run(const std::vector<fs::path>& directories) {
+compare::RunSummary read_run(const std::vector<fs::path>& directories, bool all) {
   compare::RunRecorder recorder;
   TraceAnalysis analysis(&recorder);
   TraceReader reader(directories, TraceReader::Clocks::kOne);
+  LaunchFilter filter(reader, directories, analysis, all);
   std::string error;
   TraceResults results;
   try {
-    reader.read(analysis);
+    reader.read(filter);
     results = analysis.finish();
   } catch (const TraceReadError& failure) {
     analysis.doubt_all();
@@ -60,22 +62,24 @@ compare::RunSummary read_run(const std::vector<fs::path>& directories) {
                   error);
 }
 
-PagedRun read_run_for_page(const fs::path& directory, const std::vector<ChainDefinition>& chains) {
+PagedRun read_run_for_page(const fs::path& directory, const std::vector<ChainDefinition>& chains, bool all) {
   compare::RunRecorder recorder;
   PagedRun run;
-  TracedSystem system = read_system(
-      {directory},
-      {.chains = chains, .also = &recorder, .at_end = [&](const TraceAnalysis& analysis, const TraceResults& results) {
-         run.summary = recorder.finish(analysis, results);
-         const compare::SubjectNames names(analysis);
-         for (ObjectId id = 0; id < analysis.objects().callbacks().size(); ++id) {
-           run.page.names.callbacks.push_back(names.callback(id));
-           run.page.names.steps.push_back(names.step(id));
-         }
-         for (ObjectId id = 0; id < analysis.objects().subscriptions().size(); ++id) {
-           run.page.names.subscriptions.push_back(names.subscription(id));
-         }
-       }});
+  TracedSystem system =
+      read_system({directory}, {.chains = chains,
+                                .all = all,
+                                .also = &recorder,
+                                .at_end = [&](const TraceAnalysis& analysis, const TraceResults& results) {
+                                  run.summary = recorder.finish(analysis, results);
+                                  const compare::SubjectNames names(analysis);
+                                  for (ObjectId id = 0; id < analysis.objects().callbacks().size(); ++id) {
+                                    run.page.names.callbacks.push_back(names.callback(id));
+                                    run.page.names.steps.push_back(names.step(id));
+                                  }
+                                  for (ObjectId id = 0; id < analysis.objects().subscriptions().size(); ++id) {
+                                    run.page.names.subscriptions.push_back(names.subscription(id));
+                                  }
+                                }});
   for (const compare::Measurement& measurement : run.summary.measurements) {
     if (measurement.kind == compare::Kind::kChain) {
       run.page.names.chains.push_back(measurement.subject);

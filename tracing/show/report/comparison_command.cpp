@@ -33,7 +33,7 @@ std::optional<std::pair<double, std::string>> number_and_unit(const std::string&
 }
 
 // A directory is a trace, anything else a baseline.
-compare::Runs read_side(const std::string& path) {
+compare::Runs read_side(const std::string& path, bool all) {
   if (!fs::exists(path)) {
     throw std::runtime_error(fmt::format(
         "{} does not exist: --diff takes the directory of a trace or the file of a baseline on each side", path));
@@ -42,7 +42,7 @@ compare::Runs read_side(const std::string& path) {
     return compare::read_baseline(path);
   }
   const fs::path directory = fs::weakly_canonical(path);
-  return {directory.native(), {read_run({directory})}};
+  return {directory.native(), {read_run({directory}, all)}};
 }
 
 }  // namespace
@@ -103,7 +103,7 @@ ComparisonOutcome compare_with_page(const ComparisonArguments& arguments, const 
           "--html needs the traces of both runs, and {} is no directory: a baseline has no callbacks to show",
           arguments.diff[side]));
     }
-    runs[side] = read_run_for_page(directory, arguments.chains);
+    runs[side] = read_run_for_page(directory, arguments.chains, arguments.all);
     sides[side] = {directory.native(), {std::move(runs[side].summary)}};
   }
   const ComparisonReport report = compared(arguments, std::move(sides[0]), std::move(sides[1]));
@@ -124,9 +124,10 @@ ComparisonOutcome compare_runs(const ComparisonArguments& arguments, const std::
     return compare_with_page(arguments, options);
   }
   const bool is_diff = !arguments.diff.empty();
-  compare::Runs before = is_diff ? read_side(arguments.diff[0]) : compare::read_baseline(arguments.baseline);
-  compare::Runs after =
-      is_diff ? read_side(arguments.diff[1]) : compare::Runs{directories.front().native(), {read_run(directories)}};
+  compare::Runs before =
+      is_diff ? read_side(arguments.diff[0], arguments.all) : compare::read_baseline(arguments.baseline);
+  compare::Runs after = is_diff ? read_side(arguments.diff[1], arguments.all)
+                                : compare::Runs{directories.front().native(), {read_run(directories, arguments.all)}};
   const ComparisonReport report = compared(arguments, std::move(before), std::move(after));
   const std::vector<std::string> failed = failures(report, arguments.fail_on);
   return {arguments.json ? comparison_json(report, failed) : comparison_text(report, failed, options), !failed.empty()};
@@ -138,7 +139,7 @@ std::string save_baseline(const ComparisonArguments& arguments, const std::vecto
   if (arguments.append && fs::exists(file)) {
     runs = compare::read_baseline(file).runs;
   }
-  runs.push_back(read_run(directories));
+  runs.push_back(read_run(directories, arguments.all));
   OutputFile output(file);
   output.write(compare::baseline_text(runs));
   output.finish();

@@ -21,6 +21,7 @@ struct ComparisonArguments {
   compare::CompareOptions options;
   std::set<std::string> fail_on;
   bool json = false;
+  bool all = false;                     // also what is of processes that do not belong to the launch
   std::filesystem::path html;           // with `diff` of two traces: also a page with both
   std::vector<ChainDefinition> chains;  // those that the user has named, for the page
 

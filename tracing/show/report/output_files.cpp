@@ -49,6 +49,7 @@ TracedSystem read(const std::vector<fs::path>& directories, const OutputFiles& f
                                                   .with_details = !files.csv.empty() || !files.sqlite.empty(),
                                                   .with_analysis = files.needs_timeline(),
                                                   .processes = files.processes,
+                                                  .all = files.all,
                                                   .most_records = files.is_page_alone() ? most_in_page : 0,
                                                   .beside = model.get()});
   if (model) {
@@ -136,6 +137,7 @@ WrittenFiles write_files(const std::vector<fs::path>& directories, const OutputF
   WrittenFiles written;
   written.error = system.error;
   written.open = system.open;
+  written.others = system.others;
   written.incomplete = incomplete_phrase(system.results.overview, system.verdict);
   const PageLimit limit{most_in_page, files.is_page_alone() ? &system : nullptr};
   const auto add_line = [&written](const fs::path& file, const std::string& note) {

@@ -22,6 +22,7 @@ struct OutputFiles {
   std::optional<TimeBound> from;     // only what begins from this time on
   std::optional<TimeBound> to;       // and before this time
   std::set<std::int64_t> processes;  // only userspace events of these; empty: of all
+  bool all = false;                  // also of processes that are not of the launch
 
   std::filesystem::path html;
   std::filesystem::path perfetto;
@@ -63,6 +64,7 @@ struct WrittenFiles {
   std::string error;               // why reading stopped early; the files hold what was read before it
   std::vector<std::filesystem::path> open;  // traces that were still being written
   std::string incomplete;                   // incomplete_phrase()
+  std::vector<OtherProcess> others;         // whose events were left out
 };
 
 // A page with more instances and messages than this would be too large for a browser; it holds the first of them.

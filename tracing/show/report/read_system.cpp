@@ -8,6 +8,7 @@
 #include "tracing/model/analysis/trace_analysis.hpp"
 #include "tracing/model/execution/sink_list.hpp"
 #include "tracing/model/timeline/timeline_recorder.hpp"
+#include "tracing/show/report/launch_filter.hpp"
 #include "tracing/show/report/recorded_facts.hpp"
 
 namespace tracing {
@@ -60,8 +61,9 @@ TracedSystem read_system(const std::vector<std::filesystem::path>& directories, 
   system.open = reader.open_directories();
   system.verdict = read_verdicts(directories);
   Readers readers(analysis, options);
+  LaunchFilter filter(reader, directories, readers, options.all);
   try {
-    reader.read(readers);
+    reader.read(filter);
   } catch (const TraceReadError& error) {
     if (readers.events() == 0) {
       throw;
@@ -69,6 +71,7 @@ TracedSystem read_system(const std::vector<std::filesystem::path>& directories, 
     system.error = error.what();
     analysis.doubt_all();
   }
+  system.others = filter.others();
   system.first_event_ns = readers.first_event_ns().value_or(0);
   system.results = analysis.finish();
   if (options.at_end) {

@@ -21,6 +21,7 @@ struct SystemOptions {
   bool with_details = false;                 // Timeline::details, which the tables need
   bool with_analysis = true;                 // false: only `beside` gets the events
   std::set<std::int64_t> processes = {};     // only userspace events of these; empty: of all
+  bool all = false;                          // also of processes that are not of the launch (launch_filter.hpp)
   std::size_t most_records = 0;              // TimelineRecorder::keep_first(); 0: all
   TraceSink* beside = nullptr;               // also gets the events
   ExecutionSink* also = nullptr;             // is told what the timeline is told

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tracing/model/analysis/results.hpp"
+#include "tracing/model/timeline/other_process.hpp"
 #include "tracing/show/report/recorded_facts.hpp"
 
 namespace tracing {
@@ -21,6 +22,7 @@ struct Report {
   bool lacks_descriptions = false;               // TraceReader::lacks_descriptions()
   std::vector<std::string> sessions = {};        // of one machine, if it has several
   std::vector<std::string> clocks = {};          // TraceReader::clock_notes()
+  std::vector<OtherProcess> others = {};         // whose events were left out (launch_filter.hpp)
 };
 
 // What was not there: the sentences of the verdicts, and chains with names that never were gone through.
@@ -37,7 +39,7 @@ struct ReportOptions {
   std::string topic{};                          // likewise
   std::pair<std::string, std::string> chain{};  // only chains from one node to another, with their steps; empty: all
   bool events = false;                          // losses by stream, events by process
-  bool all = false;                             // everything
+  bool all = false;                             // everything; of others, too, if the results have it
 };
 
 // "total", "count", "rate", "p50", "p99", "max", "name"

@@ -26,6 +26,7 @@ void visit_report(const Report& report, Visit& visit) {
   visit("end_ns", overview.end_ns);
   visit("events", overview.events);
   visit("processes", overview.processes);
+  visit("others", report.others);
   visit("starts", starts);
   visit("startup", startup);
   visit("cost", report.verdict);

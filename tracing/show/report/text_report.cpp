@@ -8,6 +8,7 @@
 #include "tracing/model/findings/hosts.hpp"
 #include "tracing/model/findings/printable.hpp"
 #include "tracing/model/findings/quantity_text.hpp"
+#include "tracing/show/report/launch_filter.hpp"
 #include "tracing/show/report/report.hpp"
 #include "tracing/show/report/report_sections.hpp"
 #include "tracing/show/report/text_table.hpp"
@@ -61,6 +62,9 @@ std::string head(const Report& report, bool color) {
                         format_duration(static_cast<double>(*overview.end_ns - *overview.begin_ns)));
   }
   text += fmt::format("Events     {} of {}\n", overview.events, processes_phrase(overview));
+  if (!report.others.empty()) {
+    text += "Left out   " + others_phrase(report.others) + "\n";
+  }
   text += cost_line(report);
   const bool doubtful = !overview.losses.empty() || !report.error.empty();
   const RecordedVerdict& verdict = report.verdict;

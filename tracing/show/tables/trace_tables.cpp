@@ -18,12 +18,13 @@ Table trace_table(const TracedSystem& system) {
            {"events", kInteger, "without `launch:*`, which `event_counts` has"},
            {"lost_events", kInteger, "dropped, as far as they were counted"},
            {"lost_packets", kInteger, "overwritten before they were written out"},
-           {"error", kText, "why reading stopped early, or what data is missing"}},
+           {"error", kText, "why reading stopped early, or what data is missing"},
+           {"others", kInteger, "processes that do not belong to the launch, and are left out (`docs/report.md`)"}},
           [&system](const Emit& emit) {
             const TraceOverview& overview = system.results.overview;
             emit({std::string_view(system.directory.native()), optional(overview.begin_ns), optional(overview.end_ns),
                   number(overview.events), number(overview.lost_events()), number(overview.lost_packets()),
-                  text(system.error)});
+                  text(system.error), number(system.others.size())});
           }};
 }
 

@@ -5,6 +5,7 @@ import ctypes
 import importlib.util
 import json
 import os
+import shutil
 import sqlite3
 import subprocess
 import sys
@@ -38,6 +39,21 @@ class OpenedRun(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.run_ = launch_trace.open(SYSTEM)
+
+
+class ProcessesOfOthers(unittest.TestCase):
+
+    def test_are_left_out_unless_all_is_asked_for(self):
+        whole = launch_trace.open(SYSTEM)
+        ids = sorted(whole.processes.to_list('vpid'))
+        self.assertEqual(whole.trace.to_list('others'), [0])
+        with tempfile.TemporaryDirectory() as directory:
+            shutil.copytree(SYSTEM, directory, dirs_exist_ok=True)
+            Path(directory, 'verdict.json').write_text(json.dumps({'launch_processes': ids[:1]}))
+            own = launch_trace.open(directory)
+            self.assertEqual(own.processes.to_list('vpid'), ids[:1])
+            self.assertEqual(own.trace.to_list('others'), [len(ids) - 1])
+            self.assertEqual(sorted(launch_trace.open(directory, all=True).processes.to_list('vpid')), ids)
 
 
 class Tables(OpenedRun):

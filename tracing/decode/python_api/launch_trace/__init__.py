@@ -26,13 +26,14 @@ for _type in (Loss, Trace):
     _type.__module__ = __name__
 
 
-def open(directories: str | PathLike[str] | Sequence[str | PathLike[str]]) -> Run:
+def open(directories: str | PathLike[str] | Sequence[str | PathLike[str]], *, all: bool = False) -> Run:
     """Reads and analyses the traces at and below a directory, or a list of directories, as one.
 
+    Of the recording of a launch, only the processes of the launch are read; with `all`, those of others, too.
     Raises TraceError when there is nothing to read. Where a trace is damaged or incomplete, `error` of the result says so.
     """
     from ._run import Run  # nobody who reads events alone waits for it
     paths = [directories] if isinstance(directories, (str, PathLike)) else list(directories)
     if not paths:
         raise ValueError('no directory is given')
-    return Run(paths)
+    return Run(paths, all)

@@ -55,6 +55,7 @@ function overviewView(data) {
     panel('Trace', element('div', {class: 'facts'}, element('dl', {}, ...[
       ['Directory', data.directory],
       ['Begin', new Date(data.begin_ms).toISOString().replace('T', ' ').replace('Z', ' UTC')],
+      ...data.others === 0 ? [] : [['Left out', `${plural(data.others, 'process')} of others: launch report --all`]],
       ['Most frequent events', overview.event_counts.slice().sort((a, b) => b.total - a.total).slice(0, 5).map(e => `${e.name} ${formatCount(e.total)}`).join(', ')],
       ...data.remarks.map(remark => ['Remark', remark]),
       ...data.warnings.map(warning => ['Warning', warning]),

@@ -78,9 +78,9 @@ class Run:
     lifecycle_statistics = _TableOf()
     unmatched = _TableOf()
 
-    def __init__(self, directories: Sequence[str | PathLike[str]]) -> None:
+    def __init__(self, directories: Sequence[str | PathLike[str]], all: bool = False) -> None:
         self.directories = [fspath(directory) for directory in directories]
-        self._system = _tables.System(self.directories)
+        self._system = _tables.System(self.directories, all)
         self._known: dict[str, Table] = {}
 
     @property
