@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rclcpp_action/client.hpp"
-
 #include <rcl/graph.h>
 #include <rcl_action/wait.h>
 
@@ -10,6 +8,7 @@
 #include "rclcpp/detail/require_ok.hpp"
 #include "rclcpp/exceptions.hpp"
 #include "rclcpp/logging.hpp"
+#include "rclcpp_action/client_base.hpp"
 
 namespace rclcpp_action {
 
@@ -214,11 +213,11 @@ bool ClientBase::is_taken(rcl_ret_t ret, const char* what) const {
     return true;
   }
   // Another thread took the response, or it was for another client.
-  if (ret != RCL_RET_ACTION_CLIENT_TAKE_FAILED) {
-    RCLCPP_ERROR(logger_, "failed to %s: %s", what, rcl_get_error_string().str);
+  if (ret == RCL_RET_ACTION_CLIENT_TAKE_FAILED) {
+    rcl_reset_error();
+    return false;
   }
-  rcl_reset_error();
-  return false;
+  rclcpp::exceptions::throw_from_rcl_error(ret, std::string("failed to ") + what);
 }
 
 void ClientBase::send(Send send_request, Pending& pending, const std::shared_ptr<void>& request,

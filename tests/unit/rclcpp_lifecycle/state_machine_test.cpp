@@ -26,6 +26,51 @@ std::string to_string(const rcl_lifecycle_transition_t& transition) {
          transition.goal->label;
 }
 
+// Owned by a transition.
+rcl_lifecycle_state_t* make_state(unsigned int id, const char* label, const rcl_allocator_t& allocator) {
+  auto* const state = static_cast<rcl_lifecycle_state_t*>(allocator.allocate(sizeof(rcl_lifecycle_state_t), nullptr));
+  *state = rcl_lifecycle_get_zero_initialized_state();
+  EXPECT_EQ(rcl_lifecycle_state_init(state, id, label, &allocator), RCL_RET_OK);
+  return state;
+}
+
+TEST(OwnStates, BelongToTheirTransition) {
+  const rcl_allocator_t allocator = rcl_get_default_allocator();
+  rcl_lifecycle_transition_t transition = rcl_lifecycle_get_zero_initialized_transition();
+  ASSERT_EQ(rcl_lifecycle_transition_init(&transition, 12, "go", make_state(1, "here", allocator),
+                                          make_state(2, "there", allocator), &allocator),
+            RCL_RET_OK);
+  EXPECT_EQ(to_string(transition), "12 go: here > there");
+  EXPECT_EQ(rcl_lifecycle_transition_fini(&transition, &allocator), RCL_RET_OK);
+  EXPECT_EQ(transition.label, nullptr);
+  EXPECT_EQ(transition.start, nullptr);
+  EXPECT_EQ(transition.goal, nullptr);
+  EXPECT_EQ(rcl_lifecycle_transition_fini(&transition, &allocator), RCL_RET_OK) << "once more";
+
+  rcl_lifecycle_state_t* const loop = make_state(3, "loop", allocator);
+  ASSERT_EQ(rcl_lifecycle_transition_init(&transition, 13, "stay", loop, loop, &allocator), RCL_RET_OK);
+  EXPECT_EQ(rcl_lifecycle_transition_fini(&transition, &allocator), RCL_RET_OK);
+}
+
+TEST(OwnStates, SayWhatIsWrong) {
+  const rcl_allocator_t allocator = rcl_get_default_allocator();
+  const rcl_allocator_t none{};
+  rcl_lifecycle_state_t state = rcl_lifecycle_get_zero_initialized_state();
+  rcl_lifecycle_transition_t transition = rcl_lifecycle_get_zero_initialized_transition();
+  for (const rcl_ret_t ret :
+       {rcl_lifecycle_state_init(nullptr, 1, "a", &allocator), rcl_lifecycle_state_init(&state, 1, nullptr, &allocator),
+        rcl_lifecycle_state_init(&state, 1, "a", &none), rcl_lifecycle_state_fini(&state, nullptr),
+        rcl_lifecycle_transition_init(nullptr, 1, "a", nullptr, nullptr, &allocator),
+        rcl_lifecycle_transition_init(&transition, 1, nullptr, nullptr, nullptr, &allocator),
+        rcl_lifecycle_transition_init(&transition, 1, "a", nullptr, nullptr, &none),
+        rcl_lifecycle_transition_fini(&transition, nullptr)}) {
+    EXPECT_EQ(ret, RCL_RET_INVALID_ARGUMENT);
+  }
+  EXPECT_EQ(rcl_lifecycle_state_fini(nullptr, &allocator), RCL_RET_OK);
+  EXPECT_EQ(rcl_lifecycle_transition_fini(nullptr, &allocator), RCL_RET_OK);
+  rcl_reset_error();
+}
+
 TEST(LifecycleTransitionMap, HasTheStatesAndTransitionsOfRos2) {
   const rcl_lifecycle_transition_map_t map = rcl_lifecycle_get_default_transition_map();
   std::vector<std::string> states;

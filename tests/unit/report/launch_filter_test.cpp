@@ -18,9 +18,9 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using ::testing::UnorderedElementsAre;
 using testing::Thread;
 using testing::TraceWriter;
+using ::testing::UnorderedElementsAre;
 
 constexpr Thread kLauncher{60, 60, "launch"};
 constexpr Thread kOtherLauncher{61, 61, "launch"};
@@ -99,8 +99,7 @@ TEST_F(OfLaunch, KnowsTheVerdictAboveATrace) {
 
 TEST_F(OfLaunch, EachRecordingHasItsOwnProcesses) {
   for (const auto& [name, processes] : {std::pair("a", "[71]"), {"b", "[72, 90]"}}) {
-    TraceWriter writer(directory_.path() / name / "ust/uid/0/64-bit",
-                       {.identity = static_cast<std::uint8_t>(name[0])});
+    TraceWriter writer(directory_.path() / name / "ust/uid/0/64-bit", {.identity = static_cast<std::uint8_t>(name[0])});
     write_ping_pong(writer);
     writer.finish();
     judge(directory_.path() / name, processes);

@@ -47,7 +47,8 @@ LaunchFilter::LaunchFilter(const TraceReader& reader, const std::vector<fs::path
     }
     // A trace may stand below the directory of its verdict.
     for (const fs::path& directory : directories) {
-      for (fs::path above = plain_path(directory).parent_path(); above.has_relative_path(); above = above.parent_path()) {
+      for (fs::path above = plain_path(directory).parent_path(); above.has_relative_path();
+           above = above.parent_path()) {
         const fs::path file = above / "verdict.json";
         std::error_code none;
         if (fs::exists(file, none)) {
@@ -57,7 +58,8 @@ LaunchFilter::LaunchFilter(const TraceReader& reader, const std::vector<fs::path
       }
     }
   }
-  is_open_ = std::none_of(recordings_.begin(), recordings_.end(), [](const auto& one) { return one.second != nullptr; });
+  is_open_ =
+      std::none_of(recordings_.begin(), recordings_.end(), [](const auto& one) { return one.second != nullptr; });
 }
 
 const LaunchFilter::Processes* LaunchFilter::of_directory(fs::path directory) const {

@@ -9,6 +9,21 @@
 extern "C" {
 #endif
 
+rcl_lifecycle_state_t rcl_lifecycle_get_zero_initialized_state(void);
+rcl_lifecycle_transition_t rcl_lifecycle_get_zero_initialized_transition(void);
+
+// States and transitions of a program's own. The label is copied, and freed at the end. A transition takes its states
+// over: rcl_lifecycle_transition_fini() finalizes them and frees their memory, which is that of the allocator. The
+// functions ending in init return RCL_RET_INVALID_ARGUMENT, or RCL_RET_ERROR without memory; those ending in fini
+// RCL_RET_INVALID_ARGUMENT for an invalid allocator, and accept null.
+rcl_ret_t rcl_lifecycle_state_init(rcl_lifecycle_state_t* state, unsigned int id, const char* label,
+                                   const rcl_allocator_t* allocator);
+rcl_ret_t rcl_lifecycle_state_fini(rcl_lifecycle_state_t* state, const rcl_allocator_t* allocator);
+rcl_ret_t rcl_lifecycle_transition_init(rcl_lifecycle_transition_t* transition, unsigned int id, const char* label,
+                                        rcl_lifecycle_state_t* start, rcl_lifecycle_state_t* goal,
+                                        const rcl_allocator_t* allocator);
+rcl_ret_t rcl_lifecycle_transition_fini(rcl_lifecycle_transition_t* transition, const rcl_allocator_t* allocator);
+
 rcl_lifecycle_state_machine_t rcl_lifecycle_get_zero_initialized_state_machine(void);
 // The default includes the com interface.
 rcl_lifecycle_state_machine_options_t rcl_lifecycle_get_default_state_machine_options(void);

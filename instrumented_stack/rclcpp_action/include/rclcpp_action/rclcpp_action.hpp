@@ -9,6 +9,7 @@
 #include "rclcpp_action/client.hpp"
 #include "rclcpp_action/client_goal_handle.hpp"
 #include "rclcpp_action/create_client.hpp"
+#include "rclcpp_action/create_generic_client.hpp"
 #include "rclcpp_action/create_server.hpp"
 #include "rclcpp_action/exceptions.hpp"
 #include "rclcpp_action/server.hpp"
