@@ -46,14 +46,16 @@ void TracedNodes::start() {
   launch::Pipe errors = launch::make_pipe();
   const std::string program = launch::own_prefix() + "/bin/launch";
   // It is no record: small buffers, which are read soon, and files that replace themselves.
-  recorder_ = launch::spawn(
-      {.program = program,
-       .argv = {program, "trace", "--session-name", session_, "--url", relay_.session_url(), "--live-timer", "200000",
-                "--subbuffer-size-ust", "262144", "--tracefile-size", "16777216", "--tracefile-count", "2"},
-       .descriptors = {{STDIN_FILENO, input.read.get()},
-                       {STDOUT_FILENO, launch::kDevNull},
-                       {STDERR_FILENO, errors.write.get()}},
-       .group = launch::ChildGroup::kOwn});
+  recorder_ =
+      launch::spawn({.program = program,
+                     // The state of lifecycle nodes that are older than the session is no event of ros2.
+                     .argv = {program, "trace", "--session-name", session_, "--url", relay_.session_url(),
+                              "--live-timer", "200000", "--subbuffer-size-ust", "262144", "--tracefile-size",
+                              "16777216", "--tracefile-count", "2", "--ust", "ros2:*", "ros2_ext:rcl_lifecycle_state"},
+                     .descriptors = {{STDIN_FILENO, input.read.get()},
+                                     {STDOUT_FILENO, launch::kDevNull},
+                                     {STDERR_FILENO, errors.write.get()}},
+                     .group = launch::ChildGroup::kOwn});
   alive_ = std::move(input.write);
   problems_ = std::move(errors.read);
   // The answer to "press enter to start".

@@ -212,6 +212,23 @@ TEST_F(TopTest, ShowsWhatTheNodesDoAndSaysAtTheEndWhatTheTraceSays) {
   EXPECT_TRUE(fs::is_empty(sandbox_.directory() / "tmp"));
 }
 
+TEST_F(TopTest, KnowsTheStateOfLifecycleNodesThatAreOlder) {
+  RunningCommand run(launch(
+      R"xml(<lifecycle_node pkg="lifecycle" exec="lifecycle_talker" name="led" namespace="/here" autostart="true"/>
+<executable cmd="echo it is active" name="state" output="both"><depends_on node="/here/led" state="active"/></executable>)xml"));
+  ASSERT_TRUE(run.wait_for_output("it is active", kPatience)) << run.out() << run.err();
+  Terminal top(top_of(run, {"--trace"}), environment_);
+  ASSERT_TRUE(top.shows("  /here/led timer ")) << top.screen();
+  top.type("q");
+  top.type("q");
+  EXPECT_EQ(top.wait(), 0);
+  run.send_signal(SIGINT);
+  EXPECT_EQ(run.wait(kPatience).exit_code, 0);
+  std::string seen = top.everything();
+  std::erase(seen, '\r');
+  EXPECT_EQ(figure_of(seen, "Lifecycle nodes", "/here/led", "state at the end"), "active") << seen;
+}
+
 TEST_F(TopTest, SaysWhyItCannotShowWhatTheNodesDo) {
   RunningCommand run(launch(kTalker));
   ASSERT_TRUE(run.wait_for_output("[talker-1] ready", kPatience));

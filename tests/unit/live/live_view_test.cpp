@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/show/live/live_view.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/trace_writer/example_system.hpp"
@@ -55,6 +56,34 @@ Messages, publish to callback, 1 of 2   rate     p50     p99     max
 Callbacks, 1 of 3             rate     p50      p99      max
   /filter subs..ption /scan  50 Hz  400 us  4.00 ms  4.00 ms
 )");
+}
+
+// What a session records of nodes that are older, if nothing tells it of their objects again.
+class WithoutInitEvents : public TraceSink {
+ public:
+  explicit WithoutInitEvents(TraceSink& next) : next_(next) {}
+  void on_event(const Event& event) override {
+    if (event.name() == "ros2:callback_start" || event.name() == "ros2:callback_end") {
+      next_.on_event(event);
+    }
+  }
+  void on_loss(const Loss& loss) override { next_.on_loss(loss); }
+
+ private:
+  TraceSink& next_;
+};
+
+TEST_F(LiveViewOfTheExample, SaysWhenNodesOfAnotherRos2TellTheirNames) {
+  LiveView view;
+  WithoutInitEvents callbacks(view);
+  TraceReader(directory_.path()).read(callbacks);
+  const std::string screen = view.screen(2, {.width = 80});
+  EXPECT_THAT(screen, ::testing::HasSubstr(
+                          "\nNodes  callbacks    load  longest  missed\n  ?       149 Hz  4.14 %  4.00 ms       -\n"));
+  EXPECT_THAT(screen, ::testing::EndsWith(R"(
+?  The name of a node is not known: a node of another ROS 2 tells it to a session
+   that begins later if its launch has a <trace>, or began with launch --trace
+)"));
 }
 
 TEST_F(LiveViewOfTheExample, BeginsAnewWhenItIsCleared) {

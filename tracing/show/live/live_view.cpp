@@ -15,6 +15,11 @@ namespace tracing {
 
 namespace {
 
+constexpr const char* kUnnamed = R"(
+?  The name of a node is not known: a node of another ROS 2 tells it to a session
+   that begins later if its launch has a <trace>, or began with launch --trace
+)";
+
 std::string duration(std::int64_t nanoseconds) {
   return format_duration(static_cast<double>(nanoseconds));
 }
@@ -203,6 +208,7 @@ std::string LiveView::screen(double seconds, const ReportOptions& options) const
                  {activity.count, activity.took.summary(), id < dropped.size() ? dropped[id] : 0});
   }
   ActivityTable callbacks("Callbacks", "total", "missed", seconds);
+  bool has_unnamed = false;
   for (ObjectId id = 0; id < callbacks_.size(); ++id) {
     const Activity& activity = callbacks_[id];
     if (!activity.is_shown()) {
@@ -210,10 +216,15 @@ std::string LiveView::screen(double seconds, const ReportOptions& options) const
     }
     const CallbackObject& callback = objects.callbacks()[id];
     const std::string node = node_name(objects, callback);
+    has_unnamed = has_unnamed || node.empty();
     callbacks.add((node.empty() ? "?" : node) + " " + callback_source(objects, callback), "",
                   {activity.count, activity.took.summary(), id < missed.size() ? missed[id] : 0});
   }
-  return text + messages.text(options) + callbacks.text(options);
+  text += messages.text(options) + callbacks.text(options);
+  if (has_unnamed) {
+    text += kUnnamed;
+  }
+  return text;
 }
 
 void LiveView::clear() {
