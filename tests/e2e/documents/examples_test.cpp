@@ -110,7 +110,11 @@ INSTANTIATE_TEST_SUITE_P(
                      "restarting the process, because it is unhealthy", "talker-1 runs again"}},
             Example{"55_limits", {}, {"waits until 'talker' is healthy", "I heard: [Hello World: "}},
             Example{"56_attach", {"seconds:=1"}, {"[calculator-2]: process started"}},
-            Example{"57_groups", {"seconds:=1.5"}, {"[worker-3] copy 1 works"}}),
+            Example{"57_groups", {"seconds:=1.5"}, {"[worker-3] copy 1 works"}},
+            Example{"58_companion",
+                    {"container:=component_container_mt"},
+                    {"[order-2] the talker can be heard", "Loaded node '/listener' in container '/box'",
+                     "[listener]: I heard: [Hello World: "}}),
         testing::Values("xml", "yaml")),
     [](const auto& row) { return std::string(std::get<0>(row.param).name + 3) + "_" + std::get<1>(row.param); });
 
