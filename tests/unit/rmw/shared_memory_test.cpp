@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the transports of rmw send in shared memory arrives as it was sent.
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -9,10 +10,13 @@
 #include <deque>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fstream>
 #include <memory>
 #include <mutex>
 #include <numeric>
 #include <optional>
+#include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -144,6 +148,27 @@ class HeldReader final : public rtps::TransportReceiverInterface {
   int number_ = 0;
 };
 
+// What the segments take that this process has mapped.
+std::uint64_t memory_of_segments() {
+  static const std::regex kSegment("/dev/shm/fast(rtps|dds)_[0-9a-f]{16}$");
+  std::set<std::string> files;
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);) {
+    std::smatch segment;
+    if (std::regex_search(line, segment, kSegment)) {
+      files.insert(segment.str());
+    }
+  }
+  std::uint64_t bytes = 0;
+  for (const std::string& file : files) {
+    struct stat status {};
+    if (stat(file.c_str(), &status) == 0) {
+      bytes += static_cast<std::uint64_t>(status.st_blocks) * 512;
+    }
+  }
+  return bytes;
+}
+
 // A message of 16 MiB has so many parts. One that finds no place is lost, and the message with it.
 TEST(SharedMemory, ALargeMessageHasPlaceAlthoughNobodyReads) {
   if (!rmw_fastrtps::has_room_in_shared_memory(std::uint64_t{512} << 20)) {
@@ -161,12 +186,15 @@ TEST(SharedMemory, ALargeMessageHasPlaceAlthoughNobodyReads) {
   ASSERT_TRUE(transport->OpenInputChannel(here, &reader, kLargestMessage));
   rtps::SendResourceList senders;
   ASSERT_TRUE(transport->OpenOutputChannel(senders, here));
+  send(*senders.front(), here, as_fast_dds_sends("small"));
+  EXPECT_LE(memory_of_segments(), std::uint64_t{1} << 20);  // that of large messages is not there before one is sent
   const std::string part(kLargestMessage, 'p');
   for (int i = 0; i < kParts; ++i) {
     send(*senders.front(), here, as_fast_dds_sends(part));
   }
+  EXPECT_GE(memory_of_segments(), std::uint64_t{16} << 20);
   reader.release();
-  EXPECT_TRUE(reader.wait_for(kParts));
+  EXPECT_TRUE(reader.wait_for(kParts + 1));
   senders.clear();
   EXPECT_TRUE(transport->CloseInputChannel(here));
   transport->shutdown();

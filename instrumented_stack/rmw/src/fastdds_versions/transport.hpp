@@ -38,8 +38,10 @@ namespace rmw_fastrtps {
 
 // Decides what becomes of the messages of a sender. `interception` is called with
 //   bytes       those at the beginning of the message: more than the headers of its first submessages, perhaps not all
+//   size        that of the whole message
 //   begin, end  its destinations
-//   send        sends the message to the destinations between two iterators; false: it could not be sent
+//   send        sends the message to the destinations between two iterators, by another sender if it is given one;
+//               false: it could not be sent
 // and returns what `send` has returned, or true if it has not sent the message.
 struct InterceptedSender : rtps::SenderResource {
   template <typename Interception>
@@ -51,10 +53,12 @@ struct InterceptedSender : rtps::SenderResource {
                    const std::vector<rtps::NetworkBuffer>& buffers, std::uint32_t size, rtps::LocatorsIterator* begin,
                    rtps::LocatorsIterator* end, const TimePoint& deadline) {
       std::array<std::uint8_t, kBeginning> joined;
-      return interception(beginning_of(buffers, joined), begin, end,
-                          [&](rtps::LocatorsIterator* first, rtps::LocatorsIterator* last) {
-                            return send(buffers, size, first, last, deadline);
-                          });
+      return interception(
+          beginning_of(buffers, joined), size, begin, end,
+          [&](rtps::LocatorsIterator* first, rtps::LocatorsIterator* last, rtps::SenderResource* other = nullptr) {
+            return other != nullptr ? other->send(buffers, size, first, last, deadline)
+                                    : send(buffers, size, first, last, deadline);
+          });
     };
   }
 
@@ -79,9 +83,12 @@ struct InterceptedSender : rtps::SenderResource {
     function = [send = function, interception = std::move(interception)](
                    const rtps::octet* data, std::uint32_t size, rtps::LocatorsIterator* begin,
                    rtps::LocatorsIterator* end, const TimePoint& deadline) {
-      return interception({data, size}, begin, end, [&](rtps::LocatorsIterator* first, rtps::LocatorsIterator* last) {
-        return send(data, size, first, last, deadline);
-      });
+      return interception(
+          {data, size}, size, begin, end,
+          [&](rtps::LocatorsIterator* first, rtps::LocatorsIterator* last, rtps::SenderResource* other = nullptr) {
+            return other != nullptr ? other->send(data, size, first, last, deadline)
+                                    : send(data, size, first, last, deadline);
+          });
     };
   }
 #endif

@@ -21,6 +21,7 @@
 
 #include "fastdds_versions/separate_memory.hpp"
 #include "fastdds_versions/transport.hpp"
+#include "participant/large_messages.hpp"
 #include "participant/own_ports.hpp"
 #include "rcutils/logging.h"
 
@@ -29,22 +30,6 @@ namespace {
 
 // What small messages need of its segment, and its ports.
 constexpr std::uint64_t kMemoryOfParticipant = 1024 * 1024;
-
-// A writer that is not reliable loses the parts of a message that have no place in its segment, and with one of them
-// the message. Fast DDS takes 512 KiB, so large messages came only if their reader was as fast as their writer. The
-// memory is taken page by page when it is used, and who publishes nothing large never takes it. Where /dev/shm is
-// small, as in containers, a few participants must not fill it: a page that is not to be had ends the process.
-std::uint32_t segment_size() {
-  constexpr std::uint64_t kLeast = 512 * 1024;
-  constexpr std::uint64_t kMost = 32 * 1024 * 1024;
-  constexpr std::uint64_t kShare = 16;
-  struct statvfs room {};
-  if (statvfs("/dev/shm", &room) != 0 || room.f_blocks == 0) {
-    return static_cast<std::uint32_t>(kLeast);
-  }
-  const std::uint64_t free = std::uint64_t{room.f_bavail} * room.f_frsize;
-  return static_cast<std::uint32_t>(std::clamp(free / kShare, kLeast, kMost));
-}
 
 using rtps::Locator;
 
@@ -57,26 +42,37 @@ struct ReportedConfiguration : rtps::TransportDescriptorInterface {
   std::uint32_t min_send_buffer_size() const override { return kBytesBetweenHeartbeats; }
 };
 
-// Lets what `traffic` allows pass to the transport behind a sender.
-void filter(rtps::SenderResource& sender, const std::shared_ptr<DiscoveryTraffic>& traffic) {
-  InterceptedSender::intercept(sender, [traffic](std::span<const std::uint8_t> bytes, rtps::LocatorsIterator* begin,
-                                                 rtps::LocatorsIterator* end, const auto& send) {
-    if (!traffic->is_introduced()) {
-      return true;
-    }
-    const auto message = discovery_message_in(bytes);
-    if (!message) {
-      return send(begin, end);
-    }
-    std::vector<Locator> destinations;
-    for (; *begin != *end; ++*begin) {
-      destinations.push_back(**begin);
-    }
-    traffic->restrict(*message, destinations, std::chrono::steady_clock::now());
-    rtps::Locators first(destinations.begin());
-    rtps::Locators last(destinations.end());
-    return destinations.empty() || send(&first, &last);
-  });
+std::vector<Locator> between(rtps::LocatorsIterator& begin, const rtps::LocatorsIterator& end) {
+  std::vector<Locator> locators;
+  for (; begin != end; ++begin) {
+    locators.push_back(*begin);
+  }
+  return locators;
+}
+
+// Lets what `traffic` allows pass to the transport behind a sender, or to that of `large`, if there is one.
+void filter(rtps::SenderResource& sender, const std::shared_ptr<DiscoveryTraffic>& traffic,
+            const std::shared_ptr<LargeMessages>& large) {
+  InterceptedSender::intercept(
+      sender, [traffic, large](std::span<const std::uint8_t> bytes, std::uint32_t size, rtps::LocatorsIterator* begin,
+                               rtps::LocatorsIterator* end, const auto& send) {
+        if (!traffic->is_introduced()) {
+          return true;
+        }
+        const auto message = discovery_message_in(bytes);
+        const bool is_large = large && LargeMessages::is_large(size);
+        if (!message && !is_large) {
+          return send(begin, end);
+        }
+        std::vector<Locator> destinations = between(*begin, *end);
+        if (message) {
+          traffic->restrict(*message, destinations, std::chrono::steady_clock::now());
+        }
+        rtps::SenderResource* const other = is_large ? large->sender(destinations) : nullptr;
+        rtps::Locators first(destinations.begin());
+        rtps::Locators last(destinations.end());
+        return destinations.empty() || send(&first, &last, other);
+      });
 }
 
 // Hands over what `traffic` lets hear.
@@ -111,8 +107,12 @@ class FilteredReceiver final : public rtps::TransportReceiverInterface {
 class FilteredTransport final : public ForwardingTransport {
  public:
   FilteredTransport(std::unique_ptr<TransportInterface> inner, std::shared_ptr<DiscoveryTraffic> traffic,
-                    std::shared_ptr<OwnPorts> ports)
-      : ForwardingTransport(std::move(inner)), traffic_(std::move(traffic)), ports_(std::move(ports)) {}
+                    std::shared_ptr<OwnPorts> ports, std::uint32_t largest_message)
+      : ForwardingTransport(std::move(inner)), traffic_(std::move(traffic)), ports_(std::move(ports)) {
+    if (kind() == LOCATOR_KIND_SHM) {
+      large_ = std::make_shared<LargeMessages>(largest_message);
+    }
+  }
   ~FilteredTransport() override {
     ports_->all_closed();
     end();
@@ -133,7 +133,7 @@ class FilteredTransport final : public ForwardingTransport {
       return false;
     }
     for (std::size_t i = before; i < senders.size(); ++i) {
-      filter(*senders[i], traffic_);
+      filter(*senders[i], traffic_, large_);
     }
     open_.insert(locator);
     return true;
@@ -174,6 +174,7 @@ class FilteredTransport final : public ForwardingTransport {
 
   const std::shared_ptr<DiscoveryTraffic> traffic_;
   const std::shared_ptr<OwnPorts> ports_;
+  std::shared_ptr<LargeMessages> large_;                      // of shared memory
   std::vector<std::unique_ptr<FilteredReceiver>> receivers_;  // outlive the threads of the transport behind this one
   std::optional<ReportedConfiguration> configuration_;
   std::set<Locator> open_;  // Fast DDS opens one at a time
@@ -188,8 +189,8 @@ struct Filtered final : Descriptor {
 
   rtps::TransportInterface* create_transport() const override {
     return new FilteredTransport(
-        with_separate_memory(std::unique_ptr<rtps::TransportInterface>(Descriptor::create_transport())), traffic,
-        ports);
+        with_separate_memory(std::unique_ptr<rtps::TransportInterface>(Descriptor::create_transport())), traffic, ports,
+        Descriptor::max_message_size());
   }
 
   std::shared_ptr<DiscoveryTraffic> traffic;
@@ -298,7 +299,6 @@ void use_default_transports(const BuiltinTransports& wanted, std::uint32_t local
   if (is_alone || has_room_in_shared_memory(kMemoryOfParticipant)) {
     auto shared_memory = std::make_shared<Filtered<rtps::SharedMemTransportDescriptor>>(traffic, ports);
     shared_memory->max_message_size(udp.max_message_size());
-    shared_memory->segment_size(segment_size());
     transports.push_back(shared_memory);
   } else {
     rcutils_log(nullptr, RCUTILS_LOG_SEVERITY_WARN, "rmw_fastrtps",

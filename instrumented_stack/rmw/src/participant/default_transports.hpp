@@ -44,10 +44,9 @@ std::optional<BuiltinTransports> wanted_builtin_transports();
 void warn_of_another_user(std::uint32_t domain_id, const eprosima::fastdds::dds::DomainParticipantQos& qos);
 
 // `local_peers`: the number of participants on one host that a unicast announcement reaches; 0 for the default of Fast
-// DDS. Buffers have the sizes of the profile. Segments have room for messages of many MiB where /dev/shm has; the
-// transports report
-// kBytesBetweenHeartbeats to writers, and let pass what `traffic` allows. Without room in /dev/shm, UDP is the only
-// one, and a warning says so.
+// DDS. Buffers have the sizes of the profile. The transports report kBytesBetweenHeartbeats to writers, and let pass
+// what `traffic` allows. Large messages have memory of their own (large_messages.hpp). Without room in /dev/shm, UDP is
+// the only one, and a warning says so.
 void use_default_transports(const BuiltinTransports& wanted, std::uint32_t local_peers,
                             const std::shared_ptr<DiscoveryTraffic>& traffic,
                             eprosima::fastdds::dds::DomainParticipantQos& qos);
