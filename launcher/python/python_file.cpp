@@ -137,7 +137,8 @@ class PythonAction : public Action {
   std::shared_ptr<PythonFile> file_;
 };
 
-// An action whose processes also have a name that no launch file can write, by which handlers refer to them.
+// An action whose processes also have a name that no launch file can write, by which handlers refer to them; or a
+// command for the processes of such an action.
 class NamedAction : public Action {
  public:
   NamedAction(ActionPtr action, std::string name)
@@ -148,7 +149,11 @@ class NamedAction : public Action {
  protected:
   void execute(LaunchContext& context) const override {
     const std::size_t before = context.requests().processes.size();
+    const std::size_t commands_before = context.requests().commands.size();
     context.visit(*action_);
+    std::vector<ProcessCommand>& commands = context.requests().commands;
+    std::for_each(commands.begin() + static_cast<std::ptrdiff_t>(commands_before), commands.end(),
+                  [](ProcessCommand& command) { command.of_action = true; });
     std::vector<ProcessSpec>& processes = context.requests().processes;
     for (std::size_t i = before; i < processes.size(); ++i) {
       processes[i].other_names.push_back(name_);

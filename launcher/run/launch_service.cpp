@@ -242,6 +242,7 @@ void LaunchService::carry_out(Requests requests, Asker asker) {
 
 void LaunchService::start(Round given) {
   const auto round = std::make_shared<Round>(std::move(given));
+  std::vector<ProcessCommand> later = processes_.take_later(*round);
   const auto goes_on = [this] { return phase_ == Phase::kRunning; };
   recording_.begin();
   const Overloaded carry_out{
@@ -279,7 +280,8 @@ void LaunchService::start(Round given) {
       carry_out(kind);
     }
   });
-  processes_.start(*round, [this, round, goes_on, before = loop_.now()] {
+  processes_.start(*round, [this, round, goes_on, later = std::move(later), before = loop_.now()] {
+    std::for_each(later.begin(), later.end(), std::bind_front(&Processes::execute, &processes_));
     if (goes_on()) {
       timing_.push_back({fmt::format("start {} processes", round->requests.processes.size()), loop_.now() - before});
     }

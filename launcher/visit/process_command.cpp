@@ -22,7 +22,7 @@ std::string_view name_of(ProcessCommand::Kind kind) {
 void check_commands(const std::vector<ProcessCommand>& commands, const ProcessTable& table) {
   std::vector<Diagnostic> errors;
   for (const ProcessCommand& command : commands) {
-    if (table.find(command.process).empty()) {
+    if (!command.of_action && table.find(command.process).empty()) {
       errors.push_back({Severity::kError, fmt::format("no process is named '{}'", command.process), command.where,
                         did_you_mean(command.process, table.names()), Finding::kUnknownProcess});
     }

@@ -15,15 +15,16 @@ struct ProcessCommand {
   enum class Kind { kStop, kRestart, kSignal };
 
   Kind kind = Kind::kStop;
-  std::string process;  // one of its names (process_table.hpp)
-  int signal = 0;       // of kSignal
+  std::string process;     // one of its names (process_table.hpp)
+  int signal = 0;          // of kSignal
+  bool of_action = false;  // it means what an action of a Python file has started, and nothing if that was not visited
   SourceRange where;
 };
 
 // "stop", "restart", "signal".
 std::string_view name_of(ProcessCommand::Kind kind);
 
-// Throws LaunchError with every name that no process has.
+// Throws LaunchError with every name that no process has, except the names of actions.
 void check_commands(const std::vector<ProcessCommand>& commands, const ProcessTable& table);
 
 }  // namespace launch

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
+#include <iterator>
 #include <unordered_map>
 #include <utility>
 
@@ -59,8 +61,28 @@ Round Processes::enter(Requests requests) {
   return round;
 }
 
+std::vector<ProcessCommand> Processes::take_later(Round& round) const {
+  const auto starts_now = [&](const ProcessCommand& command) {
+    const std::vector<TrackedProcess*> named = table_.find(command.process);
+    return command.of_action && std::any_of(named.begin(), named.end(), [&](TrackedProcess* process) {
+             return std::find(round.processes.begin(), round.processes.end(), process) != round.processes.end();
+           });
+  };
+  std::vector<ProcessCommand>& commands = round.requests.commands;
+  const auto first = std::stable_partition(commands.begin(), commands.end(), std::not_fn(starts_now));
+  std::vector<ProcessCommand> later(std::make_move_iterator(first), std::make_move_iterator(commands.end()));
+  commands.erase(first, commands.end());
+  return later;
+}
+
 void Processes::execute(const ProcessCommand& command) {
   const std::vector<TrackedProcess*> named = table_.find(command.process);
+  if (named.empty()) {
+    callbacks_.tell(
+        LogLevel::kWarning, "launch",
+        fmt::format("{}: the action has started no process ({})", name_of(command.kind), to_string(command.where)));
+    return;
+  }
   bool carried_out = false;
   for (const TrackedProcess* const process : named) {
     if (process->id == 0) {

@@ -53,6 +53,8 @@ class Processes {
   std::vector<TrackedProcess*> find(const std::string& name) const { return table_.find(name); }
   // Null if the process was not asked for by a launch file.
   TrackedProcess* find(ProcessId id) { return table_.find(id); }
+  // Takes the commands of the round for what actions start in the round itself, to be carried out when it has started.
+  [[nodiscard]] std::vector<ProcessCommand> take_later(Round& round) const;
   // Carries out a command. Reports a command that no process could get.
   void execute(const ProcessCommand& command);
   // Another reading of the launch file says this of the process: it has other names, and what is no matter of its start

@@ -181,6 +181,52 @@ def generate_launch_description():
   EXPECT_THAT(result.out, HasSubstr("active: /left/talker"));
 }
 
+// As in ROS 2, an event comes after the traversal, and a handler may be there before its node.
+TEST_F(LifecycleLaunch, APythonFileLeadsANodeThatComesAfterItsHandlers) {
+  const auto path = sandbox_.directory() / "system.launch.py";
+  write_file(path, R"py(
+from launch import LaunchDescription, LaunchDescriptionSource
+from launch.actions import (EmitEvent, GroupAction, IncludeLaunchDescription, LogInfo, RegisterEventHandler,
+                            SetLaunchConfiguration, Shutdown)
+from launch.conditions import IfCondition
+from launch.events import matches_action
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import LifecycleNode
+from launch_ros.event_handlers import OnStateTransition
+from launch_ros.events.lifecycle import ChangeState
+from lifecycle_msgs.msg import Transition
+
+
+def node(name, condition):
+    return LifecycleNode(package='lifecycle', executable='lifecycle_talker', name=LaunchConfiguration(name),
+                         namespace=LaunchConfiguration('space'), condition=IfCondition(condition))
+
+
+def generate_launch_description():
+    talker = node('n', 'true')
+    never = node('nowhere', 'false')
+
+    def change(node, transition):
+        return EmitEvent(event=ChangeState(lifecycle_node_matcher=matches_action(node), transition_id=transition))
+
+    part = LaunchDescription([SetLaunchConfiguration('n', 'talker'), SetLaunchConfiguration('space', 'left'), talker])
+    return LaunchDescription([
+        RegisterEventHandler(OnStateTransition(
+            target_lifecycle_node=never, goal_state='inactive', entities=[LogInfo(msg='never')])),
+        RegisterEventHandler(OnStateTransition(
+            target_lifecycle_node=talker, goal_state='inactive',
+            entities=lambda event, context: [LogInfo(msg='inactive: ' + event.action.node_name), Shutdown()])),
+        change(never, Transition.TRANSITION_CONFIGURE),
+        change(talker, Transition.TRANSITION_CONFIGURE),
+        GroupAction([IncludeLaunchDescription(LaunchDescriptionSource(part))]),
+    ])
+)py");
+  const CommandResult result = run_command({LAUNCH_PROGRAM, path.string()});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, HasSubstr("inactive: /left/talker"));
+  EXPECT_THAT(result.out + result.err, HasSubstr("no state is changed, since the node of this event was not started"));
+}
+
 TEST_F(LifecycleLaunch, WhatNeverComesEndsTheLaunchAfterItsTime) {
   const std::string file =
       write(R"xml(<executable cmd="true"><depends_on service="/nobody/answers" timeout="0.5"/></executable>)xml");

@@ -134,7 +134,8 @@ def modules():
         package = importlib.import_module(name)
         yield package
         for found in pkgutil.walk_packages(package.__path__, name + '.'):
-            yield importlib.import_module(found.name)
+            if found.name != 'launch_ros.ros_adapters':  # which needs rclpy
+                yield importlib.import_module(found.name)
 
 
 def callables():

@@ -135,6 +135,31 @@ return LaunchDescription([
     one, two])''')
         self.assertEqual(said, ['one', 'two -15'], self.output)
 
+    def test_an_event_for_an_action_means_what_it_has_started(self):
+        """Before and behind it, where its name is gone, and where its condition did not hold."""
+        emit = 'EmitEvent(event=ShutdownProcess(process_matcher=matches_action({})))'
+        handler = ('RegisterEventHandler(OnProcessExit(target_action={0}, on_exit=lambda event, context: '
+                   'say("{0}: %s %s" % (event.process_name, event.action is {0}))))')
+        said = self.launch(f'''
+    def sleeper(name, condition='true'):
+        return ExecuteProcess(cmd=['sleep', '100'], name=LaunchConfiguration(name), condition=IfCondition(condition))
+
+    first, second, never = sleeper('a'), sleeper('b'), sleeper('c', 'false')
+    return LaunchDescription([
+        {handler.format('first')}, {emit.format('first')}, {emit.format('never')},
+        GroupAction([SetLaunchConfiguration('a', 'one'), SetLaunchConfiguration('b', 'two'), first, second, never]),
+        {handler.format('second')}, {emit.format('second')},
+    ])
+''', before='''
+from launch.actions import ExecuteProcess, GroupAction, SetLaunchConfiguration
+from launch.conditions import IfCondition
+from launch.event_handlers import OnProcessExit
+from launch.events import matches_action
+from launch.events.process import ShutdownProcess
+from launch.substitutions import LaunchConfiguration
+''')
+        self.assertEqual(sorted(said), ['first: one-1 True', 'second: two-2 True'])
+
     def test_handlers_are_made_and_ended_during_the_launch(self):
         said = self.launch('''
 process, other = ExecuteProcess(cmd=['true']), ExecuteProcess(cmd=['true'])

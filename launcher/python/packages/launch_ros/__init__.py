@@ -4,8 +4,8 @@
 import launch  # noqa: F401
 from launch import _lazy
 
-_MODULES = ('actions', 'descriptions', 'event_handlers', 'events', 'parameter_descriptions', 'substitutions', 'utilities')
-__all__ = _MODULES
+__all__ = ('actions', 'descriptions', 'event_handlers', 'events', 'parameter_descriptions', 'substitutions', 'utilities')
+_MODULES = (*__all__, 'ros_adapters')  # which needs rclpy
 
 
 def __getattr__(name):

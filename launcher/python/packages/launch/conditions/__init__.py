@@ -63,11 +63,15 @@ class LaunchConfigurationNotEquals(LaunchConfigurationEquals):
         return not super().evaluate(context)
 
 
+VALID_TRUE_EXPRESSIONS = ['true', '1']
+VALID_FALSE_EXPRESSIONS = ['false', '0']
+
+
 def evaluate_condition_expression(context, expression):
     value = context._perform(text(expression, 'the expression')).strip().lower()
-    if value in ('true', '1'):
+    if value in VALID_TRUE_EXPRESSIONS:
         return True
-    if value in ('false', '0'):
+    if value in VALID_FALSE_EXPRESSIONS:
         return False
     raise InvalidConditionExpressionError(
         f"invalid condition expression, expected one of [true, 1, false, 0] but got '{value}'")

@@ -112,7 +112,9 @@ class _ProcessTargetedEvent(Located, Event):
     def _tags(self, place, when):
         action = getattr(self.process_matcher, 'action', None)
         if action is not None:
-            return [self._tag(place, _name_of(action), when)]
+            name = _name_of(action)
+            tag, *given, _process_name = self._tag(place, name, when)
+            return [(tag, *given, name[0])]
         name = getattr(self.process_matcher, 'process_name', None)
         if name is not None:
             return [self._tag(place, name, when)]

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Actions that run ROS nodes."""
 
+from launch._dispatch import _Step
 from launch._entities import entity
 from launch._values import LaunchFileError, boolean, items, pairs, text, words
 from launch.action import Action
@@ -51,6 +52,8 @@ class Node(_Process):
         self._description = None
         self._is_target = False  # a handler or an event is about this node
         self._visited_name = None  # the full name of its latest visit, if it is a target
+        self._tells_name = False  # whether its visit sets that
+        self._waiting_handlers = []  # those of OnStateTransition that were registered before
         # Read now, because a launch file may change its mappings later.
         self._parameters = parameter_items(parameters, self._place_of('parameters') or self._place())
         self._remappings = pairs(remappings or [], 'remappings')
@@ -103,10 +106,31 @@ class Node(_Process):
         attributes = [('pkg', self._package), ('exec', self._executable), ('name', name),
                       ('namespace', self._namespace), ('exec_name', self._exec_name), ('args', arguments or None),
                       ('ros_args', ros_arguments or None), *self._more_attributes]
-        return self._with_handlers(self._tag, attributes, [*self._parameters, *remaps, *self._more_items()])
+        found = self._with_handlers(self._tag, attributes, [*self._parameters, *remaps, *self._more_items()])
+        self._tells_name = self._is_target
+        if self._is_target:
+            step = _WaitingHandlers(self)
+            step._made_at = self._made_at
+            found.append(entity('', self._place(), self._when(), obj=step))
+        return found
+
+    def _has_been_visited(self):
+        # A node that nobody was about when it was read does not tell when it is visited.
+        return self._visited_name is not None or (self._was_read and not self._tells_name)
 
     def _more_items(self):
         return []
+
+
+class _WaitingHandlers(_Step):
+    """Registers the handlers of a node that were there before it."""
+
+    def __init__(self, node):
+        self._node = node
+
+    def _do(self, context):
+        handlers, self._node._waiting_handlers = self._node._waiting_handlers, []
+        return [handler._tag() for handler in handlers]
 
 
 class LifecycleNode(Node):
@@ -115,6 +139,7 @@ class LifecycleNode(Node):
     def __init__(self, *, name, namespace, autostart=False, **kwargs):
         super().__init__(name=name, namespace=namespace, **kwargs)
         self._is_listed = False
+        self._is_target = self._name is not None
         if autostart is not False:
             self._more_attributes.append(('autostart', boolean(autostart, 'autostart')))
 
@@ -145,6 +170,7 @@ class ComposableNodeContainer(Node):
 
     def __init__(self, *, name, namespace, composable_node_descriptions=None, **kwargs):
         super().__init__(name=name, namespace=namespace, **kwargs)
+        self._is_target = self._name is not None
         self._descriptions = _descriptions(composable_node_descriptions)
 
     def _more_items(self):

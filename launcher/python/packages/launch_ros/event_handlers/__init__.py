@@ -2,6 +2,7 @@
 """Handlers of what happens to ROS nodes."""
 
 from launch import _names
+from launch._dispatch import _Step
 from launch._entities import entity
 from launch._values import LaunchFileError, function, text
 from launch.event_handlers._handlers import _Handler
@@ -43,15 +44,34 @@ class OnStateTransition(_Handler):
         return self._matcher is None or bool(self._matcher(event))
 
     def _tags(self, place, when):
+        step = _Registration(self)
+        step._made_at = self._made_at
+        return [entity('', place, when, obj=step)]
+
+    def _tag(self):
         def given(state, what):
             return None if state is None else text(state, what)
 
         node = self._node_action
-        return [entity('on_state_transition', place,
-                       [('node', self._node), ('start_state', given(self._start_state, 'start_state')),
-                        ('goal_state', given(self._goal_state, 'goal_state')),
-                        ('once', 'true' if self.handle_once else None), self._name_of_it(), *when],
-                       self._visited(self._given, lambda values: StateTransition(node, values)))]
+        return entity('on_state_transition', self._place(),
+                      [('node', self._node), ('start_state', given(self._start_state, 'start_state')),
+                       ('goal_state', given(self._goal_state, 'goal_state')),
+                       ('once', 'true' if self.handle_once else None), self._name_of_it()],
+                      self._visited(self._given, lambda values: StateTransition(node, values)))
+
+
+class _Registration(_Step):
+    """Registers the handler when its node has a name: now, or when the node is visited."""
+
+    def __init__(self, handler):
+        self._handler = handler
+
+    def _do(self, context):
+        node = self._handler._node_action
+        if node._has_been_visited():
+            return [self._handler._tag()]
+        node._waiting_handlers.append(self._handler)
+        return []
 
 
 _names.one_class_modules(__name__)

@@ -52,6 +52,7 @@ class ChangeState(Located, Event):
         action = getattr(lifecycle_node_matcher, 'action', None)
         if action is not None and not isinstance(action, Node):
             raise LaunchFileError(f'lifecycle_node_matcher must match a node, got {type(action).__name__}')
+        self._action = action
         self._node = (full_name(action),) if action is not None else getattr(lifecycle_node_matcher, 'node_name', None)
 
     def _tag(self, place, node, when):
@@ -59,10 +60,10 @@ class ChangeState(Located, Event):
                       [('node', node), ('transitions', [(self._transition,)]), *when])
 
     def _tags(self, place, when):
-        if self._node is not None:
+        if self._node is not None and self._action is None:
             return [self._tag(place, self._node, when)]
-        step = _Chosen(self)
-        step._made_at = None
+        step = _Chosen(self) if self._action is None else _OfAction(self, place)
+        step._made_at = self._made_at
         return [entity('', place, when, obj=step)]
 
 
@@ -79,6 +80,30 @@ class _Chosen(_Step):
         from launch_ros.actions._nodes import full_name, lifecycle_nodes
         return [self._event._tag(None, (full_name(node),), []) for node in lifecycle_nodes
                 if self._event.lifecycle_node_matcher(node)]
+
+
+class _OfAction(_Step):
+    """
+    The node of an action that is visited by now, or else at the end of this traversal, as an event comes after it.
+
+    An action that is not visited then has started no node whose state could change.
+    """
+
+    def __init__(self, event, place, at_the_end=False):
+        self._event = event
+        self._place_of_event = place
+        self._at_the_end = at_the_end
+
+    def _do(self, context):
+        place = self._place_of_event
+        if self._event._action._has_been_visited():
+            return [self._event._tag(place, self._event._node, [])]
+        if self._at_the_end:
+            return [entity('log', place, [('level', ('WARNING',)), ('message', (
+                'no state is changed, since the node of this event was not started',))])]
+        later = _OfAction(self._event, place, at_the_end=True)
+        later._made_at = self._made_at
+        return [entity('timer', None, [('period', ('0',))], [entity('', place, [], obj=later)])]
 
 
 _names.one_class_modules(__name__)

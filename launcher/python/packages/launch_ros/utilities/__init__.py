@@ -6,6 +6,7 @@ from launch._values import pairs
 from launch.substitutions import parts_of
 from launch_ros.utilities._parameters import (
     evaluate_parameter_dict, evaluate_parameters, normalize_parameter_dict, normalize_parameters)
+from launch_ros.utilities.to_parameters_list import to_parameters_list
 
 
 def is_root_namespace(ns):
