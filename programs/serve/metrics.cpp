@@ -169,9 +169,9 @@ std::string launch_metrics(const std::vector<Json>& launches) {
   }
   std::string text;
   for (const Family* family :
-       {&families.info, &families.running_for, &families.state, &families.up, &families.process_running_for, &families.restarts,
-        &families.cpu, &families.memory, &families.healthy, &families.last_code, &families.group_memory,
-        &families.group_limit, &families.throttled, &families.out_of_memory}) {
+       {&families.info, &families.running_for, &families.state, &families.up, &families.process_running_for,
+        &families.restarts, &families.cpu, &families.memory, &families.healthy, &families.last_code,
+        &families.group_memory, &families.group_limit, &families.throttled, &families.out_of_memory}) {
     text += family->text();
   }
   return text;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a monitoring system is told: launches and their processes, and what nodes do. OpenMetrics 1.0, or the text format
-// 0.0.4 of Prometheus for a client that does not ask for OpenMetrics.
+// What a monitoring system is told: launches and their processes, and what nodes do. OpenMetrics 1.0, or the text
+// format 0.0.4 of Prometheus for a client that does not ask for OpenMetrics.
 #pragma once
 
 #include <chrono>
@@ -15,8 +15,8 @@
 
 namespace launch::serve {
 
-// Answers of `ps`, one for each launch that runs and answers: an object with `launch` and `processes`, with the usage of
-// the processes.
+// Answers of `ps`, one for each launch that runs and answers: an object with `launch` and `processes`, with the usage
+// of the processes.
 std::vector<nlohmann::ordered_json> ask_all_launches(const Environment& environment);
 
 // Families of metrics of these launches.

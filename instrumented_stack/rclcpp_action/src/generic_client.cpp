@@ -97,8 +97,7 @@ GenericClient::SharedPtr create_generic_client(
     const std::string& type, rclcpp::CallbackGroup::SharedPtr group, const rcl_action_client_options_t& options) {
   const std::string identifier = "rosidl_typesupport_cpp";
   const std::shared_ptr<rclcpp::SharedLibrary> library = rclcpp::get_typesupport_library(type, identifier);
-  const rosidl_action_type_support_t* const handle =
-      rclcpp::get_action_typesupport_handle(type, identifier, *library);
+  const rosidl_action_type_support_t* const handle = rclcpp::get_action_typesupport_handle(type, identifier, *library);
   return detail::add_to_node(
       std::make_shared<GenericClient>(std::move(node_base_interface), std::move(node_graph_interface),
                                       std::move(node_logging_interface), name, library, handle, options),

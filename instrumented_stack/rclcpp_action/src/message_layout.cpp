@@ -76,7 +76,8 @@ std::size_t offset_of(ActionPart part, const rosidl_action_type_support_t& actio
                                 : part == ActionPart::kResult ? "result"
                                                               : "feedback";
   // Before a result there is the status of its goal, before the others the identity of the goal.
-  const std::size_t before = part == ActionPart::kResult ? sizeof(std::int8_t) : sizeof(unique_identifier_msgs::msg::UUID);
+  const std::size_t before =
+      part == ActionPart::kResult ? sizeof(std::int8_t) : sizeof(unique_identifier_msgs::msg::UUID);
   for (std::size_t i = 0; action.description != nullptr && i < action.description->field_count; ++i) {
     const rosidl_field_description_t& field = action.description->fields[i];
     if (field.name == name) {

@@ -16,9 +16,12 @@ Json launch_of(int pid, const std::string& file, Json processes) {
 }
 
 TEST(Metrics, OfALaunchAndItsProcesses) {
-  const Json runs = {{"name", "talker-1"}, {"state", "running"}, {"pid", 77},     {"running_for", 2.25}, {"restarts", 3},
-                     {"cpu", 0.5},         {"memory", 4096},     {"health", "unhealthy"}};
-  const Json ended = {{"name", "say \"hi\"-2"}, {"state", "ended: SIGSEGV"}, {"pid", 0}, {"restarts", 0},
+  const Json runs = {{"name", "talker-1"}, {"state", "running"}, {"pid", 77},      {"running_for", 2.25},
+                     {"restarts", 3},      {"cpu", 0.5},         {"memory", 4096}, {"health", "unhealthy"}};
+  const Json ended = {{"name", "say \"hi\"-2"},
+                      {"state", "ended: SIGSEGV"},
+                      {"pid", 0},
+                      {"restarts", 0},
                       {"last_end", {{"signal", "SIGSEGV"}, {"ran_for", 1.0}}}};
   EXPECT_EQ(launch_metrics({launch_of(5, "robot.launch.xml", {runs, ended})}),
             R"(# TYPE launch_info gauge

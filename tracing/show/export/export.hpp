@@ -23,6 +23,9 @@ void export_csv(const TracedSystem& system, const std::filesystem::path& directo
 // An SQLite database with the tables of tracing/show/tables, and two views.
 void export_sqlite(const TracedSystem& system, const std::filesystem::path& file);
 
+// Passages of chains as traces of OpenTelemetry: a request of OTLP in its JSON form.
+void export_otlp(const TracedSystem& system, const std::filesystem::path& file);
+
 // The graph of nodes and topics for Graphviz: dot -Tsvg FILE.
 void export_dot(const TracedSystem& system, const std::filesystem::path& file);
 

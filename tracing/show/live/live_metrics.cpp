@@ -112,8 +112,8 @@ std::string LiveMetrics::text() const {
   };
   const auto labels_of_subscription = [&](ObjectId id) {
     const EndpointObject& subscription = objects.subscriptions()[id];
-    return metric_label("topic", subscription.topic == kNoObject ? "" : objects.topics()[subscription.topic].name) + "," +
-           metric_label("node", subscription.node == kNoObject ? "" : objects.nodes()[subscription.node].name);
+    return metric_label("topic", subscription.topic == kNoObject ? "" : objects.topics()[subscription.topic].name) +
+           "," + metric_label("node", subscription.node == kNoObject ? "" : objects.nodes()[subscription.node].name);
   };
   const std::vector<std::uint64_t> missed_of = analysis_.missed_periods();
   for (ObjectId id = 0; id < callbacks_.size(); ++id) {
@@ -136,13 +136,15 @@ std::string LiveMetrics::text() const {
 
   std::string text = header_of("launch_trace_events", "counter", nullptr, "Events that were recorded.");
   text += fmt::format("launch_trace_events_total {}\n", events_);
-  text += header_of("launch_trace_lost_events", "counter", nullptr, "Events that the tracer has dropped, as far as it counts them.");
+  text += header_of("launch_trace_lost_events", "counter", nullptr,
+                    "Events that the tracer has dropped, as far as it counts them.");
   text += fmt::format("launch_trace_lost_events_total {}\n", lost_);
   text += header_of("launch_callback_duration_seconds", "histogram", "seconds", "Runs of callbacks.");
   for (const auto& [labels, histogram] : callbacks) {
     write(text, "launch_callback_duration_seconds", labels, histogram);
   }
-  text += header_of("launch_message_latency_seconds", "histogram", "seconds", "From the publication of a message to its callback.");
+  text += header_of("launch_message_latency_seconds", "histogram", "seconds",
+                    "From the publication of a message to its callback.");
   for (const auto& [labels, histogram] : latencies) {
     write(text, "launch_message_latency_seconds", labels, histogram);
   }

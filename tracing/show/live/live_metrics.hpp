@@ -29,9 +29,9 @@ class LiveMetrics : public ExecutionSink, public TraceSink {
 
  private:
   // The upper bounds of the buckets, in nanoseconds; beyond the last one there is another bucket.
-  static constexpr std::array<std::int64_t, 14> kBounds = {10'000,      100'000,     500'000,     1'000'000,   2'000'000,
-                                                           5'000'000,   10'000'000,  20'000'000,  50'000'000,  100'000'000,
-                                                           200'000'000, 500'000'000, 1'000'000'000, 5'000'000'000};
+  static constexpr std::array<std::int64_t, 14> kBounds = {
+      10'000,     100'000,    500'000,     1'000'000,   2'000'000,   5'000'000,     10'000'000,
+      20'000'000, 50'000'000, 100'000'000, 200'000'000, 500'000'000, 1'000'000'000, 5'000'000'000};
   struct Histogram {
     std::array<std::uint64_t, kBounds.size() + 1> buckets{};
     std::int64_t sum_ns = 0;
@@ -45,9 +45,9 @@ class LiveMetrics : public ExecutionSink, public TraceSink {
 
   TraceAnalysis analysis_;
   std::uint64_t events_ = 0;
-  std::uint64_t lost_ = 0;             // that were counted
-  std::vector<Histogram> callbacks_;   // duration, by ObjectId
-  std::vector<Histogram> latencies_;   // publish to callback, by ObjectId of the subscription
+  std::uint64_t lost_ = 0;            // that were counted
+  std::vector<Histogram> callbacks_;  // duration, by ObjectId
+  std::vector<Histogram> latencies_;  // publish to callback, by ObjectId of the subscription
 };
 
 // The name of a label and its value in quotes: `topic="/scan"`.

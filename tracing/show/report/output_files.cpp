@@ -45,13 +45,14 @@ std::unique_ptr<AnalysisModelWriter> model_writer(const OutputFiles& files) {
 TracedSystem read(const std::vector<fs::path>& directories, const OutputFiles& files,
                   const std::vector<ChainDefinition>& chains, std::size_t most_in_page) {
   const std::unique_ptr<AnalysisModelWriter> model = model_writer(files);
-  TracedSystem system = read_system(directories, {.chains = chains,
-                                                  .with_details = !files.csv.empty() || !files.sqlite.empty(),
-                                                  .with_analysis = files.needs_timeline(),
-                                                  .processes = files.processes,
-                                                  .all = files.all,
-                                                  .most_records = files.is_page_alone() ? most_in_page : 0,
-                                                  .beside = model.get()});
+  TracedSystem system =
+      read_system(directories, {.chains = chains,
+                                .with_details = !files.csv.empty() || !files.sqlite.empty() || !files.otlp.empty(),
+                                .with_analysis = files.needs_timeline(),
+                                .processes = files.processes,
+                                .all = files.all,
+                                .most_records = files.is_page_alone() ? most_in_page : 0,
+                                .beside = model.get()});
   if (model) {
     model->finish();
   }
@@ -106,6 +107,8 @@ const OutputForm kForms[] = {
      write_whole<export_perfetto>},
     {"--csv", "DIR", "Write tables as CSV files to a directory", &OutputFiles::csv, write_whole<export_csv>},
     {"--sql", "FILE", "Write tables as an SQLite database", &OutputFiles::sqlite, write_whole<export_sqlite>},
+    {"--otlp", "FILE", "Write chains as traces of OpenTelemetry (JSON of OTLP)", &OutputFiles::otlp,
+     write_whole<export_otlp>},
     {"--analysis-model", "DIR", "Write the tables of tracetools_analysis as CSV files to a directory",
      &OutputFiles::analysis_model, nullptr},
     {"--dot", "FILE", "Write the graph of nodes and topics for Graphviz", &OutputFiles::dot, write_whole<export_dot>},

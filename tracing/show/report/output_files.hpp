@@ -28,6 +28,7 @@ struct OutputFiles {
   std::filesystem::path perfetto;
   std::filesystem::path csv;  // a directory
   std::filesystem::path sqlite;
+  std::filesystem::path otlp;
   std::filesystem::path dot;
   std::filesystem::path svg;
   std::filesystem::path analysis_model;  // a directory

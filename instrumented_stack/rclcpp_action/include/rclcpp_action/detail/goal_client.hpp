@@ -17,8 +17,8 @@
 
 namespace rclcpp_action::detail {
 
-// All functions may be called from any thread. Callbacks run in the executor. A derived class tells what the messages of
-// the action hold.
+// All functions may be called from any thread. Callbacks run in the executor. A derived class tells what the messages
+// of the action hold.
 template <typename GoalHandleT>
 class GoalClient : public ClientBase {
  public:
