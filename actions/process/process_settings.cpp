@@ -15,6 +15,7 @@
 #include "actions/process/watch.hpp"
 #include "actions/values/pair_items.hpp"
 #include "base/processes/process_mark.hpp"
+#include "base/text/quoted_text.hpp"
 #include "launcher/substitution/boolean.hpp"
 #include "launcher/substitution/template_parser.hpp"
 
@@ -341,6 +342,7 @@ void request_process(const Fields& fields, LaunchContext& context, ProcessSpec s
   if (spec.name.empty()) {
     spec.name = std::filesystem::path(spec.argv.front()).filename().string();
   }
+  spec.name = without_control_characters(std::move(spec.name));
 
   spec.environment = environment_of(fields, scope);
   perform_settings(resource_settings(), fields, scope, spec.limits);

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/text/quoted_text.hpp"
 
+#include <algorithm>
 #include <string_view>
 
 namespace launch {
+
+std::string without_control_characters(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
+  return text;
+}
 
 std::string as_xml_text(std::string_view text) {
   std::string result;

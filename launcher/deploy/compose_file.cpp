@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "launcher/deploy/container_leave_outs.hpp"
 #include "launcher/deploy/deployment.hpp"
+#include "launcher/deploy/systemd_text.hpp"
 #include "launcher/deploy/yaml_text.hpp"
 
 namespace launch {
@@ -79,7 +83,7 @@ class ComposeWriter {
   Deployment write() {
     Json services = Json::object();
     for (const Service& service : plan_.services) {
-      services[service.name] = service_of(service);
+      services[name_of(service)] = service_of(service);
     }
     const Json root = {{"services", services}};
     result_.files.insert(result_.files.begin(),
@@ -88,6 +92,20 @@ class ComposeWriter {
   }
 
  private:
+  // Compose has letters, digits, ".", "_" and "-" in names, and each name once.
+  std::string name_of(const Service& service) {
+    const auto [found, is_new] = names_.try_emplace(&service);
+    if (is_new) {
+      const std::string name = unit_name(service.name);
+      found->second = name;
+      std::replace(found->second.begin(), found->second.end(), ':', '-');
+      for (int number = 2; !taken_.insert(found->second).second; ++number) {
+        found->second = fmt::format("{}-{}", name, number);
+      }
+    }
+    return found->second;
+  }
+
   Json service_of(const Service& service) {
     const ProcessSpec& spec = *service.spec;
     Json json;
@@ -139,7 +157,7 @@ class ComposeWriter {
   }
 
   void add_order(Json& json, const Service& service, const ServiceBefore& before) {
-    const std::string& other = plan_.services[before.service].name;
+    const std::string other = name_of(plan_.services[before.service]);
     if (before.ended && !before.succeeded) {
       result_.left_out.push_back(
           {fmt::format("'{}' waits until '{}' has ended", service.name, other), service.spec->origin});
@@ -149,6 +167,11 @@ class ComposeWriter {
     if (before.wanted) {
       json["depends_on"][other]["required"] = false;
     }
+    if (before.ends_all) {
+      result_.left_out.push_back({fmt::format("the end of all if '{}' can't start, because of '{}'", service.name,
+                                              plan_.services[before.service].name),
+                                  service.spec->origin});
+    }
   }
 
   void leave_out(const Service& service, const std::string& what) {
@@ -157,6 +180,8 @@ class ComposeWriter {
 
   const DeploymentOptions& options_;
   const DeploymentPlan plan_;
+  std::map<const Service*, std::string> names_;
+  std::set<std::string> taken_;
   Deployment result_;
 };
 

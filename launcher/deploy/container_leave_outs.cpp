@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace launch {
 
 void leave_out_of_containers(const Service& service, std::vector<LeftOut>& left_out) {
@@ -12,6 +14,16 @@ void leave_out_of_containers(const Service& service, std::vector<LeftOut>& left_
       left_out.push_back({fmt::format("{} of '{}'", what, service.name), spec.origin});
     }
   };
+  // Files that the launch has made are there as volumes.
+  for (std::size_t i = 1; i < spec.argv.size(); ++i) {
+    const bool is_made = std::any_of(spec.files.begin(), spec.files.end(),
+                                     [i](const GeneratedFile& file) { return file.argument == i; });
+    if (spec.argv[i - 1] == "--params-file" && !is_made) {
+      left_out.push_back(
+          {fmt::format("the parameter file {} of '{}', which the image must have", spec.argv[i], service.name),
+           spec.origin});
+    }
+  }
   leave_out(service.delay > Duration{0}, "the timer before the start");
   leave_out(spec.required || spec.shutdown_on_exit, "the end of all with the end");
   leave_out(spec.respawn.enabled && spec.respawn.backoff != 1.0, "the growing delay of the respawns");

@@ -10,11 +10,18 @@
 #include <variant>
 
 #include "base/overloaded.hpp"
+#include "base/processes/process_mark.hpp"
 #include "launcher/deploy/shell_variables.hpp"
 #include "launcher/plan/dry_run.hpp"
 
 namespace launch {
 namespace {
+
+// As shells and systemd have them.
+bool is_variable_name(const std::string& name) {
+  return !name.empty() && std::isdigit(static_cast<unsigned char>(name[0])) == 0 &&
+         std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
+}
 
 class Collector {
  public:
@@ -54,6 +61,14 @@ class Collector {
     if (spec.start_limit.starts > 0 && spec.start_limit.cool_down) {
       leave_out(fmt::format("the pause of '{}' after too many starts", spec.name), spec.origin);
     }
+    if (spec.environment.contains(kLeaveRunningVariable)) {
+      leave_out(fmt::format("what '{}' leaves running", spec.name), spec.origin);
+    }
+    for (const auto& [name, value] : spec.environment) {
+      if (!is_variable_name(name)) {
+        leave_out(fmt::format("the variable '{}' of '{}'", name, spec.name), spec.origin);
+      }
+    }
     if (spec.scalable) {
       leave_out(fmt::format("further copies of '{}'", spec.name), spec.origin);
     }
@@ -79,7 +94,9 @@ class Collector {
       leave_out(waits, dependency.where);
       return;
     }
-    ServiceBefore before{.service = *other, .wanted = dependency.on_failure == OnFailure::kStart};
+    ServiceBefore before{.service = *other,
+                         .wanted = dependency.on_failure == OnFailure::kStart,
+                         .ends_all = dependency.on_failure == OnFailure::kShutdown};
     const auto* const exited = std::get_if<UntilExited>(&process->state);
     if (exited != nullptr) {
       before.ended = true;
@@ -166,13 +183,16 @@ ServiceVariables variables_of(const ProcessSpec& spec, const Environment& shell,
   ServiceVariables result;
   const auto changes = environment_difference(spec.environment, shell);
   for (const auto& [name, value] : spec.environment) {
+    if (!is_variable_name(name) || name == kLeaveRunningVariable) {
+      continue;
+    }
     const bool is_taken = is_setting_variable(name) || (of_shell == ShellVariables::kAll && is_path_variable(name));
     if (is_taken || changes.contains(name)) {
       result.set.emplace_back(name, value);
     }
   }
   for (const auto& [name, value] : changes) {
-    if (!value) {
+    if (!value && is_variable_name(name)) {
       result.removed.push_back(name);
     }
   }

@@ -22,6 +22,7 @@ struct ServiceBefore {
   bool ended = false;       // it must have ended; else it must have started
   bool succeeded = false;   // with exit code 0
   bool wanted = false;      // if that can't be, the waiting service starts nevertheless
+  bool ends_all = false;    // if that can't be, the whole ends
 };
 
 struct Service {
@@ -55,12 +56,13 @@ struct Deployment {
 };
 
 struct DeploymentOptions {
-  std::string name;       // of the target; other names begin with it
-  std::string directory;  // where the files will be: an absolute path
-  std::string image;      // of containers
-  bool of_user = false;   // for the service manager of a user
-  std::string user;       // whose processes units of the system are; empty: root's
-  Environment shell;      // in which the export was made
+  std::string name;               // of the target; other names begin with it
+  std::string directory;          // where the files will be: an absolute path
+  std::string working_directory;  // of processes for which the launch file names none: an absolute path
+  std::string image;              // of containers
+  bool of_user = false;           // for the service manager of a user
+  std::string user;               // whose processes units of the system are; empty: root's
+  Environment shell;              // in which the export was made
 };
 
 // The first line of each file, by which an export knows its own files again.

@@ -6,6 +6,8 @@
 
 #include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <map>
 #include <set>
 #include <system_error>
 
@@ -27,6 +29,7 @@ class UnitWriter {
   UnitWriter(const LaunchPlan& plan, const DeploymentOptions& options)
       : options_(options), plan_(deployment_of(plan)), target_(unit_name(options.name) + ".target") {
     result_.left_out = plan_.left_out;
+    choose_unit_names();
   }
 
   Deployment write() {
@@ -35,6 +38,9 @@ class UnitWriter {
       for (const ServiceBefore& before : service.before) {
         if (before.ended) {
           awaited_.insert(before.service);
+        }
+        if (before.ends_all) {
+          (before.ended ? ends_all_by_failure_ : ends_all_unless_it_starts_).insert(before.service);
         }
       }
     }
@@ -54,8 +60,21 @@ class UnitWriter {
     result_.left_out.push_back({fmt::format("{} of '{}'", what, service.name), service.spec->origin});
   }
 
+  // Names that differ may become one name of a unit; then the second one gets a number.
   std::string unit_of(const Service& service) const {
-    return fmt::format("{}-{}.service", unit_name(options_.name), unit_name(service.name));
+    const std::string& name = unit_names_[static_cast<std::size_t>(&service - plan_.services.data())];
+    return fmt::format("{}-{}.service", unit_name(options_.name), name);
+  }
+
+  void choose_unit_names() {
+    std::set<std::string> taken;
+    for (const Service& service : plan_.services) {
+      const std::string name = unit_name(service.name);
+      unit_names_.push_back(name);
+      for (int number = 2; !taken.insert(unit_names_.back()).second; ++number) {
+        unit_names_.back() = fmt::format("{}-{}", name, number);
+      }
+    }
   }
 
   // Returns what the target wants: the unit, or the timer that starts it.
@@ -65,7 +84,7 @@ class UnitWriter {
     std::string text = fmt::format("{}\n# {}\n[Unit]\nDescription={}\nPartOf={}\n", export_mark(options_),
                                    to_string(service.spec->origin), service.name, target_);
     text += order_of(service) + start_limit_of(service);
-    text += "\n[Service]\n" + command_of(service, awaited_.contains(index)) + restarts_of(service) +
+    text += "\n[Service]\n" + command_of(service, awaited_.contains(index)) + restarts_of(service) + end_of_all(index) +
             limits_of_service(service);
     result_.files.push_back({unit, text});
     write_slices(*service.spec);
@@ -123,7 +142,7 @@ class UnitWriter {
       text += (text.back() == '=' ? "" : " ") + systemd_quoted(word, true);
     }
     text += fmt::format("\nWorkingDirectory={}\n",
-                        spec.working_directory.empty() ? options_.directory : spec.working_directory);
+                        spec.working_directory.empty() ? options_.working_directory : spec.working_directory);
     if (!options_.user.empty()) {
       text += fmt::format("User={}\n", options_.user);
     }
@@ -138,12 +157,17 @@ class UnitWriter {
   }
 
   // Where it is now; as it was given if it is not there.
-  static std::string program_of(const ProcessSpec& spec) {
+  std::string program_of(const ProcessSpec& spec) const {
+    std::filesystem::path program = spec.argv.front();
     try {
-      return find_program(spec);
+      program = find_program(spec);
     } catch (const std::system_error&) {
-      return spec.argv.front();
+      if (program.native().find('/') == std::string::npos) {
+        return program;
+      }
     }
+    const std::string& directory = spec.working_directory.empty() ? options_.working_directory : spec.working_directory;
+    return (std::filesystem::path(directory) / program).lexically_normal();
   }
 
   std::string restarts_of(const Service& service) {
@@ -167,11 +191,25 @@ class UnitWriter {
       }
       text += "\n";
     }
-    if (spec.required || spec.shutdown_on_exit) {
-      text += fmt::format("ExecStopPost={}systemctl {}--no-block stop {}\n", options_.of_user ? "" : "+",
-                          options_.of_user ? "--user " : "", target_);
-    }
     return text;
+  }
+
+  // What stops the target when the service has ended: any end of a required one, a failure of one that another waits
+  // for, or a program that can't be executed (systemd.exec(5): 203), for which somebody waits, too.
+  std::string end_of_all(std::size_t index) const {
+    const ProcessSpec& spec = *plan_.services[index].spec;
+    const std::string stop = fmt::format("systemctl {}--no-block stop {}", options_.of_user ? "--user " : "", target_);
+    const char* const rights = options_.of_user ? "" : "+";
+    if (spec.required || spec.shutdown_on_exit) {
+      return fmt::format("ExecStopPost={}{}\n", rights, stop);
+    }
+    if (ends_all_by_failure_.contains(index)) {
+      return fmt::format("ExecStopPost={}/bin/sh -c 'test \"$$SERVICE_RESULT\" = success || {}'\n", rights, stop);
+    }
+    if (ends_all_unless_it_starts_.contains(index)) {
+      return fmt::format("ExecStopPost={}/bin/sh -c 'test \"$$EXIT_STATUS\" != 203 || {}'\n", rights, stop);
+    }
+    return "";
   }
 
   std::string limits_of_service(const Service& service) {
@@ -258,7 +296,10 @@ class UnitWriter {
   const DeploymentOptions& options_;
   const DeploymentPlan plan_;
   const std::string target_;
+  std::vector<std::string> unit_names_;  // without the name of the whole
   std::set<std::size_t> awaited_;
+  std::set<std::size_t> ends_all_by_failure_;
+  std::set<std::size_t> ends_all_unless_it_starts_;
   std::map<const ControlGroup*, std::size_t> slices_;
   std::set<const ControlGroup*> written_;
   Deployment result_;

@@ -3,10 +3,20 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
+
 namespace launch {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+// Whole files stay readable: lines of printable ASCII, of which the first begins with no blank, and one line end behind
+// the last. A literal block does not hold other texts as they are.
+bool is_plain_file(const std::string& text) {
+  const auto is_plain = [](unsigned char c) { return c == '\n' || (c >= ' ' && c < 0x7f); };
+  return text.size() > 1 && text.ends_with('\n') && text[text.size() - 2] != '\n' && text.front() != ' ' &&
+         text.front() != '\n' && std::all_of(text.begin(), text.end(), is_plain);
+}
 
 void emit(YAML::Emitter& out, const Json& value) {
   if (value.is_object()) {
@@ -24,8 +34,7 @@ void emit(YAML::Emitter& out, const Json& value) {
     out << YAML::EndSeq;
   } else if (value.is_string()) {
     const std::string text = value.get<std::string>();
-    // Whole files stay readable.
-    out << (text.find('\n') == std::string::npos ? YAML::DoubleQuoted : YAML::Literal) << text;
+    out << (is_plain_file(text) ? YAML::Literal : YAML::DoubleQuoted) << text;
   } else if (value.is_boolean()) {
     out << value.get<bool>();
   } else if (value.is_number_float()) {

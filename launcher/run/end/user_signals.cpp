@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 #include <signal.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <utility>
 #include <vector>
 
 #include "base/processes/ending_signals.hpp"
+#include "base/processes/process_stat.hpp"
 
 namespace launch {
 
@@ -20,6 +22,17 @@ constexpr Duration kSameWish = std::chrono::seconds(1);
 bool is_ignored(int signal) {
   struct sigaction action {};
   return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+// Whether nobody is there who could continue the group: who has started its first process is of another session. The
+// kernel does not let Ctrl-Z stop such a group, but the guardians beside the launcher hide it from the kernel.
+bool is_in_orphaned_group() {
+  const pid_t first = ::getpgrp();
+  if (first == 0) {
+    return false;  // it is outside of the namespace of processes that the launch has for itself
+  }
+  const pid_t parent = read_process_stat(first).parent;
+  return parent > 0 ? ::getsid(parent) != ::getsid(0) : first == ::getsid(0);
 }
 
 // As Ctrl-Z stops a program that does not handle SIGTSTP. Returns after SIGCONT.
@@ -93,6 +106,9 @@ void UserSignals::on_signal(EventLoop::Signal signal) {
 }
 
 void UserSignals::suspend() {
+  if (is_in_orphaned_group()) {
+    return;
+  }
   if (on_suspension_) {
     on_suspension_(true);
   }

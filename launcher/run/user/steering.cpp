@@ -36,7 +36,14 @@ const char* name_of(Steering::Request request) {
   return "";
 }
 
+bool has_name(const std::string& name, const SteeredProcess& process) {
+  return process.name == name || std::find(process.names.begin(), process.names.end(), name) != process.names.end();
+}
+
 bool matches(const std::string& pattern, const SteeredProcess& process) {
+  if (has_name(pattern, process)) {
+    return true;  // whatever characters it has
+  }
   const auto hits = [&](const std::string& name) { return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0; };
   return hits(process.name) || std::any_of(process.names.begin(), process.names.end(), hits);
 }
@@ -81,8 +88,19 @@ std::vector<SteeredProcess> Steering::find(const Wanted& wanted, SteeringOutcome
       return {};
     }
   }
+  // The name of a process may hold characters of a pattern. Then it means this process alone.
+  std::vector<std::string> exact;
   for (const std::string& pattern : wanted.patterns) {
-    if (std::none_of(all.begin(), all.end(), [&](const auto& process) { return matches(pattern, process); })) {
+    if (std::any_of(all.begin(), all.end(), [&](const auto& process) { return has_name(pattern, process); })) {
+      exact.push_back(pattern);
+    }
+  }
+  const auto is_meant = [&exact](const std::string& pattern, const SteeredProcess& process) {
+    return std::find(exact.begin(), exact.end(), pattern) != exact.end() ? has_name(pattern, process)
+                                                                         : matches(pattern, process);
+  };
+  for (const std::string& pattern : wanted.patterns) {
+    if (std::none_of(all.begin(), all.end(), [&](const auto& process) { return is_meant(pattern, process); })) {
       std::vector<std::string> names;
       for (const SteeredProcess& process : all) {
         names.push_back(process.name);
@@ -96,7 +114,7 @@ std::vector<SteeredProcess> Steering::find(const Wanted& wanted, SteeringOutcome
   if (!wanted.empty()) {
     std::erase_if(all, [&](const SteeredProcess& process) {
       return std::none_of(wanted.patterns.begin(), wanted.patterns.end(),
-                          [&](const std::string& pattern) { return matches(pattern, process); }) &&
+                          [&](const std::string& pattern) { return is_meant(pattern, process); }) &&
              std::none_of(wanted.groups.begin(), wanted.groups.end(),
                           [&](const std::string& group) { return is_in(group, process); });
     });

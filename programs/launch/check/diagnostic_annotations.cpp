@@ -69,8 +69,7 @@ std::string diagnostics_for_github(const std::vector<Diagnostic>& diagnostics) {
 }
 
 std::string diagnostics_for_gitlab(const std::vector<Diagnostic>& diagnostics) {
-  using Json = nlohmann::ordered_json;
-  Json report = Json::array();
+  nlohmann::ordered_json report = nlohmann::ordered_json::array();
   std::map<std::string, std::size_t> counts;
   for (const Diagnostic& diagnostic : diagnostics) {
     const SourceRange& where = diagnostic.where;
@@ -84,7 +83,7 @@ std::string diagnostics_for_gitlab(const std::vector<Diagnostic>& diagnostics) {
          {"severity", diagnostic.severity == Severity::kError ? "major" : "minor"},
          {"location", {{"path", path}, {"lines", {{"begin", where ? where.file->position(where.begin).line : 1}}}}}});
   }
-  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace launch

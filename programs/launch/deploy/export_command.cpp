@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // `launch export`: makes of a launch file what systemd, Compose or Kubernetes runs.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <pwd.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
+#include <set>
 #include <stdexcept>
 
 #include "actions/builtin_actions.hpp"
@@ -58,11 +60,17 @@ struct ExportWords {
   }
 };
 
-std::string next_step(const ExportWords& words, const DeploymentOptions& options) {
+std::string next_step(const ExportWords& words, const Deployment& deployment, const DeploymentOptions& options) {
   if (!words.systemd.empty()) {
     const char* const user = words.of_user ? "--user " : "";
-    return fmt::format("next: systemctl {}link {}/*, then systemctl {}enable --now {}.target\n", user,
-                       options.directory, user, unit_name(options.name));
+    std::set<std::string> kinds;  // of units: "/etc/robot/*.service"
+    for (const DeployedFile& file : deployment.files) {
+      if (file.path.find('/') == std::string::npos) {
+        kinds.insert(fmt::format(" {}/*{}", options.directory, fs::path(file.path).extension().string()));
+      }
+    }
+    return fmt::format("next: systemctl {}link{}, then systemctl {}enable --now {}.target\n", user,
+                       fmt::join(kinds, ""), user, unit_name(options.name));
   }
   return words.compose.empty() ? fmt::format("next: kubectl apply -f {}\n", options.directory)
                                : fmt::format("next: docker compose -f {} up\n", words.compose);
@@ -87,6 +95,7 @@ DeploymentOptions options_of(const ExportWords& words, const std::vector<std::st
   const std::string beginning = "launch-";
   DeploymentOptions options{.name = words.name,
                             .directory = "",
+                            .working_directory = fs::current_path().string(),
                             .image = words.image,
                             .of_user = words.of_user,
                             .user = words.of_user || words.systemd.empty() ? "" : user_of(words.user),
@@ -165,7 +174,7 @@ int export_command(const Words& given) {
   for (const LeftOut& left : deployment.left_out) {
     result.print(fmt::format("not exported: {} ({})\n", left.what, to_string(left.where)));
   }
-  result.print(writes ? next_step(words, options) : "nothing is written, because of --strict\n");
+  result.print(writes ? next_step(words, deployment, options) : "nothing is written, because of --strict\n");
   return result.finish() && writes ? 0 : 1;
 }
 

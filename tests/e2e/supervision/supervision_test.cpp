@@ -162,6 +162,29 @@ TEST_F(Supervision, CtrlZStopsTheSystemAndSigcontContinuesIt) {
   EXPECT_THAT(result.out, HasSubstr("[worker-1] cleaned up"));
 }
 
+// Nobody could continue it. If Ctrl-Z stopped it, Ctrl-C would do nothing.
+TEST_F(Supervision, CtrlZDoesNothingToTheFirstProgramOfATerminal) {
+  constexpr const char* kOnATerminal = R"py(
+import os, pty, sys
+pid, terminal = pty.fork()
+if pid == 0:
+    os.execv(sys.argv[1], sys.argv[1:])
+shown = b''
+while b'ready' not in shown:
+    shown += os.read(terminal, 4096)
+os.write(terminal, b'\x1a\x03')
+try:
+    while os.read(terminal, 4096):
+        pass
+except OSError:
+    pass
+print('ended with', os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]))
+)py";
+  const std::string file = write(R"xml(
+    <executable name="worker" shell="true" output="screen" cmd="echo ready; exec sleep 1000"/>)xml");
+  EXPECT_EQ(run_command({"python3", "-c", kOnATerminal, LAUNCH_PROGRAM, file}).out, "ended with 0\n");
+}
+
 TEST_F(Supervision, ACrashIsReportedWithItsLineAndTheRestGoesOn) {
   const std::string file = write(R"xml(<executable name="crasher" cmd="kill -SEGV $$" shell="true"/>
 <executable name="other" cmd="echo fine" output="screen"/>)xml");

@@ -60,6 +60,15 @@ TEST(ComposeFile, HasTheLimits) {
                 "    cpuset: \"0,2\"\n    ulimits:\n      nofile: 64\n      memlock: -1\n"));
 }
 
+TEST(ComposeFile, TextsAndNamesStayWhatTheyAre) {
+  const std::string text = exported(as_compose_file, R"(
+<executable cmd="true" name="sp ace"><env name="V" value="  a&#10; b"/></executable>
+<executable cmd="true" name="sp/ace"/>)");
+  EXPECT_THAT(text, HasSubstr("\n  sp-ace:\n"));
+  EXPECT_THAT(text, HasSubstr("\n  sp-ace-2:\n"));
+  EXPECT_THAT(text, HasSubstr("      V: \"  a\\n b\"\n"));
+}
+
 TEST(ComposeFile, WhatItCantSayIsListed) {
   EXPECT_THAT(left_out(as_compose_file, R"(
 <executable cmd="true" name="a"/>

@@ -25,7 +25,11 @@ inline launch::LaunchPlan plan_of(const std::string& xml) {
 }
 
 inline launch::DeploymentOptions robot_options() {
-  return {.name = "robot", .directory = "/etc/robot", .image = "robot:1", .shell = shell()};
+  return {.name = "robot",
+          .directory = "/etc/robot",
+          .working_directory = "/home/user",
+          .image = "robot:1",
+          .shell = shell()};
 }
 
 // The files as one text, each behind its path, without the first line of each.

@@ -105,15 +105,40 @@ TEST(SystemdUnits, EndAllWithARequiredProcess) {
   EXPECT_THAT(exported(as_systemd_units, xml, options), HasSubstr("\nUser=ada\n"));
 }
 
+TEST(SystemdUnits, OddNamesAndPlaces) {
+  const std::string text = exported(as_systemd_units, R"(
+<executable cmd="./prog a" name="ü"/>
+<executable cmd="./prog b" name="é" cwd="/srv/x"/>)");
+  EXPECT_THAT(text, HasSubstr("== robot---.service\n"));
+  EXPECT_THAT(text, HasSubstr("== robot----2.service\n"));
+  EXPECT_THAT(text, HasSubstr("\nExecStart=\"/home/user/prog\" \"a\"\nWorkingDirectory=/home/user\n"));
+  EXPECT_THAT(text, HasSubstr("\nExecStart=\"/srv/x/prog\" \"b\"\nWorkingDirectory=/srv/x\n"));
+}
+
+TEST(SystemdUnits, EndAllIfWhatIsWaitedForFails) {
+  const std::string text = exported(as_systemd_units, R"(
+<executable cmd="true" name="first"/>
+<executable cmd="true" name="base"/>
+<executable cmd="true" name="last">
+  <depends_on process="first" condition="exited"/>
+  <depends_on process="base"/>
+</executable>)");
+  EXPECT_THAT(text, HasSubstr("\nExecStopPost=+/bin/sh -c 'test \"$$SERVICE_RESULT\" = success || systemctl --no-block "
+                              "stop robot.target'\n"));
+  EXPECT_THAT(text, HasSubstr("\nExecStopPost=+/bin/sh -c 'test \"$$EXIT_STATUS\" != 203 || systemctl --no-block "
+                              "stop robot.target'\n"));
+}
+
 TEST(SystemdUnits, WhatTheyCantSayIsListed) {
   EXPECT_THAT(
       left_out(as_systemd_units, R"(
 <executable cmd="true" name="a" tty="true" sched_policy="deadline" sched_runtime="0.001" sched_deadline="0.01"/>
 <executable cmd="true" name="b" respawn="true" respawn_delay="1" respawn_backoff="2" allowed-exit-codes="any"/>
-<executable cmd="true" name="c"><depends_on topic="/map"/></executable>
+<executable cmd="true" name="c" leave-running="true"><env name="E V" value="x"/><depends_on topic="/map"/></executable>
 <executable cmd="true" name="d"><depends_on process="b" condition="exited" timeout="5"/></executable>
 <on_process_exit process="a"><log message="gone"/></on_process_exit>)"),
-      ElementsAre("the terminal of 'a'", "'c' waits until topic '/map' is published",
+      ElementsAre("the terminal of 'a'", "what 'c' leaves running", "the variable 'E V' of 'c'",
+                  "'c' waits until topic '/map' is published",
                   "'d' waits until 'b' has exited with exit code 0: it starts again when it has ended",
                   "on_process_exit of 'a' with exit code any", "the scheduling policy deadline of 'a'",
                   "the growing delay of the respawns of 'b'", "the permission to end with any exit code of 'b'"));

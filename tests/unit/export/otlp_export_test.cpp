@@ -28,7 +28,8 @@ json otlp_of(const TracedSystem& system) {
 std::string attribute(const json& of, const std::string& key) {
   for (const json& one : of["attributes"]) {
     if (one["key"] == key) {
-      return one["value"].begin()->is_string() ? one["value"].begin()->get<std::string>() : one["value"].begin()->dump();
+      return one["value"].begin()->is_string() ? one["value"].begin()->get<std::string>()
+                                               : one["value"].begin()->dump();
     }
   }
   return "";
@@ -75,7 +76,8 @@ TEST(OtlpExport, APassageOfAChainIsATrace) {
   EXPECT_EQ(roots[0]["startTimeUnixNano"], std::to_string(passage.input_ns));
   EXPECT_EQ(roots[0]["endTimeUnixNano"], std::to_string(passage.output_ns));
   EXPECT_THAT(tree_of(request, roots[0]["traceId"]),
-              ElementsAre("sensor: /sensor to /display", "sensor: timer 10 ms", "sensor: send /scan", "filter: process /scan", "filter: send /points", "display: process /points"));
+              ElementsAre("sensor: /sensor to /display", "sensor: timer 10 ms", "sensor: send /scan",
+                          "filter: process /scan", "filter: send /points", "display: process /points"));
 }
 
 TEST(OtlpExport, IdsAreOfTheirLengthAndTheSameEachTime) {

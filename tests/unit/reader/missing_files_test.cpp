@@ -18,6 +18,7 @@ namespace tracing {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using testing::TraceWriter;
@@ -90,6 +91,12 @@ TEST_F(MissingFiles, AStreamThatEndsAtTheBorderOfAPacket) {
 TEST_F(MissingFiles, AnEmptyStream) {
   fs::resize_file(stream_, 0);
   EXPECT_THAT(damage(directory_.path()), ElementsAre("'" + stream_ + "' ends early, without 2 of 2 packets"));
+}
+
+TEST_F(MissingFiles, AStreamThatHasMoreThanItsIndex) {
+  std::ofstream(stream_, std::ios::binary | std::ios::app) << std::string(4096, '\0');
+  EXPECT_THAT(damage(directory_.path()),
+              Contains("'" + stream_ + "' is longer than its 2 packets: it was changed since"));
 }
 
 TEST_F(MissingFiles, AStreamThatIsGone) {

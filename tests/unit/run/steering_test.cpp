@@ -50,6 +50,17 @@ TEST_F(SteeringTest, PatternsAreForLabelsAndNames) {
   EXPECT_EQ(run(R"xml(<executable cmd="talker"/><executable cmd="listener"/><executable cmd="talker"/>)xml"), 0);
 }
 
+TEST_F(SteeringTest, ANameWithCharactersOfAPatternMeansItsProcessAlone) {
+  at(1s, [](Steering& steering) {
+    SteeringOutcome outcome;
+    EXPECT_THAT(names(steering.find({{"cam[0]-1"}}, outcome)), ElementsAre("cam[0]-1"));
+    EXPECT_THAT(names(steering.find({{"cam[0]"}}, outcome)), ElementsAre("cam[0]-1"));
+    EXPECT_THAT(names(steering.find({{"cam[0]*"}}, outcome)), ElementsAre("cam0-2"));
+    steering.shutdown();
+  });
+  run(R"xml(<executable name="cam[0]" cmd="a"/><executable name="cam0" cmd="b"/>)xml");
+}
+
 TEST_F(SteeringTest, WhatWasStoppedCanStartAgainAndTheLaunchWaitsForThat) {
   at(1s, [](Steering& steering) { EXPECT_THAT(steering.ask(Request::kStop, {{"a"}}).done, ElementsAre("a-1")); });
   at(100s, [](Steering& steering) {

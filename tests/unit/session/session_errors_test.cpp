@@ -36,7 +36,8 @@ TEST_F(LttngTracer, NameTakenIsAnErrorAndLeavesTheOtherSessionAlone) {
   same_name.base_path += "/elsewhere";
   EXPECT_EQ(start_error(same_name),
             "trace session 'taken' exists already\n"
-            "end it with `lttng destroy taken`, or choose another session-name");
+            "it may be that of another launch that runs; choose another session-name, or, if nobody uses it any "
+            "more, end it with `lttng destroy taken`");
   TracedApp(5, 10).end();
   tracer->finish(config, never);
   EXPECT_EQ(read_trace(config.trace_directory()).events["ros2:rcl_init"], 1);

@@ -66,6 +66,9 @@ std::string missing_of(const fs::path& file, const std::vector<std::uint64_t>& e
   }
   const std::uintmax_t size = fs::file_size(file, error);
   const auto missing = std::count_if(ends.begin(), ends.end(), [&](std::uint64_t end) { return end > size; });
+  if (!error && missing == 0 && size > *std::max_element(ends.begin(), ends.end())) {
+    return fmt::format("'{}' is longer than its {}: it was changed since", file.string(), packets(ends.size()));
+  }
   if (error || missing == 0) {
     return {};
   }

@@ -9,8 +9,8 @@
 
 namespace tracing {
 
-// A line for each file of the trace that lacks packets of its index. `trace` is a directory with metadata that nobody
-// is writing to.
+// A line for each file of the trace that lacks packets of its index, or has more than these. `trace` is a directory
+// with metadata that nobody is writing to.
 std::vector<std::string> missing_packets(const std::filesystem::path& trace);
 
 // A line for each directory at or below this one that has stream files but no metadata, and that nobody is writing to.

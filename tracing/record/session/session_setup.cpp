@@ -100,7 +100,10 @@ NewSession::NewSession(const TraceConfig& config)
   if (result == -LTTNG_ERR_EXIST_SESS) {
     throw TraceError(
         fmt::format("trace session '{}' exists already", name_),
-        fmt::format("end it with `lttng destroy {}`, or choose another session-name", launch::shell_quoted(name_)));
+        fmt::format(
+            "it may be that of another launch that runs; choose another session-name, or, if nobody uses it any "
+            "more, end it with `lttng destroy {}`",
+            launch::shell_quoted(name_)));
   }
   check_lttng(result, fmt::format("create trace session '{}'", name_));
 }

@@ -69,8 +69,9 @@ class OtlpWriter {
     Json resources = Json::array();
     for (std::size_t process = 0; process < spans_.size(); ++process) {
       if (!spans_[process].empty()) {
-        resources.push_back({{"resource", {{"attributes", resource_of(timeline_.processes[process])}}},
-                             {"scopeSpans", Json::array({{{"scope", {{"name", "launch"}}}, {"spans", std::move(spans_[process])}}})}});
+        resources.push_back(
+            {{"resource", {{"attributes", resource_of(timeline_.processes[process])}}},
+             {"scopeSpans", Json::array({{{"scope", {{"name", "launch"}}}, {"spans", std::move(spans_[process])}}})}});
       }
     }
     return {{"resourceSpans", std::move(resources)}};
@@ -81,12 +82,15 @@ class OtlpWriter {
     std::string trace;  // hexadecimal digits
     std::uint64_t base = 0;
 
-    std::string span(std::uint64_t number) const { return fmt::format("{:016x}", std::max<std::uint64_t>(mixed(base, number), 1)); }
+    std::string span(std::uint64_t number) const {
+      return fmt::format("{:016x}", std::max<std::uint64_t>(mixed(base, number), 1));
+    }
   };
 
   // Processes that are alike in another run have the same `service.name`.
   static Json resource_of(const timeline::Process& process) {
-    Json attributes = Json::array({text_attribute("service.name", process.name), number_attribute("process.pid", process.vpid)});
+    Json attributes =
+        Json::array({text_attribute("service.name", process.name), number_attribute("process.pid", process.vpid)});
     if (!process.host.empty()) {
       attributes.push_back(text_attribute("host.name", process.host));
     }
@@ -112,10 +116,12 @@ class OtlpWriter {
     }
     const ChainResult& result = system_.results.ros2.chains[chain];
     const Ids ids = ids_of(chain, passage);
-    const std::string name = result.name.empty() ? fmt::format("{} to {}", result.steps.front().node, result.steps.back().node)
-                                                 : result.name;
+    const std::string name = result.name.empty()
+                                 ? fmt::format("{} to {}", result.steps.front().node, result.steps.back().node)
+                                 : result.name;
     Json root = span(ids, 0, "", name, kInternal, passage.input_ns, passage.output_ns);
-    root["attributes"] = Json::array({text_attribute("ros2.chain", name), flag_attribute("ros2.chain.first_output", passage.is_first)});
+    root["attributes"] =
+        Json::array({text_attribute("ros2.chain", name), flag_attribute("ros2.chain.first_output", passage.is_first)});
     if (result.budget_ns) {
       root["attributes"].push_back(number_attribute("ros2.chain.budget_ns", *result.budget_ns));
       if (passage.is_first && passage.output_ns - passage.input_ns > *result.budget_ns) {
@@ -137,8 +143,8 @@ class OtlpWriter {
     }
   }
 
-  static Json span(const Ids& ids, std::uint64_t number, const std::string& parent, const std::string& name, SpanKind kind,
-                   std::int64_t begin_ns, std::int64_t end_ns) {
+  static Json span(const Ids& ids, std::uint64_t number, const std::string& parent, const std::string& name,
+                   SpanKind kind, std::int64_t begin_ns, std::int64_t end_ns) {
     Json made = {{"traceId", ids.trace}, {"spanId", ids.span(number)}};
     if (!parent.empty()) {
       made["parentSpanId"] = parent;
@@ -151,12 +157,14 @@ class OtlpWriter {
   }
 
   // From the call of publish() to the begin of the callback.
-  Json message_span(const Ids& ids, std::uint64_t number, const std::string& parent, const timeline::Instance& run) const {
+  Json message_span(const Ids& ids, std::uint64_t number, const std::string& parent,
+                    const timeline::Instance& run) const {
     const timeline::Message& message = timeline_.messages[run.message];
     const std::string& topic = timeline_.topics[message.topic];
     Json made = span(ids, number, parent, "send " + topic, kProducer, message.called_ns, run.start_ns);
-    made["attributes"] = Json::array({text_attribute("messaging.system", "ros2"), text_attribute("messaging.operation.type", "send"),
-                                      text_attribute("messaging.destination.name", topic)});
+    made["attributes"] =
+        Json::array({text_attribute("messaging.system", "ros2"), text_attribute("messaging.operation.type", "send"),
+                     text_attribute("messaging.destination.name", topic)});
     if (run.message < timeline_.details.messages.size()) {
       const std::int64_t waited_ns = timeline_.details.messages[run.message].waited_ns;
       if (waited_ns >= 0) {
@@ -172,8 +180,9 @@ class OtlpWriter {
     const timeline::Callback& callback = timeline_.callbacks[run.callback];
     const std::string node = callback.node == kNone ? "" : timeline_.nodes[callback.node].name;
     const std::string what = callback.topic != kNone ? "process " + timeline_.topics[callback.topic]
-                             : callback.period_ns > 0 ? fmt::format("timer {} ms", static_cast<double>(callback.period_ns) / 1e6)
-                                                      : "callback";
+                             : callback.period_ns > 0
+                                 ? fmt::format("timer {} ms", static_cast<double>(callback.period_ns) / 1e6)
+                                 : "callback";
     Json made = span(ids, number, parent, what, has_message ? kConsumer : kInternal, run.start_ns, run.end_ns);
     Json& attributes = made["attributes"] = Json::array({text_attribute("ros2.node", node)});
     if (callback.topic != kNone) {

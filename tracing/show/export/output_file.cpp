@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 OutputError::OutputError(const fs::path& file, const std::string& reason)
     : std::runtime_error(fmt::format("cannot write {}: {}", file.native(), reason)) {}
 
-OutputFile::OutputFile(fs::path file) : file_(std::move(file)), unfinished_(file_) {
+OutputFile::OutputFile(fs::path file) : file_(file == "-" ? "/dev/stdout" : std::move(file)), unfinished_(file_) {
   std::error_code ignored;
   if (fs::is_directory(file_, ignored)) {
     throw OutputError(file_, std::strerror(EISDIR));

@@ -16,7 +16,8 @@ class OutputError : public std::runtime_error {
   OutputError(const std::filesystem::path& file, const std::string& reason);
 };
 
-// Writes beside the file and renames at the end. What is no regular file, such as /dev/stdout, is written directly.
+// Writes beside the file and renames at the end. What is no regular file is written directly, such as /dev/stdout,
+// which is also `-`.
 class OutputFile {
  public:
   explicit OutputFile(std::filesystem::path file);

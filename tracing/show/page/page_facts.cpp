@@ -219,6 +219,7 @@ Json overview(const TracedSystem& system, std::int64_t begin_ns) {
           {"lost_events", std::max(overview.lost_events(), system.verdict.discarded_events)},
           {"lost_packets", std::max(overview.lost_packets(), system.verdict.lost_packets)},
           {"lost_uncounted", overview.lost_uncounted()},
+          {"lost_unknown", system.verdict.damaged},
           {"event_counts", facts.of(overview.event_counts)},
           {"losses", facts.of(overview.losses)}};
 }

@@ -93,7 +93,11 @@ LaunchFilter::Wanted LaunchFilter::find(const EventClass& event_class) {
   if (event_class.recording != nullptr && event_class.recording->of_kernel) {
     return {};
   }
-  return {of_trace(event_class.trace), event_class.name.starts_with("launch:")};
+  const std::string& name = event_class.name;
+  const bool of_launcher = name.starts_with("launch:");
+  return {of_trace(event_class.trace), of_launcher,
+          of_launcher || name.starts_with("ros2:") || name.starts_with("ros2_ext:") ||
+              name.starts_with("lttng_ust_statedump:")};
 }
 
 void LaunchFilter::on_event(const Event& event) {
@@ -104,19 +108,27 @@ void LaunchFilter::on_event(const Event& event) {
   if (wanted.processes == nullptr || wanted.processes->contains(*event.vpid)) {
     return next_.on_event(event);
   }
-  count(event, wanted.of_launcher);
+  // A process of the launch without tracetools, such as a program whose memory is recorded, counts nothing itself.
+  if (!count(event, wanted)) {
+    next_.on_event(event);
+  }
 }
 
-void LaunchFilter::count(const Event& event, bool of_launcher) {
+bool LaunchFilter::count(const Event& event, const Wanted& wanted) {
   static const std::string kNoHost;
   const Recording* const recording = event.event_class->recording;
   Other& other = others_[{recording == nullptr ? kNoHost : recording->host, *event.vpid}];
+  other.is_of_ros2 = other.is_of_ros2 || wanted.is_of_ros2;
+  if (!other.is_of_ros2) {
+    return false;
+  }
   ++other.process.events;
-  other.is_traced = other.is_traced || !of_launcher;
+  other.is_traced = other.is_traced || !wanted.of_launcher;
   if (event.procname && !other.is_named) {
     other.process.name = *event.procname;
     other.is_named = event.vtid == event.vpid;
   }
+  return true;
 }
 
 std::vector<OtherProcess> LaunchFilter::others() const {

@@ -38,12 +38,14 @@ class LaunchFilter : public TraceSink {
   struct Wanted {
     const Processes* processes = nullptr;
     bool of_launcher = false;
+    bool is_of_ros2 = false;  // one that each process with tracetools has
   };
   Wanted find(const EventClass& event_class);
   // Null if the recording does not name its processes. The path is canonical.
   const Processes* of_directory(std::filesystem::path directory) const;
   const Processes* of_trace(std::size_t trace);
-  void count(const Event& event, bool of_launcher);
+  // False if the process has no events of ROS 2 so far, so that it may belong to the launch.
+  bool count(const Event& event, const Wanted& wanted);
 
   const TraceReader& reader_;
   TraceSink& next_;
@@ -55,6 +57,7 @@ class LaunchFilter : public TraceSink {
     OtherProcess process;
     bool is_named = false;  // by its main thread
     bool is_traced = false;
+    bool is_of_ros2 = false;
   };
   std::map<std::pair<std::string, std::int64_t>, Other> others_;
 };

@@ -126,6 +126,7 @@ RecordedVerdict read_verdicts(const std::vector<fs::path>& directories) {
     }
     if (const std::string damage = text(verdict, "damage"); !damage.empty()) {
       result.absences.push_back(damage);
+      result.damaged = true;
     }
     if (verdict.contains("cut_short") && verdict["cut_short"] == true) {
       result.absences.emplace_back("the last events were not waited for");

@@ -39,7 +39,7 @@ std::string loss_phrase(const TraceOverview& overview, const RecordedVerdict& ve
     }
     text = fmt::format("{}{} lost", overview.lost_uncounted() ? "at least " : "", counted);
   } else {
-    text = overview.losses.empty() ? "none lost" : "some events lost";
+    text = verdict.damaged ? "unknown how many lost" : overview.losses.empty() ? "none lost" : "some events lost";
   }
   for (const std::string& overwritten : verdict.overwritten) {
     text += ", " + overwritten;

@@ -28,7 +28,7 @@ function openFinding({kind, callback, topic}) {
 function overviewView(data) {
   const {overview} = data;
   const counted = lossText(overview);
-  const lost = counted === 'none' && data.error ? 'unknown' : counted;
+  const lost = counted === 'none' && (data.error || data.lost_unknown) ? 'unknown' : counted;
   const nodes = data.nodes.length;
   // Each one is there once for each subscription that took it; the further ones are marked.
   let published = 0;
