@@ -2,9 +2,9 @@
 // Where the parts of an action's messages of C++ are in memory, by the description of the action.
 #pragma once
 
-#include <rosidl_runtime_c/action_type_support_struct.h>
-
 #include <cstddef>
+
+#include "rosidl_typesupport_cpp/action_type_support.hpp"
 
 namespace rclcpp_action {
 

@@ -143,13 +143,13 @@ ServerBase::Work ServerBase::take(EntityType entity) {
   switch (entity) {
     case EntityType::GoalService:
       return take_request(rcl_action_take_goal_request, create_goal_request(), &ServerBase::answer_goal_request,
-                          "take a goal request");
+                          "failed to take a goal request");
     case EntityType::ResultService:
       return take_request(rcl_action_take_result_request, create_result_request(), &ServerBase::answer_result_request,
-                          "take a result request");
+                          "failed to take a result request");
     case EntityType::CancelService:
       return take_request(rcl_action_take_cancel_request, std::make_shared<CancelGoal::Request>(),
-                          &ServerBase::answer_cancel_request, "take a cancel request");
+                          &ServerBase::answer_cancel_request, "failed to take a cancel request");
   }
   return nullptr;
 }
@@ -158,10 +158,11 @@ ServerBase::Work ServerBase::take_request(Take take_from_rcl, std::shared_ptr<vo
                                           const char* what) {
   rmw_request_id_t header{};
   const rcl_ret_t ret = take_from_rcl(&server_, &header, request.get());
-  if (ret != RCL_RET_OK) {
-    warn(ret, what);
+  if (ret == RCL_RET_ACTION_SERVER_TAKE_FAILED) {  // another thread took it
+    rcl_reset_error();
     return nullptr;
   }
+  require_ok(ret, what);
   return [this, answer, header, request = std::move(request)] { (this->*answer)(header, request); };
 }
 
@@ -370,10 +371,7 @@ void ServerBase::warn(rcl_ret_t ret, const char* what) const {
   if (ret == RCL_RET_OK) {
     return;
   }
-  // Another thread took the request, or the client is gone.
-  if (ret != RCL_RET_ACTION_SERVER_TAKE_FAILED) {
-    RCLCPP_WARN(logger_, "failed to %s: %s", what, rcl_get_error_string().str);
-  }
+  RCLCPP_WARN(logger_, "failed to %s: %s", what, rcl_get_error_string().str);
   rcl_reset_error();
 }
 

@@ -27,7 +27,11 @@ USES = {
         rclcpp::Rate rate(1.0); rclcpp::WaitSet wait_set; rclcpp::Serialization<rcl_interfaces::msg::Parameter>* s = nullptr; (void)s;
         auto copy = [](auto& x, auto& y) { rclcpp::copy_all_parameter_values(x, y); }; (void)copy;
         rclcpp::ParameterEventHandler* handler = nullptr; (void)handler;
-        std::this_thread::sleep_for(std::chrono::seconds(0)); std::mutex mutex; std::map<int, std::vector<std::string>> map;''',
+        std::this_thread::sleep_for(std::chrono::seconds(0)); std::mutex mutex; std::map<int, std::vector<std::string>> map;
+        std::queue<int> queue; std::cout << std::setprecision(3); (void)std::getenv("A"); RCPPUTILS_SCOPE_EXIT({});
+        rcpputils::SharedLibrary* library = nullptr; (void)library; (void)rcpputils::join(std::vector<std::string>{}, ",");
+        (void)RCL_DEFAULT_DOMAIN_ID; rcutils_ret_t ret = RCUTILS_RET_OK; (void)ret;''',
+    'rclcpp/context.hpp': 'rcl_guard_condition_options_t options; rcl_wait_set_t wait_set;',
     'rclcpp/executors.hpp': '''
         rclcpp::experimental::executors::EventsExecutor executor; std::promise<void> promise;
         rclcpp::Node::SharedPtr node; rclcpp::ok(); rclcpp::WaitSet wait_set;

@@ -6,6 +6,8 @@
 #pragma once
 
 #include <rcl/context.h>
+#include <rcl/guard_condition.h>
+#include <rcl/wait.h>
 
 #include <atomic>
 #include <chrono>

@@ -9,10 +9,12 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "rclcpp/detail/on_ready_callback.hpp"
 #include "rclcpp/exceptions.hpp"
+#include "rclcpp/function_traits.hpp"
 #include "rclcpp/macros.hpp"
 #include "rclcpp/waitable.hpp"
 
@@ -95,22 +97,12 @@ class EventHandlerBase : public Waitable {
   detail::OnReadyCallback on_ready_;
 };
 
-namespace detail {
-
-template <typename EventCallbackT>
-struct EventInfoOf;
-template <typename InfoT>
-struct EventInfoOf<std::function<void(InfoT&)>> {
-  using type = InfoT;
-};
-
-}  // namespace detail
-
-// `EventCallbackT` is a std::function that takes a reference to the status of its event.
+// `EventCallbackT` is a function that takes the status of its event, or a reference to it.
 template <typename EventCallbackT, typename ParentHandleT>
 class EventHandler : public EventHandlerBase {
  public:
-  using EventCallbackInfoT = typename detail::EventInfoOf<EventCallbackT>::type;
+  using EventCallbackInfoT =
+      std::remove_reference_t<typename function_traits::function_traits<EventCallbackT>::template argument_type<0>>;
 
   // `init_func` is rcl_publisher_event_init or rcl_subscription_event_init.
   template <typename InitFuncT, typename EventTypeT>

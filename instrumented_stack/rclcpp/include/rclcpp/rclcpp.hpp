@@ -24,19 +24,33 @@
 #pragma once
 
 // Applications expect these headers to come with rclcpp.
+#include <rcl/domain_id.h>
+#include <rcl/logging_rosout.h>
+#include <rcutils/types.h>
+#include <rmw/error_handling.h>
+#include <rmw/incompatible_qos_events_statuses.h>
 #include <rmw/rmw.h>
 
 #include <algorithm>
 #include <cassert>
 #include <condition_variable>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <future>
+#include <iomanip>
 #include <iostream>
 #include <map>
 #include <mutex>
 #include <numeric>
 #include <optional>
+#include <queue>
+#include <rcpputils/join.hpp>
+#include <rcpputils/pointer_traits.hpp>
+#include <rcpputils/scope_exit.hpp>
+#include <rcpputils/shared_library.hpp>
+#include <rcpputils/thread_safety_annotations.hpp>
+#include <rcpputils/time.hpp>
 #include <set>
 #include <sstream>
 #include <thread>

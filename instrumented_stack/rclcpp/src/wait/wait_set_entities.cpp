@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rclcpp/detail/wait_set_entities.hpp"
 
+#include <rcl/error_handling.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <string>
@@ -81,7 +83,8 @@ WaitSetEntities::WaitSetEntities(const Context::SharedPtr& context, Threads thre
       interrupt_(threads == Threads::kMany ? std::make_unique<GuardCondition>(context) : nullptr),
       wait_set_(rcl_get_zero_initialized_wait_set()) {
   if (!rcl_context_) {
-    throw std::runtime_error("a wait set needs an initialized context: call rclcpp::init() first");
+    RCL_SET_ERROR_MSG("call rclcpp::init() first");
+    require_ok(RCL_RET_INVALID_ARGUMENT, "a wait set needs an initialized context");
   }
   require_ok(rcl_wait_set_init(&wait_set_, 0, 0, 0, 0, 0, 0, rcl_context_.get(), rcl_get_default_allocator()),
              "failed to create wait set");

@@ -236,6 +236,18 @@ TEST_F(QosEventTest, APublisherIsGoneAtOnceThoughAnExecutorKnowsItsEvents) {
   EXPECT_TRUE(handle.expired());
 }
 
+TEST_F(QosEventTest, AHandlerTakesAnyFunctionOfTheStatus) {
+  const auto publisher = node_->create_publisher<String>("topic", 1);
+  int32_t total = 0;
+  auto callback = [&total](rclcpp::MatchedInfo status) { total = static_cast<int32_t>(status.total_count); };
+  using Handler = rclcpp::EventHandler<decltype(callback), std::shared_ptr<rcl_publisher_t>>;
+  const auto handler = std::make_shared<Handler>(callback, rcl_publisher_event_init, publisher->get_publisher_handle(),
+                                                 RCL_PUBLISHER_MATCHED);
+  node_->get_node_waitables_interface()->add_waitable(handler, nullptr);
+  const auto subscription = node_->create_subscription<String>("topic", 1, ignore);
+  EXPECT_TRUE(spin_until(executor_, [&] { return total == 1; }));
+}
+
 TEST_F(QosEventTest, PoliciesHaveNames) {
   EXPECT_EQ(rclcpp::qos_policy_name_from_kind(RMW_QOS_POLICY_DEADLINE), "DEADLINE_QOS_POLICY");
   EXPECT_EQ(rclcpp::qos_policy_name_from_kind(RMW_QOS_POLICY_INVALID), "INVALID_QOS_POLICY");

@@ -133,6 +133,11 @@ TEST_F(WaitSetTest, WithoutAnythingToWaitForItIsEmpty) {
   EXPECT_EQ(error_of([&] { result.get_wait_set(); }), "cannot access wait set when the result was not ready");
 }
 
+TEST_F(WaitSetTest, NeedsAnInitializedContext) {
+  const auto context = std::make_shared<rclcpp::Context>();
+  EXPECT_THROW(rclcpp::WaitSet({}, {}, {}, {}, {}, {}, context), rclcpp::exceptions::RCLInvalidArgument);
+}
+
 TEST_F(WaitSetTest, AResultThatWasMovedFromIsInvalid) {
   rclcpp::WaitSet wait_set;
   auto result = wait_set.wait(milliseconds(0));
