@@ -139,15 +139,26 @@ bool GraphSession::has_heard_nodes() const {
 }
 
 // Almost each node that tells changes of its parameters has services for them. They may be heard of seconds later.
-bool GraphSession::has_heard_services() const {
+bool GraphSession::has_heard_services(const std::string& of_node) const {
   constexpr bool kNameOfDds = true;
   const auto services = node_->get_service_names_and_types();
   const auto endpoints = node_->get_publishers_info_by_topic("rt/parameter_events", kNameOfDds);
-  return std::all_of(endpoints.begin(), endpoints.end(), [&services](const auto& endpoint) {
+  return std::all_of(endpoints.begin(), endpoints.end(), [&](const auto& endpoint) {
     const std::string& space = endpoint.node_namespace();
-    return endpoint.node_name() == kUnknownNode ||
-           services.count((space == "/" ? space : space + "/") + endpoint.node_name() + "/list_parameters") != 0;
+    const std::string node = (space == "/" ? space : space + "/") + endpoint.node_name();
+    const std::string service = node + "/list_parameters";
+    // It is there as soon as what answers is heard of. What takes requests comes with the subscriptions of the node.
+    return endpoint.node_name() == kUnknownNode || (!of_node.empty() && node != of_node) ||
+           (services.count(service) != 0 &&
+            !node_->get_subscriptions_info_by_topic("rq" + service + "Request", kNameOfDds).empty());
   });
+}
+
+void GraphSession::hear_services(const std::string& node) {
+  if (!has_heard_services(node)) {
+    (void)wait_until([&] { return has_heard_services(node); }, kLongestLook);
+    discover(std::nullopt);  // more of the node may follow
+  }
 }
 
 bool GraphSession::wait_until(const std::function<bool()>& holds, std::optional<Seconds> time) {

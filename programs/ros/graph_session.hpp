@@ -47,6 +47,9 @@ class GraphSession {
   // Waits until all participants of this host have been found, and nothing more for a moment. With `time`: exactly so
   // long.
   void discover(std::optional<Seconds> time);
+  // Waits until the services of this node have been heard of, as far as it tells that it has some: it may itself have
+  // been found long before them.
+  void hear_services(const std::string& node);
   // Looks again after each change until `holds` is true. False when `time` is over or the user has asked to stop.
   bool wait_until(const std::function<bool()>& holds, std::optional<Seconds> time = std::nullopt);
 
@@ -63,7 +66,7 @@ class GraphSession {
   std::shared_ptr<rclcpp::Node> node_;
   bool has_found_host() const;
   bool has_heard_nodes() const;
-  bool has_heard_services() const;
+  bool has_heard_services(const std::string& of_node = {}) const;  // empty: of all nodes
 
   SessionClock::time_point last_change_;
   SessionClock::duration lateness_{0};  // the longest time that a busy machine has kept this thread waiting

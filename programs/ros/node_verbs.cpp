@@ -50,6 +50,9 @@ class NodeInfo final : public Verb {
     GraphSession session;
     session.discover(look_.time());
     const std::string node = require_node(session, node_, look_.time());
+    if (!look_.time()) {
+      session.hear_services(node);
+    }
     const NamesAndTypes services = names_of_node(session, node, OfNode::kServices);
     const NamesAndTypes clients = names_of_node(session, node, OfNode::kClients);
     put(node + "\n" + section("Subscribers", names_of_node(session, node, OfNode::kSubscriptions)) +

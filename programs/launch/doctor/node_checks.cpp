@@ -45,6 +45,13 @@ std::vector<std::string> strings(const std::string& text) {
   return found;
 }
 
+// Not what several middlewares share, and not the types of its messages
+// (librmw_dds_common__rosidl_typesupport_introspection_cpp.so).
+bool is_middleware(const std::string& name) {
+  const bool ends_as_one = name.ends_with("_cpp") || name == "rmw_connextdds";
+  return ends_as_one && name != "rmw_fastrtps_shared_cpp" && name.find("__") == std::string::npos;
+}
+
 // "" if the process has none. rmw_implementation only loads the others.
 std::string middleware_in(const std::string& maps, bool& is_of_this_stack) {
   std::istringstream lines(maps);
@@ -54,7 +61,7 @@ std::string middleware_in(const std::string& maps, bool& is_of_this_stack) {
     const std::string file = line.substr(line.find_last_of("/ ") + 1);
     if (file.starts_with("librmw_") && file.find(".so") != std::string::npos) {
       const std::string name = file.substr(3, file.find(".so") - 3);
-      if (name.ends_with("_cpp") || name == "rmw_connextdds" || name == "rmw_gurumdds_cpp") {
+      if (is_middleware(name)) {
         return name;
       }
     }

@@ -171,8 +171,10 @@ class Doctor(unittest.TestCase):
         (process / 'ns/net').symlink_to(network)
         (process / 'root').symlink_to(self.root / 'roots' / shared_memory)
         (self.root / 'roots' / shared_memory / 'dev/shm').mkdir(parents=True, exist_ok=True)
-        (process / 'maps').write_text(f'7f00-7f01 r-xp 00000000 08:01 12 /usr/bin/x\n7f02-7f03 r-xp 0 08:01 13 /opt/ros/lib/{library}\n'
-                                      '7f04-7f05 r-xp 0 08:01 14 /opt/ros/lib/librmw_implementation.so\n')
+        libraries = ['librmw_dds_common__rosidl_typesupport_introspection_cpp.so', 'librmw_fastrtps_shared_cpp.so', library,
+                     'librmw_dds_common.so', 'librmw_implementation.so']
+        (process / 'maps').write_text('7f00-7f01 r-xp 00000000 08:01 12 /usr/bin/x\n' + ''.join(
+            f'7f02-7f03 r-xp 0 08:01 13 /opt/ros/lib/{each}\n' for each in libraries))
         (process / 'cmdline').write_text(f'/opt/ros/lib/p/{name}\0--ros-args\0-r\0__node:={name}_node\0')
         (process / 'environ').write_text(''.join(f'{key}={value}\0' for key, value in variables.items()))
         (process / 'status').write_text(f'Name:\tx\nUid:\t{user}\t{user}\t{user}\t{user}\n')

@@ -6,9 +6,11 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <vector>
 
 #include "their_interface.h"
 
@@ -136,14 +138,19 @@ int spin_their_node(int argc, char** argv) {
   std::puts("ready");
   std::fflush(stdout);
   const std::uint8_t* const client = make_gid(51);
+  std::vector<std::int64_t> times;
   for (long i = 0; i < cycles; ++i) {
     const bool is_late = late && i == 20;
+    const std::int64_t begin = nanoseconds(CLOCK_MONOTONIC);
     cycle(client, is_late ? std::int64_t{3600} * 1'000'000'000 : 1000, is_late ? 30'000'000 : 0);
+    times.push_back(nanoseconds(CLOCK_MONOTONIC) - begin);
     if (i % 100 == 99) {
       std::printf("cycle %ld.\n", i + 1);
       std::fflush(stdout);
     }
     usleep(static_cast<useconds_t>(pause_us));
   }
+  std::nth_element(times.begin(), times.begin() + cycles / 2, times.end());
+  std::printf("median %lld ns\n", cycles > 0 ? static_cast<long long>(times[cycles / 2]) : 0);
   return 0;
 }
