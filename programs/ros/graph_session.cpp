@@ -48,6 +48,11 @@ EndpointGid gid_of(const rclcpp::TopicEndpointInfo& endpoint) {
   return gid;
 }
 
+std::string full_name(const rclcpp::TopicEndpointInfo& endpoint) {
+  const std::string& space = endpoint.node_namespace();
+  return (space == "/" ? space : space + "/") + endpoint.node_name();
+}
+
 class WaitSet {
  public:
   WaitSet(const GraphSession::WakeUps& wake_ups, rcl_context_t* context) {
@@ -144,8 +149,7 @@ bool GraphSession::has_heard_services(const std::string& of_node) const {
   const auto services = node_->get_service_names_and_types();
   const auto endpoints = node_->get_publishers_info_by_topic("rt/parameter_events", kNameOfDds);
   return std::all_of(endpoints.begin(), endpoints.end(), [&](const auto& endpoint) {
-    const std::string& space = endpoint.node_namespace();
-    const std::string node = (space == "/" ? space : space + "/") + endpoint.node_name();
+    const std::string node = full_name(endpoint);
     const std::string service = node + "/list_parameters";
     // It is there as soon as what answers is heard of. What takes requests comes with the subscriptions of the node.
     return endpoint.node_name() == kUnknownNode || (!of_node.empty() && node != of_node) ||
@@ -154,9 +158,18 @@ bool GraphSession::has_heard_services(const std::string& of_node) const {
   });
 }
 
-void GraphSession::hear_services(const std::string& node) {
-  if (!has_heard_services(node)) {
-    (void)wait_until([&] { return has_heard_services(node); }, kLongestLook);
+// What has services for parameters tells their changes, too. Publications and subscriptions come one after the other.
+void GraphSession::hear_endpoints(const std::string& node) {
+  const auto has_heard = [&] {
+    const auto services = node_->get_service_names_and_types();
+    const auto endpoints = node_->get_publishers_info_by_topic("/parameter_events");
+    const bool tells_changes = std::any_of(endpoints.begin(), endpoints.end(), [&](const auto& endpoint) {
+      return full_name(endpoint) == node;
+    });
+    return has_heard_services(node) && (tells_changes || services.count(node + "/list_parameters") == 0);
+  };
+  if (!has_heard()) {
+    (void)wait_until(has_heard, kLongestLook);
     discover(std::nullopt);  // more of the node may follow
   }
 }

@@ -51,7 +51,7 @@ class NodeInfo final : public Verb {
     session.discover(look_.time());
     const std::string node = require_node(session, node_, look_.time());
     if (!look_.time()) {
-      session.hear_services(node);
+      session.hear_endpoints(node);
     }
     const NamesAndTypes services = names_of_node(session, node, OfNode::kServices);
     const NamesAndTypes clients = names_of_node(session, node, OfNode::kClients);
