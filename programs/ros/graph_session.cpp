@@ -163,9 +163,8 @@ void GraphSession::hear_endpoints(const std::string& node) {
   const auto has_heard = [&] {
     const auto services = node_->get_service_names_and_types();
     const auto endpoints = node_->get_publishers_info_by_topic("/parameter_events");
-    const bool tells_changes = std::any_of(endpoints.begin(), endpoints.end(), [&](const auto& endpoint) {
-      return full_name(endpoint) == node;
-    });
+    const bool tells_changes = std::any_of(endpoints.begin(), endpoints.end(),
+                                           [&](const auto& endpoint) { return full_name(endpoint) == node; });
     return has_heard_services(node) && (tells_changes || services.count(node + "/list_parameters") == 0);
   };
   if (!has_heard()) {

@@ -47,8 +47,8 @@ class GraphSession {
   // Waits until all participants of this host have been found, and nothing more for a moment. With `time`: exactly so
   // long.
   void discover(std::optional<Seconds> time);
-  // Waits until the services of this node and its topic of parameters have been heard of, as far as one of them tells of
-  // the other: the node may itself have been found long before them.
+  // Waits until the services of this node and its topic of parameters have been heard of, as far as one of them tells
+  // of the other: the node may itself have been found long before them.
   void hear_endpoints(const std::string& node);
   // Looks again after each change until `holds` is true. False when `time` is over or the user has asked to stop.
   bool wait_until(const std::function<bool()>& holds, std::optional<Seconds> time = std::nullopt);

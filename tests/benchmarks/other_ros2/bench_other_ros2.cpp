@@ -23,10 +23,9 @@ enum class Traced { kNot, kOwn, kTheirs };
 double run(const std::string& distribution, Traced traced) {
   const Sandbox sandbox;
   const std::string prefix = std::string(OTHER_ROS2) + "/" + distribution;
-  const std::string trace = traced == Traced::kNot
-                                ? ""
-                                : fmt::format(R"(<trace session-name="run" tracetools="{}"/>)",
-                                              traced == Traced::kOwn ? "own" : "theirs");
+  const std::string trace = traced == Traced::kNot ? ""
+                                                   : fmt::format(R"(<trace session-name="run" tracetools="{}"/>)",
+                                                                 traced == Traced::kOwn ? "own" : "theirs");
   const std::filesystem::path file = sandbox.directory() / "run.launch.xml";
   write_file(file, fmt::format(R"(<launch>{}<executable output="screen" cmd="{}/lib/demo/talker 2000 1000">
   <env name="LD_LIBRARY_PATH" value="{}/lib"/></executable></launch>)",
@@ -60,7 +59,8 @@ int main(int argc, char** argv) {
     }
     const double ours = median(own) - median(none);
     const double its = median(theirs) - median(none);
-    fmt::print("{}: a message published and one taken cost {:.0f} ns with our tracetools, {:.0f} ns with its own: {:.3f}\n",
-               distribution, ours, its, ours / its);
+    fmt::print(
+        "{}: a message published and one taken cost {:.0f} ns with our tracetools, {:.0f} ns with its own: {:.3f}\n",
+        distribution, ours, its, ours / its);
   }
 }

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the transports of rmw send in shared memory arrives as it was sent.
+#include <arpa/inet.h>
 #include <gmock/gmock.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -198,6 +203,43 @@ TEST(SharedMemory, ALargeMessageHasPlaceAlthoughNobodyReads) {
   senders.clear();
   EXPECT_TRUE(transport->CloseInputChannel(here));
   transport->shutdown();
+}
+
+// Fast DDS sends to such a locator when it has found several readers that listen to one multicast address, as those of
+// Cyclone DDS do, and ended the process then.
+TEST(Udp, AMessageGoesToALocatorWhoseChannelWasNeverOpened) {
+  const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t length = sizeof address;
+  ASSERT_EQ(::bind(socket, reinterpret_cast<const sockaddr*>(&address), length), 0);
+  ASSERT_EQ(::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &length), 0);
+
+  fdds::DomainParticipantQos qos;
+  const auto traffic = std::make_shared<DiscoveryTraffic>();
+  traffic->introduce({});
+  rmw_fastrtps::use_default_transports({.shared_memory = false}, 0, traffic, qos);
+  const std::unique_ptr<rtps::TransportInterface> transport(qos.transport().user_transports.at(0)->create_transport());
+  ASSERT_TRUE(transport->init());
+  rtps::Locator_t here;
+  here.kind = LOCATOR_KIND_UDPv4;
+  std::copy_n(std::array<rtps::octet, 4>{127, 0, 0, 1}.begin(), 4, here.address + 12);
+  here.port = ntohs(address.sin_port);
+  rtps::Locator_t other = here;
+  other.port = here.port == 1 ? 2 : here.port - 1;
+  rtps::SendResourceList senders;
+  ASSERT_TRUE(transport->OpenOutputChannel(senders, other));
+  ASSERT_FALSE(senders.empty());
+  const std::string message = "RTPS" + std::string(60, 'm');
+  send(*senders.front(), here, as_fast_dds_sends(message));
+  std::array<char, 1000> got{};
+  const ssize_t size = ::recv(socket, got.data(), got.size(), 0);
+  EXPECT_EQ(std::string(got.data(), static_cast<std::size_t>(std::max<ssize_t>(size, 0))).substr(0, message.size()),
+            message);
+  senders.clear();
+  transport->shutdown();
+  ::close(socket);
 }
 
 // The kinds of the submessages, and 0 for what is none.

@@ -11,6 +11,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -42,37 +43,45 @@ struct ReportedConfiguration : rtps::TransportDescriptorInterface {
   std::uint32_t min_send_buffer_size() const override { return kBytesBetweenHeartbeats; }
 };
 
-std::vector<Locator> between(rtps::LocatorsIterator& begin, const rtps::LocatorsIterator& end) {
+// Those of one kind, or all for kind 0.
+std::vector<Locator> between(rtps::LocatorsIterator& begin, const rtps::LocatorsIterator& end, std::int32_t kind) {
   std::vector<Locator> locators;
   for (; begin != end; ++begin) {
-    locators.push_back(*begin);
+    if (kind == 0 || (*begin).kind == kind) {
+      locators.push_back(*begin);
+    }
   }
   return locators;
 }
 
-// Lets what `traffic` allows pass to the transport behind a sender, or to that of `large`, if there is one.
-void filter(rtps::SenderResource& sender, const std::shared_ptr<DiscoveryTraffic>& traffic,
-            const std::shared_ptr<LargeMessages>& large) {
-  InterceptedSender::intercept(
-      sender, [traffic, large](std::span<const std::uint8_t> bytes, std::uint32_t size, rtps::LocatorsIterator* begin,
-                               rtps::LocatorsIterator* end, const auto& send) {
-        if (!traffic->is_introduced()) {
-          return true;
-        }
-        const auto message = discovery_message_in(bytes);
-        const bool is_large = large && LargeMessages::is_large(size);
-        if (!message && !is_large) {
-          return send(begin, end);
-        }
-        std::vector<Locator> destinations = between(*begin, *end);
-        if (message) {
-          traffic->restrict(*message, destinations, std::chrono::steady_clock::now());
-        }
-        rtps::SenderResource* const other = is_large ? large->sender(destinations) : nullptr;
-        rtps::Locators first(destinations.begin());
-        rtps::Locators last(destinations.end());
-        return destinations.empty() || send(&first, &last, other);
-      });
+// Lets what `traffic` allows pass to the transport behind a sender, or to that of `large`, if there is one. `open`
+// is told the destinations before something is sent to them; it may be empty. `kind` is that of the transport.
+void filter(rtps::SenderResource& sender, std::int32_t kind, const std::shared_ptr<DiscoveryTraffic>& traffic,
+            const std::shared_ptr<LargeMessages>& large, std::function<void(const std::vector<Locator>&)> open) {
+  const auto interception = [kind, traffic, large, open = std::move(open)](
+                                std::span<const std::uint8_t> bytes, std::uint32_t size, rtps::LocatorsIterator* begin,
+                                rtps::LocatorsIterator* end, const auto& send) {
+    if (!traffic->is_introduced()) {
+      return true;
+    }
+    const auto message = discovery_message_in(bytes);
+    const bool is_large = large && LargeMessages::is_large(size);
+    if (!message && !is_large && !open) {
+      return send(begin, end);
+    }
+    std::vector<Locator> destinations = between(*begin, *end, message ? 0 : kind);
+    if (message) {
+      traffic->restrict(*message, destinations, std::chrono::steady_clock::now());
+    }
+    if (open) {
+      open(destinations);
+    }
+    rtps::SenderResource* const other = is_large ? large->sender(destinations) : nullptr;
+    rtps::Locators first(destinations.begin());
+    rtps::Locators last(destinations.end());
+    return destinations.empty() || send(&first, &last, other);
+  };
+  InterceptedSender::intercept(sender, interception);
 }
 
 // Hands over what `traffic` lets hear.
@@ -109,7 +118,7 @@ class FilteredTransport final : public ForwardingTransport {
   FilteredTransport(std::unique_ptr<TransportInterface> inner, std::shared_ptr<DiscoveryTraffic> traffic,
                     std::shared_ptr<OwnPorts> ports, std::uint32_t largest_message)
       : ForwardingTransport(std::move(inner)), traffic_(std::move(traffic)), ports_(std::move(ports)) {
-    if (kind() == LOCATOR_KIND_SHM) {
+    if (is_shared_memory()) {
       large_ = std::make_shared<LargeMessages>(largest_message);
     }
   }
@@ -133,7 +142,7 @@ class FilteredTransport final : public ForwardingTransport {
       return false;
     }
     for (std::size_t i = before; i < senders.size(); ++i) {
-      filter(*senders[i], traffic_, large_);
+      filter(*senders[i], kind(), traffic_, large_, is_shared_memory() ? nullptr : opener());
     }
     open_.insert(locator);
     return true;
@@ -167,6 +176,23 @@ class FilteredTransport final : public ForwardingTransport {
   }
 
  private:
+  bool is_shared_memory() const { return kind() == LOCATOR_KIND_SHM; }
+
+  // Fast DDS with statistics ends the process when it sends to a locator whose channel was never opened. It opens those
+  // that it has chosen when it found a reader, and chooses others when it sends to some of its readers alone: where
+  // several listen to one multicast address, as those of Cyclone DDS do, it has opened that one alone.
+  std::function<void(const std::vector<Locator>&)> opener() {
+    return [this](const std::vector<Locator>& destinations) {
+      for (const Locator& locator : destinations) {
+        if (locator.kind == kind() && open_.count(locator) == 0 && !interfaces_changed_) {
+          rtps::SendResourceList none;  // the sockets are there
+          ForwardingTransport::OpenOutputChannel(none, locator);
+          open_.insert(locator);
+        }
+      }
+    };
+  }
+
   bool initialised() override {
     configuration_.emplace(*ForwardingTransport::get_configuration());
     return true;
