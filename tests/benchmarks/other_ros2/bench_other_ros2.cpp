@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What it costs a node of another ROS 2 to be recorded: with the tracetools of this stack that stands in for its own,
-// and with its own. The nodes are programs of tests/support/other_ros2/, which call tracetools for a message that is
-// published and one that is taken as rclcpp, rcl and rmw of each distribution do, once a millisecond.
+// and with its own. The nodes are programs of tests/support/other_ros2/, which call tracetools as rmw and rclcpp of
+// each distribution do, here for two events, once a millisecond: rmw_publish and callback_end.
 //
-// bench_other_ros2 [RUNS]: the median of so many runs (5), each of the median of 2,000 messages, in turns.
+// bench_other_ros2 [RUNS]: the median of so many runs (5), each of the median of 2,000 milliseconds, in turns.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ double run(const std::string& distribution, Traced traced) {
                                                    : fmt::format(R"(<trace session-name="run" tracetools="{}"/>)",
                                                                  traced == Traced::kOwn ? "own" : "theirs");
   const std::filesystem::path file = sandbox.directory() / "run.launch.xml";
-  write_file(file, fmt::format(R"(<launch>{}<executable output="screen" cmd="{}/lib/demo/talker 2000 1000">
+  write_file(file, fmt::format(R"(<launch>{}<executable output="screen" cmd="{}/lib/demo/talker 2000 1000 recorded">
   <env name="LD_LIBRARY_PATH" value="{}/lib"/></executable></launch>)",
                                trace, prefix, prefix));
   const CommandResult result = run_command({LAUNCH_PROGRAM, file.string()});
@@ -59,8 +59,7 @@ int main(int argc, char** argv) {
     }
     const double ours = median(own) - median(none);
     const double its = median(theirs) - median(none);
-    fmt::print(
-        "{}: a message published and one taken cost {:.0f} ns with our tracetools, {:.0f} ns with its own: {:.3f}\n",
-        distribution, ours, its, ours / its);
+    fmt::print("{}: two events cost {:.0f} ns with our tracetools, {:.0f} ns with its own: {:.3f}\n", distribution,
+               ours, its, ours / its);
   }
 }

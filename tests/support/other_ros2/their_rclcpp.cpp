@@ -123,6 +123,16 @@ void cycle(const std::uint8_t* client, std::int64_t age, std::int64_t duration) 
   serve(client);
 }
 
+// Only what their tracetools records here (their_recording.c).
+void recorded_cycle() {
+#if THEIR_VERSION >= 801
+  ros_trace_rmw_publish(handle(0x21), handle(0xa0), 1);
+#else
+  ros_trace_rmw_publish(handle(0xa0));
+#endif
+  ros_trace_callback_end(handle(0x41));
+}
+
 }  // namespace
 
 int spin_their_node(int argc, char** argv) {
@@ -132,6 +142,7 @@ int spin_their_node(int argc, char** argv) {
   const long cycles = std::atol(argv[1]);
   const long pause_us = std::atol(argv[2]);
   const bool late = argc > 3 && std::strcmp(argv[3], "late") == 0;
+  const bool only_recorded = argc > 3 && std::strcmp(argv[3], "recorded") == 0;
   create_objects();
   const char* const preload = std::getenv("LD_PRELOAD");
   std::printf("LD_PRELOAD: %s\n", preload == nullptr ? "none" : preload);
@@ -142,7 +153,11 @@ int spin_their_node(int argc, char** argv) {
   for (long i = 0; i < cycles; ++i) {
     const bool is_late = late && i == 20;
     const std::int64_t begin = nanoseconds(CLOCK_MONOTONIC);
-    cycle(client, is_late ? std::int64_t{3600} * 1'000'000'000 : 1000, is_late ? 30'000'000 : 0);
+    if (only_recorded) {
+      recorded_cycle();
+    } else {
+      cycle(client, is_late ? std::int64_t{3600} * 1'000'000'000 : 1000, is_late ? 30'000'000 : 0);
+    }
     times.push_back(nanoseconds(CLOCK_MONOTONIC) - begin);
     if (i % 100 == 99) {
       std::printf("cycle %ld.\n", i + 1);
