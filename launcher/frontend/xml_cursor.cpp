@@ -104,10 +104,12 @@ void XmlCursor::check_references(std::string_view part) {
       error("'&' starts no entity here", part.substr(i, 1), "write &amp; for the character itself");
     } else if (name.starts_with('#') && !is_character_number(name)) {
       error(fmt::format("'{}' is not a character", reference), reference);
-    } else if (!name.starts_with('#') && std::find(kEntities.begin(), kEntities.end(), name) == kEntities.end()) {
+    } else if (!name.starts_with('#') && std::find(kEntities.begin(), kEntities.end(), name) == kEntities.end() &&
+               !entities.contains(name)) {
       error(fmt::format("unknown entity '{}'", reference), reference,
-            has_doctype ? "entities declared in a DOCTYPE are not supported"
-                        : "XML knows &lt; &gt; &amp; &quot; &apos; and &#number; only");
+            has_doctype
+                ? "the DOCTYPE declares no text of this name; entities of other files and of elements are not read"
+                : "XML knows &lt; &gt; &amp; &quot; &apos; and &#number; only");
     }
   }
 }

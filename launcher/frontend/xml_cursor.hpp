@@ -12,6 +12,7 @@
 
 #include "base/diagnostics/diagnostic.hpp"
 #include "base/diagnostics/source.hpp"
+#include "launcher/frontend/xml_entities.hpp"
 
 namespace launch {
 
@@ -64,6 +65,7 @@ struct XmlCursor {
   std::size_t position = 0;
   bool stopped = false;
   bool has_doctype = false;
+  XmlEntities entities;  // that the DOCTYPE declares
   std::vector<Diagnostic> errors;
 };
 

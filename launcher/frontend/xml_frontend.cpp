@@ -27,13 +27,24 @@ std::size_t size_of_decoded(std::string_view raw) {
 
 // `decoded` is the value that tinyxml2 reads at `where`, with references resolved and line ends as "\n". In the result,
 // each literal tab and line end is a space: XML demands it, and tinyxml2 does not do it. A "&#10;" stays a line end.
-LocatedText locate_value(const SourceRange& where, std::string_view decoded) {
+LocatedText locate_value(const SourceRange& where, std::string_view decoded, const XmlEntities& entities) {
   const std::string_view raw = std::string_view(where.file->text()).substr(where.begin, where.end - where.begin);
   if (raw == decoded && raw.find_first_of(kDecoded) == std::string_view::npos) {
     return LocatedText(std::string(decoded), where);
   }
   LocatedText value({}, {where.file, where.begin, where.begin});
   for (std::size_t at = 0; at < raw.size();) {
+    const auto entity = raw[at] == '&' && !entities.empty()
+                            ? entities.find(raw.substr(at + 1, raw.find(';', at) - at - 1))
+                            : entities.end();
+    if (entity != entities.end()) {  // tinyxml2 leaves the reference as it is
+      const std::size_t size = entity->first.size() + 2;
+      const auto begin = where.begin + static_cast<std::uint32_t>(at);
+      value.append(entity->second, begin, begin + static_cast<std::uint32_t>(size));
+      decoded.remove_prefix(std::min(size, decoded.size()));
+      at += size;
+      continue;
+    }
     const bool is_verbatim = kDecoded.find(raw[at]) == std::string_view::npos;
     const std::size_t raw_size =
         is_verbatim ? std::min(raw.find_first_of(kDecoded, at), raw.size()) - at : size_of_decoded(raw.substr(at));
@@ -71,7 +82,10 @@ std::size_t count_children(const tinyxml2::XMLElement& element) {
 class XmlEntityBuilder {
  public:
   XmlEntityBuilder(const XmlScan& scan, const tinyxml2::XMLElement& root)
-      : file_(scan.file), text_(file_->text()), copy_(root.Name() - (scan.root.data() - text_.data())) {}
+      : file_(scan.file),
+        entities_(scan.entities),
+        text_(file_->text()),
+        copy_(root.Name() - (scan.root.data() - text_.data())) {}
 
   Entity build(const tinyxml2::XMLElement& element) const {
     Entity entity;
@@ -111,7 +125,7 @@ class XmlEntityBuilder {
     const std::string_view decoded = attribute.Value();
     const auto begin = static_cast<std::size_t>(decoded.data() - copy_);
     SourceRange where = range(begin, text_.find(text_[begin - 1], begin));  // up to the other quote
-    Scalar scalar{.text = locate_value(where, decoded)};
+    Scalar scalar{.text = locate_value(where, decoded, entities_)};
     if (where.begin == where.end) {  // errors point at the quotes of an empty value
       --where.begin;
       ++where.end;
@@ -120,6 +134,7 @@ class XmlEntityBuilder {
   }
 
   const std::shared_ptr<const SourceFile>& file_;
+  const XmlEntities& entities_;
   const std::string_view text_;
   const char* const copy_;  // the first character in the copy of tinyxml2
 };

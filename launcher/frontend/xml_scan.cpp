@@ -37,7 +37,7 @@ class XmlScanner : private XmlCursor {
       error("the file holds no element", rest(), "expected <launch> ... </launch>");
     }
     separate_line_ends();
-    return {file, std::move(readable_), root_, std::move(errors)};
+    return {file, std::move(readable_), root_, std::move(entities), std::move(errors)};
   }
 
  private:
@@ -168,6 +168,7 @@ class XmlScanner : private XmlCursor {
       } else if (c == '>' && brackets == 0) {
         ++position;
         hide(from(begin));
+        entities = declared_entities(from(begin));
         if (!root_.empty() || has_doctype) {
           error("a DOCTYPE must stand once, before the root element", mark);
         }

@@ -13,6 +13,7 @@
 
 #include "base/diagnostics/diagnostic.hpp"
 #include "base/diagnostics/source.hpp"
+#include "launcher/frontend/xml_entities.hpp"
 
 namespace launch {
 
@@ -23,6 +24,7 @@ struct XmlScan {
   std::string readable;
   // The name of the root element, a part of the text of `file`.
   std::string_view root;
+  XmlEntities entities;
   std::vector<Diagnostic> errors;
 };
 

@@ -13,9 +13,12 @@ namespace launch {
 
 int check_command(const Words& words);
 int explain_command(const Words& words);
+int convert_command(const Words& words);
 int export_command(const Words& words);
+int format_command(const Words& words);
 int graph_command(const Words& words);
 int lsp_command(const Words& words);
+int migrate_command(const Words& words);
 int reference_command(const Words& words);
 int run_program_command(const Words& words);  // `launch run`
 int schema_command(const Words& words);

@@ -101,6 +101,9 @@ constexpr const char* kLaunchStatus =
 constexpr const char* kCheckStatus =
     "0 without errors, 1 when a launch file has an error, 2 after a wrong command line. With --werror, "
     "warnings are errors.";
+constexpr const char* kConvertStatus =
+    "0 when the new file is there, 1 after an error and when a part has no form in the other language, 2 after a wrong "
+    "command line.";
 constexpr const char* kRunStatus =
     "That of the program, or 128+N if signal N ended it; 1 if it could not be started, 2 after a wrong "
     "command line.";
@@ -136,6 +139,12 @@ const std::vector<Command>& command_table() {
        .exit_status = kCheckStatus},
       ros_command("clock", "", "publishes simulated time on /clock"),
       ros_command("component", "VERB", "lists, loads and unloads components"),
+      {.name = "convert",
+       .operand = "FILE",
+       .help = "writes a launch file in XML, YAML or Python",
+       .run = convert_command,
+       .complete = launch_file_words,
+       .exit_status = kConvertStatus},
       {.name = "doctor",
        .help = "tells what on this machine is in the way of real time, of tracing and of limits",
        .run = doctor_command,
@@ -151,6 +160,12 @@ const std::vector<Command>& command_table() {
        .help = "makes of a launch file what systemd, Compose or Kubernetes runs",
        .run = export_command,
        .complete = launch_file_words},
+      {.name = "format",
+       .operand = "FILE",
+       .help = "writes launch files in the form of the documentation",
+       .run = format_command,
+       .complete = launch_file_words,
+       .exit_status = kInHelp},
       {.name = "gdb",
        .operand = "NAME",
        .help = "runs gdb on a process of a running launch",
@@ -171,6 +186,12 @@ const std::vector<Command>& command_table() {
        .asks_launch = true,
        .complete = process_words},
       {.name = "lsp", .operand = "", .help = "the language server of launch files, for editors", .run = lsp_command},
+      {.name = "migrate",
+       .operand = "FILE",
+       .help = "writes a launch file of ROS 1 in the words of ROS 2",
+       .run = migrate_command,
+       .complete = launch_file_words,
+       .exit_status = kInHelp},
       ros_command("node", "VERB", "lists and describes nodes"),
       ros_command("param", "VERB", "lists, prints and sets parameters of nodes"),
       {.name = "ps",

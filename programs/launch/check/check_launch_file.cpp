@@ -44,6 +44,7 @@ class Checker {
       check(*load_launch_files({path}, registry_, context.scope()), context);
     } catch (const LaunchError& error) {
       add(error);
+      check_what_can_not_be_read(path, error.diagnostics());
       check_what_does_not_load(path);
     }
     leave_out_ignored(readable(path), found_);
@@ -56,6 +57,19 @@ class Checker {
       return read_source_file(path);
     } catch (const LaunchError&) {
       return nullptr;
+    }
+  }
+
+  // In a file with syntax errors, the rest is looked at as far as it can be read.
+  void check_what_can_not_be_read(const std::string& path, const std::vector<Diagnostic>& errors) {
+    const Finding finding = errors.front().finding;
+    const auto file =
+        finding == Finding::kMalformedXml || finding == Finding::kMalformedYaml ? readable(path) : nullptr;
+    if (file == nullptr || !errors.front().where || errors.front().where.file->path() != path) {
+      return;
+    }
+    for (Diagnostic& diagnostic : find_in_broken_file(file, registry_, errors)) {
+      add(std::move(diagnostic));
     }
   }
 
@@ -127,6 +141,9 @@ class Checker {
          .finds_leaks = options_.finds_leaks});
     const LaunchPlan plan = plan_launch(context, description);
     context.exploration().tell_postponed();
+    if (options_.planned) {
+      options_.planned(plan.processes.size());
+    }
     check_unused(description, list, plan);
     const auto report = [this](Diagnostic diagnostic) { add(std::move(diagnostic)); };
     find_faults_of_plan(plan, left_out, report);

@@ -2,6 +2,8 @@
 // The checks of `launch check`: they find the errors of a launch file without running anything.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +22,7 @@ struct CheckOptions {
   bool finds_leaks = false;                                    // what included files leave behind
   std::vector<RecordedNode> recorded_nodes;                    // of a run, which tell the names that remaps may change
   RecordedParameters recorded_parameters;                      // of nodes that were dumped
+  std::function<void(std::size_t processes)> planned;          // told how many processes the file would start
 };
 
 // Loads and visits the file, including what conditions leave out, and resolves what a run would resolve: packages,

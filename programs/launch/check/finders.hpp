@@ -35,6 +35,11 @@ void find_remaps_of_unknown_names(const LaunchPlan& plan, const std::vector<Reco
 // loaded; one that is no XML has none.
 std::vector<Diagnostic> find_stray_text(const std::shared_ptr<const SourceFile>& file);
 
+// The unknown names in a file that has syntax errors, as far as it can be read: none on the line of such an error, and
+// none in an element that has one in its start tag.
+std::vector<Diagnostic> find_in_broken_file(const std::shared_ptr<const SourceFile>& file, const Registry& registry,
+                                            const std::vector<Diagnostic>& syntax_errors);
+
 // What `ros2 launch` would not know (docs/extensions.md): an error for each action, item and attribute that is an
 // extension. It looks at this file alone, not at the files that it includes. Throws LaunchError when the file is
 // neither XML nor YAML; a Python file has no errors here.

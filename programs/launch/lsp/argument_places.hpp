@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "programs/launch/lsp/outline.hpp"
+#include "programs/launch/outline/outline.hpp"
 
 namespace launch::lsp {
 

@@ -40,9 +40,13 @@ std::vector<std::string> suggestions(const std::string& help) {
 
 }  // namespace
 
-Json diagnostics(const Workspace& workspace, const Reading& reading) {
+Json check_document(const Workspace& workspace, const Reading& reading) {
   set_unsaved_texts(workspace.texts());
-  std::vector<Diagnostic> found = check_launch_file(reading.path, workspace.registry(), workspace.environment(), {});
+  Json answer = Json::object();
+  CheckOptions options;
+  options.planned = [&](std::size_t processes) { answer["processes"] = processes; };
+  std::vector<Diagnostic> found =
+      check_launch_file(reading.path, workspace.registry(), workspace.environment(), options);
   Json list = Json::array();
   for (const Diagnostic& diagnostic : found) {
     // What is wrong in an included file is told at the include, and points into that file.
@@ -69,7 +73,8 @@ Json diagnostics(const Workspace& workspace, const Reading& reading) {
     }
     list.push_back(std::move(item));
   }
-  return list;
+  answer["diagnostics"] = std::move(list);
+  return answer;
 }
 
 Json code_actions(const Reading& reading, const Json& diagnostics) {

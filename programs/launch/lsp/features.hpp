@@ -3,6 +3,8 @@
 // the result of the request, null for none.
 #pragma once
 
+#include <optional>
+#include <set>
 #include <string>
 
 #include "programs/launch/lsp/workspace.hpp"
@@ -23,6 +25,14 @@ Json definition(const Workspace& workspace, const Reading& reading, const Json& 
 Json symbols(const Reading& reading);                                                       // navigation.cpp
 Json folds(const Reading& reading);                                                         // navigation.cpp
 
+Json semantic_token_legend();                  // semantic_tokens.cpp
+Json semantic_tokens(const Reading& reading);  // semantic_tokens.cpp
+// `processes`: how many the file starts, if a check has told. The commands are those of the editor (docs/editors.md).
+Json code_lenses(const Reading& reading, std::optional<std::size_t> processes);  // code_lenses.cpp
+
+// The launch files in XML and YAML below a folder, without hidden ones and without what colcon has made.
+std::set<std::string> files_below(const std::string& folder, const std::string& own);  // references.cpp
+
 // Where an argument or a configuration of the file is declared and read. `everywhere`: also in the launch files below
 // the folder that include this file and give it the argument. Null when nothing of that kind stands at the position.
 Json references(const Workspace& workspace, const Reading& reading, const Json& position,
@@ -31,8 +41,9 @@ Json prepare_rename(const Reading& reading, const Json& position);  // reference
 Json rename(const Workspace& workspace, const Reading& reading, const Json& position, const std::string& name,
             const std::string& folder);  // references.cpp
 
-// The diagnostics of the document, those of `launch check`. Runs the check in this process.
-Json diagnostics(const Workspace& workspace, const Reading& reading);  // diagnostics.cpp
+// What a check finds: {"diagnostics": those of `launch check`, "processes": how many the file starts}, the second one
+// only if the file can be visited. Runs the check in this process.
+Json check_document(const Workspace& workspace, const Reading& reading);  // diagnostics.cpp
 // What the suggestions of the diagnostics would change.
 Json code_actions(const Reading& reading, const Json& diagnostics);  // diagnostics.cpp
 

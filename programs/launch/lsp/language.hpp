@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "launcher/language/registry.hpp"
-#include "programs/launch/lsp/outline.hpp"
+#include "programs/launch/outline/outline.hpp"
 
 namespace launch::lsp {
 

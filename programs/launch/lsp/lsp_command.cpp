@@ -23,6 +23,8 @@ int lsp_command(const Words& words) {
   command.take_flag("--run-python", options.runs_python,
                     "run Python launch files when they are opened or saved, in a process of their own, to find their "
                     "errors and arguments");
+  command.take_flag("--check-folder", options.checks_folder,
+                    "check all XML and YAML launch files of the folder, also those that are not open");
   command.take_flag("--stdio", stdio, "accepted, as editors give it; there is no other way");
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;

@@ -34,27 +34,6 @@ std::string included_file(const Workspace& workspace, const Reading& reading, in
   return path ? fs::weakly_canonical(fs::path(reading.path).parent_path() / *path, ignored).string() : std::string();
 }
 
-// The launch files that may name the argument: the open file, and those below the folder.
-std::set<std::string> files_below(const std::string& folder, const std::string& own) {
-  std::set<std::string> files = {own};
-  std::error_code unreadable;
-  constexpr std::size_t kMost = 10'000;
-  if (folder.empty()) {
-    return files;
-  }
-  for (fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, unreadable), end;
-       at != end && files.size() < kMost; at.increment(unreadable)) {
-    const std::string name = at->path().filename().string();
-    if (at->is_directory(unreadable) &&
-        (name.starts_with('.') || name == "build" || name == "install" || name == "log")) {
-      at.disable_recursion_pending();
-    } else if (is_launch_file(at->path()) && !name.ends_with(".py")) {
-      files.insert(at->path().string());
-    }
-  }
-  return files;
-}
-
 std::optional<Argument> argument_at_position(const Workspace& workspace, const Reading& reading, const Json& position) {
   const auto found = argument_at(reading.outline, reading.document.text(), reading.document.offset(position));
   if (!found) {
@@ -93,6 +72,26 @@ std::vector<Place> places_of(const Workspace& workspace, const Argument& argumen
 }
 
 }  // namespace
+
+std::set<std::string> files_below(const std::string& folder, const std::string& own) {
+  std::set<std::string> files = {own};
+  std::error_code unreadable;
+  constexpr std::size_t kMost = 10'000;
+  if (folder.empty()) {
+    return files;
+  }
+  for (fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, unreadable), end;
+       at != end && files.size() < kMost; at.increment(unreadable)) {
+    const std::string name = at->path().filename().string();
+    if (at->is_directory(unreadable) &&
+        (name.starts_with('.') || name == "build" || name == "install" || name == "log")) {
+      at.disable_recursion_pending();
+    } else if (is_launch_file(at->path()) && !name.ends_with(".py")) {
+      files.insert(at->path().string());
+    }
+  }
+  return files;
+}
 
 Json references(const Workspace& workspace, const Reading& reading, const Json& position, const std::string& folder) {
   const std::optional<Argument> argument = argument_at_position(workspace, reading, position);

@@ -39,6 +39,16 @@ constexpr std::chrono::milliseconds kLongestCheck{60'000};
 
 struct UnknownMethod {};
 
+std::string document_path(const Json& parameters) {
+  return path_of(parameters.at("textDocument").at("uri").get_ref<const std::string&>());
+}
+
+bool is_python(const std::string& path) {
+  return path.ends_with(".py");
+}
+
+}  // namespace
+
 bool write_all(int fd, std::string_view text) {
   while (!text.empty()) {
     const ssize_t count = ::write(fd, text.data(), text.size());
@@ -49,16 +59,6 @@ bool write_all(int fd, std::string_view text) {
   }
   return true;
 }
-
-std::string document_path(const Json& parameters) {
-  return path_of(parameters.at("textDocument").at("uri").get_ref<const std::string&>());
-}
-
-bool is_python(const std::string& path) {
-  return path.ends_with(".py");
-}
-
-}  // namespace
 
 Server::Server(ServerOptions options, int in, int out) : options_(options), in_(in), out_(out) {
   ::signal(SIGPIPE, SIG_IGN);
@@ -81,7 +81,13 @@ int Server::run() {
       return EXIT_FAILURE;
     }
     if (ready == 0) {
-      end_check();  // it waits for something: a file that is a pipe
+      // It waits for something: a file that is a pipe.
+      std::deque<std::string> rest = std::move(check_->paths);
+      end_check();
+      if (!rest.empty()) {
+        rest.pop_front();
+        to_check_.insert(to_check_.begin(), rest.begin(), rest.end());
+      }
     }
     if ((events[0].revents & (POLLIN | POLLHUP | POLLERR)) != 0) {
       const ssize_t count = ::read(in_, bytes.data(), bytes.size());
@@ -151,10 +157,13 @@ Json Server::initialize(const Json& parameters) {
   const Json options = parameters.value("initializationOptions", Json());
   if (options.is_object()) {
     options_.runs_python = options.value("runPython", options_.runs_python);
+    options_.checks_folder = options.value("checkFolder", options_.checks_folder);
   }
   if (const Json root = parameters.value("rootUri", Json()); root.is_string()) {
     folder_ = path_of(root.get_ref<const std::string&>());
   }
+  const Json lenses = parameters.value(Json::json_pointer("/capabilities/workspace/codeLens/refreshSupport"), Json());
+  refreshes_lenses_ = lenses.is_boolean() && lenses.get<bool>();
   workspace_.emplace(options_.runs_python);
   initialized_ = true;
   return {{"capabilities",
@@ -167,6 +176,8 @@ Json Server::initialize(const Json& parameters) {
             {"documentSymbolProvider", true},
             {"foldingRangeProvider", true},
             {"inlayHintProvider", true},
+            {"codeLensProvider", Json::object()},
+            {"semanticTokensProvider", {{"legend", semantic_token_legend()}, {"full", true}}},
             {"codeActionProvider", {{"codeActionKinds", {"quickfix"}}}}}},
           {"serverInfo", {{"name", "launch lsp"}, {"version", LAUNCH_VERSION}}}};
 }
@@ -216,6 +227,13 @@ Json Server::answer(const std::string& method, const Json& parameters) {
   if (method == "textDocument/inlayHint") {
     return inlay_hints(*workspace_, reading, parameters.at("range"));
   }
+  if (method == "textDocument/codeLens") {
+    const auto known = processes_.find(path);
+    return code_lenses(reading, known == processes_.end() ? std::nullopt : std::optional(known->second));
+  }
+  if (method == "textDocument/semanticTokens/full") {
+    return semantic_tokens(reading);
+  }
   if (method == "textDocument/codeAction") {
     return code_actions(reading, parameters.at("context").at("diagnostics"));
   }
@@ -226,6 +244,12 @@ void Server::notice(const std::string& method, const Json& parameters) {
   if (method == "exit") {
     ended_ = true;
     return;
+  }
+  if (workspace_ && method == "initialized" && options_.checks_folder) {
+    check_folder();
+  }
+  if (workspace_ && method == "workspace/didChangeWatchedFiles" && options_.checks_folder) {
+    check_folder();
   }
   if (!workspace_ || !method.starts_with("textDocument/")) {
     return;
@@ -247,7 +271,11 @@ void Server::notice(const std::string& method, const Json& parameters) {
   } else if (method == "textDocument/didClose") {
     workspace_->close(path);
     std::erase(to_check_, path);
-    publish(path, Json::array());
+    if (folder_files_.contains(path)) {
+      check_later(path);  // it counts as it is on the disk now
+    } else {
+      publish(path, Json::array());
+    }
     return;
   } else if (method != "textDocument/didSave") {
     return;
@@ -258,79 +286,8 @@ void Server::notice(const std::string& method, const Json& parameters) {
       check_later(other);  // it may include this one
     }
   }
-}
-
-void Server::check_later(const std::string& path) {
-  if (path.empty() || (is_python(path) && !options_.runs_python)) {
-    return;
-  }
-  if (check_ && check_->path == path) {
-    end_check();
-  }
-  std::erase(to_check_, path);
-  to_check_.push_back(path);
-}
-
-void Server::begin_check() {
-  while (!to_check_.empty() && workspace_->find(to_check_.front()) == nullptr) {
-    to_check_.pop_front();
-  }
-  std::array<int, 2> ends{};
-  if (to_check_.empty() || ::pipe2(ends.data(), O_CLOEXEC) != 0) {
-    return;
-  }
-  UniqueFd result(ends[0]);
-  const UniqueFd write_end(ends[1]);
-  const std::string path = std::move(to_check_.front());
-  to_check_.pop_front();
-  const pid_t server = ::getpid();
-  const pid_t process = ::fork();
-  if (process == 0) {
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != server) {
-      ::_exit(EXIT_FAILURE);
-    }
-    // What a launch file prints must not get among the messages.
-    const UniqueFd nowhere(::open("/dev/null", O_RDWR | O_CLOEXEC));
-    ::dup2(nowhere.get(), STDIN_FILENO);
-    ::dup2(nowhere.get(), STDOUT_FILENO);
-    run_python_in_a_guest({std::chrono::seconds(20)});
-    const Document& document = *workspace_->find(path);
-    const Reading reading = {path, document, {}};
-    const bool written = write_all(
-        write_end.get(), diagnostics(*workspace_, reading).dump(-1, ' ', false, Json::error_handler_t::replace));
-    end_of_guest();
-    ::_exit(written ? EXIT_SUCCESS : EXIT_FAILURE);
-  }
-  if (process > 0) {
-    check_.emplace(Check{path, process, std::move(result), {}});
-  }
-}
-
-void Server::read_check() {
-  std::array<char, 64UL << 10U> bytes{};
-  const ssize_t count = ::read(check_->result.get(), bytes.data(), bytes.size());
-  if (count > 0) {
-    check_->text.append(bytes.data(), static_cast<std::size_t>(count));
-    return;
-  }
-  if (count < 0 && (errno == EINTR || errno == EAGAIN)) {
-    return;
-  }
-  Json found = Json::parse(check_->text, nullptr, false);
-  const std::string path = check_->path;
-  end_check();
-  if (!found.is_discarded() && workspace_->find(path) != nullptr) {
-    publish(path, std::move(found));
-  }
-}
-
-void Server::end_check() {
-  if (check_) {
-    ::kill(check_->process, SIGKILL);
-    while (::waitpid(check_->process, nullptr, 0) < 0 && errno == EINTR) {
-    }
-    check_.reset();
+  if (method == "textDocument/didSave") {
+    check_those_that_name(path);
   }
 }
 

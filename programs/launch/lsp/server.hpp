@@ -5,8 +5,11 @@
 #include <sys/types.h>
 
 #include <deque>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 
 #include "base/files/unique_fd.hpp"
 #include "programs/launch/lsp/message_stream.hpp"
@@ -15,8 +18,13 @@
 namespace launch::lsp {
 
 struct ServerOptions {
-  bool runs_python = false;  // may run Python launch files, in a process of their own; an editor can ask for it, too
+  // An editor can ask for both, too.
+  bool runs_python = false;    // may run Python launch files, in a process of their own
+  bool checks_folder = false;  // checks all launch files of the folder, also those that are not open
 };
+
+// False if not all could be written.
+bool write_all(int fd, std::string_view text);
 
 class Server {
  public:
@@ -28,9 +36,9 @@ class Server {
   int run();
 
  private:
-  // A check of one document, by a child that writes the diagnostics into a pipe.
+  // A check of one document, or of several files of the folder, by a child that writes a line for each into a pipe.
   struct Check {
-    std::string path;
+    std::deque<std::string> paths;  // whose lines have not come yet
     pid_t process;
     UniqueFd result;
     std::string text;
@@ -46,7 +54,12 @@ class Server {
   void answer_with_error(const Json& id, int code, const std::string& message);
 
   void check_later(const std::string& path);
+  void check_folder();
+  void check_those_that_name(const std::string& path);
+  std::deque<std::string> next_to_check();
   void begin_check();
+  [[noreturn]] void run_check(const std::deque<std::string>& paths, int result);
+  void take_result(const std::string& line);
   void read_check();
   void end_check();
   void publish(const std::string& path, Json diagnostics);
@@ -57,6 +70,9 @@ class Server {
   MessageReader reader_;
   std::optional<Workspace> workspace_;  // from "initialize" on
   std::string folder_;
+  bool refreshes_lenses_ = false;                 // the editor asks for lenses again when it is told to
+  std::set<std::string> folder_files_;            // those that are checked though they are not open
+  std::map<std::string, std::size_t> processes_;  // that a file starts, from its last check
   std::deque<std::string> to_check_;
   std::optional<Check> check_;
   bool initialized_ = false;

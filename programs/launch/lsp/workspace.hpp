@@ -14,7 +14,7 @@
 #include "launcher/language/registry.hpp"
 #include "launcher/substitution/scope.hpp"
 #include "programs/launch/lsp/document.hpp"
-#include "programs/launch/lsp/outline.hpp"
+#include "programs/launch/outline/outline.hpp"
 
 namespace launch::lsp {
 

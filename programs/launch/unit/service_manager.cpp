@@ -20,7 +20,7 @@ namespace launch {
 
 namespace fs = std::filesystem;
 
-ServiceManager::ServiceManager(bool user) : of_user_(user || ::geteuid() != 0) {
+SystemdManager::SystemdManager(bool user) : of_user_(user || ::geteuid() != 0) {
   // Sessions of sudo(8) and cron(8) lack the variable, without which systemctl(1) finds no service manager.
   const std::string usual = fmt::format("/run/user/{}", ::geteuid());
   if (of_user_ && ::getenv("XDG_RUNTIME_DIR") == nullptr && fs::exists(usual)) {
@@ -28,7 +28,7 @@ ServiceManager::ServiceManager(bool user) : of_user_(user || ::geteuid() != 0) {
   }
 }
 
-fs::path ServiceManager::directory() const {
+fs::path SystemdManager::directory() const {
   if (!of_user_) {
     return "/etc/systemd/system";
   }
@@ -37,28 +37,28 @@ fs::path ServiceManager::directory() const {
          "systemd/user";
 }
 
-fs::path ServiceManager::path_of(const std::string& unit) const {
+fs::path SystemdManager::path_of(const std::string& unit) const {
   return directory() / (unit + ".service");
 }
 
-fs::path ServiceManager::link_of(const std::string& unit) const {
+fs::path SystemdManager::link_of(const std::string& unit) const {
   return directory() / (of_user_ ? "default.target.wants" : "multi-user.target.wants") / (unit + ".service");
 }
 
-bool ServiceManager::runs() const {
+bool SystemdManager::runs() const {
   const char* const runtime = ::getenv("XDG_RUNTIME_DIR");
   std::error_code unreadable;
   return of_user_ ? runtime != nullptr && fs::exists(fs::path(runtime) / "systemd/private", unreadable)
                   : fs::exists("/run/systemd/system");
 }
 
-bool ServiceManager::lingers() const {
+bool SystemdManager::lingers() const {
   const passwd* const user = ::getpwuid(::geteuid());
   std::error_code unreadable;
   return user != nullptr && fs::exists(fs::path("/var/lib/systemd/linger") / user->pw_name, unreadable);
 }
 
-std::vector<std::string> ServiceManager::systemctl(std::vector<std::string> words) const {
+std::vector<std::string> SystemdManager::systemctl(std::vector<std::string> words) const {
   if (of_user_) {
     words.insert(words.begin(), "--user");
   }
@@ -66,21 +66,21 @@ std::vector<std::string> ServiceManager::systemctl(std::vector<std::string> word
   return words;
 }
 
-void ServiceManager::tell(const std::vector<std::string>& words) const {
+void SystemdManager::tell(const std::vector<std::string>& words) const {
   const int status = wait_for(spawn({.program = "systemctl", .argv = systemctl(words), .search_path = true}));
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
     throw std::runtime_error(fmt::format("'systemctl {}' has failed", words.front()));
   }
 }
 
-void ServiceManager::enable_later(const std::string& unit) const {
+void SystemdManager::enable_later(const std::string& unit) const {
   const fs::path link = link_of(unit);
   fs::create_directories(link.parent_path());
   fs::remove(link);
   fs::create_symlink(path_of(unit), link);
 }
 
-std::map<std::string, std::string> ServiceManager::properties_of(const std::string& unit) const {
+std::map<std::string, std::string> SystemdManager::properties_of(const std::string& unit) const {
   Pipe pipe = make_pipe();
   const pid_t pid = spawn({.program = "systemctl",
                            .argv = systemctl({"show",

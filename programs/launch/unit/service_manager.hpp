@@ -9,10 +9,10 @@
 
 namespace launch {
 
-class ServiceManager {
+class SystemdManager {
  public:
   // `user`: that of this user, as it always is without root's rights.
-  explicit ServiceManager(bool user);
+  explicit SystemdManager(bool user);
 
   bool is_of_user() const { return of_user_; }
   std::filesystem::path directory() const;

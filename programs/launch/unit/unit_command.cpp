@@ -137,7 +137,7 @@ int install(const Words& words) {
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;
   }
-  const ServiceManager manager(user);
+  const SystemdManager manager(user);
   std::vector<std::string> files;
   unit.stop_timeout = stop_timeout_of(target, files);
   if (files.empty() || files.front() == "-") {
@@ -211,7 +211,7 @@ int remove(const Words& words) {
           unit.parse("launch unit remove", "Ends a launch that systemd runs, and takes its unit away.", words)) {
     return *exit_code;
   }
-  const ServiceManager manager(unit.user);
+  const SystemdManager manager(unit.user);
   const std::string service = unit.name + ".service";
   const fs::path path = manager.path_of(unit.name);
   if (!fs::exists(path)) {
@@ -238,7 +238,7 @@ int status(const Words& words) {
     return *exit_code;
   }
   const std::string& name = unit.name;
-  std::map<std::string, std::string> properties = ServiceManager(unit.user).properties_of(name);
+  std::map<std::string, std::string> properties = SystemdManager(unit.user).properties_of(name);
   if (properties["LoadState"] != "loaded") {
     fmt::print(stderr, "{}", command_error("launch unit status", fmt::format("there is no unit '{}'", name)));
     return kNoSuchUnit;
@@ -275,7 +275,7 @@ Words unit_words(const Words& words) {
   Words names;
   for (const bool user : {false, true}) {
     std::error_code unreadable;
-    for (const fs::directory_entry& entry : fs::directory_iterator(ServiceManager(user).directory(), unreadable)) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(SystemdManager(user).directory(), unreadable)) {
       if (entry.path().extension() == ".service" && is_ours(entry.path())) {
         names.push_back(entry.path().stem().string());
       }

@@ -232,6 +232,61 @@ class LanguageServer(unittest.TestCase):
             'range': {'start': {'line': 3, 'character': 0}, 'end': {'line': 6, 'character': 0}}})
         self.assertEqual([hint['label'] for hint in hints], ['= r1', '= echo r1'])
 
+    def test_semantic_tokens_are_the_words_of_the_language(self):
+        text = '<launch>\n<log level="INFO" message="é $(var a) $(eval \'1\')"/>\n</launch>'
+        editor = self.editor()
+        legend = editor.capabilities['semanticTokensProvider']['legend']['tokenTypes']
+        editor.open('a.launch.xml', text)
+        data = editor.ask('textDocument/semanticTokens/full', {'textDocument': {'uri': editor.uri('a.launch.xml')}})['data']
+        line, character, found = 0, 0, []
+        for at in range(0, len(data), 5):
+            character = data[at + 1] + (character if data[at] == 0 else 0)
+            line += data[at]
+            found.append((text.split('\n')[line][character:character + data[at + 2]], legend[data[at + 3]]))
+        self.assertEqual(found, [('launch', 'class'), ('log', 'class'), ('level', 'property'), ('message', 'property'),
+                                 ('var', 'function'), ('a', 'variable'), ('eval', 'function')])
+
+    def test_lenses_have_commands_and_tell_how_many_processes_there_are(self):
+        editor = self.editor()
+        editor.open('base.launch.xml', BASE)
+        self.assertEqual(editor.diagnostics('base.launch.xml'), [])
+        lenses = editor.ask('textDocument/codeLens', {'textDocument': {'uri': editor.uri('base.launch.xml')}})
+        path = str(self.directory / 'base.launch.xml')
+        self.assertEqual([lens['command'] for lens in lenses],
+                         [{'title': title, 'command': f'launch.{command}', 'arguments': [path]}
+                          for title, command in (('run', 'run'), ('check', 'check'), ('1 process', 'graph'))])
+
+    def test_the_files_of_the_folder_are_checked_though_they_are_not_open(self):
+        (self.directory / 'part').mkdir()
+        (self.directory / 'part/top.launch.xml').write_text('<launch><include file="$(dirname)/../base.launch.xml"/></launch>')
+        (self.directory / 'wrong.launch.yaml').write_text('launch:\n- nope: {}\n')
+        (self.directory / 'build').mkdir()
+        (self.directory / 'build/copy.launch.yaml').write_text('launch:\n- nope: {}\n')
+        editor = self.editor('--check-folder')
+        self.assertEqual(editor.diagnostics('part/top.launch.xml'), [])
+        [found] = editor.diagnostics('wrong.launch.yaml')
+        self.assertEqual(found['message'].split('\n')[0], "unrecognized entity of the type 'nope'")
+        self.assertEqual(editor.diagnostics('base.launch.xml'), [])
+        (self.directory / 'base.launch.xml').write_text('<launch><nope/></launch>')
+        editor.tell('textDocument/didSave', {'textDocument': {'uri': editor.uri('base.launch.xml')}})
+        self.assertEqual(len(editor.diagnostics('part/top.launch.xml')), 1)
+        (self.directory / 'wrong.launch.yaml').unlink()
+        editor.tell('workspace/didChangeWatchedFiles', {'changes': []})
+        self.assertEqual(editor.diagnostics('wrong.launch.yaml'), [])
+        self.assertNotIn('copy.launch', json.dumps(editor.published))
+        self.assertEqual(editor.end(), 0)
+
+    def test_a_broken_file_also_tells_unknown_names(self):
+        editor = self.editor()
+        editor.open('a.launch.xml', '<launch>\n<node pkg="p" exce="e"/>\n<log message="$(varr x)"/>\n<group>\n<nope/>\n<let name="a\n</launch>\n')
+        found = editor.diagnostics('a.launch.xml')
+        self.assertEqual(sorted((one['range']['start']['line'], one['message'].split('\n')[0]) for one in found),
+                         [(1, "unexpected attribute 'exce' in 'node'"), (2, "unknown substitution 'varr'"),
+                          (4, "unrecognized entity of the type 'nope'"), (5, "the value of the attribute 'name' is not closed")])
+        editor.open('a.launch.yaml', 'launch:\n- node:\n    pkg: p\n    exce: e\n- log:\n    message: "a\n')
+        found = editor.diagnostics('a.launch.yaml')
+        self.assertIn("unexpected attribute 'exce' in 'node'", [one['message'].split('\n')[0] for one in found])
+
     def test_python_runs_only_where_it_is_allowed_and_not_while_typing(self):
         source = 'import os\nopen("ran", "a").close()\nos.abort()\n'.replace('ran', str(self.directory / 'ran'))
         editor = self.editor()

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/unit/frontend/entity_test_support.hpp"
@@ -108,6 +109,38 @@ TEST(XmlFrontend, KeepsPlacesBehindWhatTheParserDoesNotSee) {
   EXPECT_EQ(text.text(), "\xC3\xA4\n<\xC3\xA4$(x)");
   EXPECT_EQ(raw(text.range(2, 1)), "&#10;");
   EXPECT_EQ(raw(text.range(text.text().find('$'), 4)), "$(x)");
+}
+
+TEST(XmlFrontend, KnowsTheEntitiesOfTheDoctype) {
+  const Entity root =
+      xml("<!DOCTYPE launch [ <!-- <!ENTITY a 'no'> --> <!ENTITY a \"x\ny &lt; &#x41;\"> <!ENTITY a 'second'>\n"
+          "<!ENTITY b '&a;&a;'> <!ENTITY % c 'no'> <!ENTITY self '&self;'> <!ENTITY node '<node/>'> ]>\n"
+          "<launch><log message='1&a;2 &b; $(x)'/></launch>");
+  const LocatedText& text = root.children.at(0).find("message")->value.scalar()->text;
+  EXPECT_EQ(text.text(), "1x y < A2 x y < Ax y < A $(x)");
+  EXPECT_EQ(raw(text.range(1, 1)), "&a;");
+  EXPECT_EQ(raw(text.range(text.text().find('$'), 4)), "$(x)");
+  for (const char* const name : {"c", "self", "node", "other"}) {
+    EXPECT_THROW(
+        xml(fmt::format("<!DOCTYPE launch [<!ENTITY self '&self;'><!ENTITY node '<node/>'><!ENTITY other SYSTEM 'f'>"
+                        "<!ENTITY % c 'x'>]><launch><log message='&{};'/></launch>",
+                        name)),
+        LaunchError)
+        << name;
+  }
+}
+
+// Ten names that each stand for ten of another one.
+TEST(XmlFrontend, EntitiesOfEntitiesAreNoWayToFillTheMemory) {
+  std::string doctype = "<!DOCTYPE launch [<!ENTITY e0 'aaaaaaaaaa'>";
+  for (int i = 1; i < 10; ++i) {
+    doctype += fmt::format("<!ENTITY e{} '", i);
+    for (int k = 0; k < 10; ++k) {
+      doctype += fmt::format("&e{};", i - 1);
+    }
+    doctype += "'>";
+  }
+  EXPECT_THROW(xml(doctype + "]><launch><log message='&e9;'/></launch>"), LaunchError);
 }
 
 TEST(XmlFrontend, RefusesWhatExpatRefuses) {

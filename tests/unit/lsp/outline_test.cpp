@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "programs/launch/lsp/outline.hpp"
+#include "programs/launch/outline/outline.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
