@@ -69,7 +69,8 @@ class Resolver {
       const bool is_hexadecimal = name.starts_with("#x");
       name.remove_prefix(is_hexadecimal ? 2 : 1);
       std::uint32_t number = 0;
-      const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number, is_hexadecimal ? 16 : 10);
+      const auto [end, error] =
+          std::from_chars(name.data(), name.data() + name.size(), number, is_hexadecimal ? 16 : 10);
       // A character that is written as a number counts as markup when the entity is used.
       if (error != std::errc() || end != name.data() + name.size() || number == '<' || number == '&') {
         return std::nullopt;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <memory>
+#include <string>
 #include <utility>
 
 #include "launcher/frontend/frontend.hpp"
@@ -239,9 +241,25 @@ class YamlEntityBuilder {
   std::vector<Diagnostic> errors_;
 };
 
+// A copy in which a CR alone, which ends a line in YAML, is an LF, as yaml-cpp and SourceFile know lines; or the file
+// itself, if it has none.
+std::shared_ptr<const SourceFile> with_line_ends(const std::shared_ptr<const SourceFile>& file) {
+  const std::string& given = file->text();
+  const auto is_alone = [&](std::size_t at) { return at + 1 == given.size() || given[at + 1] != '\n'; };
+  std::string text;
+  for (std::size_t at = given.find('\r'); at != std::string::npos; at = given.find('\r', at + 1)) {
+    if (is_alone(at)) {
+      text = text.empty() ? given : text;
+      text[at] = '\n';
+    }
+  }
+  return text.empty() ? file : std::make_shared<const SourceFile>(file->path(), std::move(text), file->included_from());
+}
+
 }  // namespace
 
-Entity parse_yaml(const std::shared_ptr<const SourceFile>& file) {
+Entity parse_yaml(const std::shared_ptr<const SourceFile>& given) {
+  const std::shared_ptr<const SourceFile> file = with_line_ends(given);
   const auto size = static_cast<std::uint32_t>(file->text().size());
   const LocatedText source(file->text(), {file, 0, size});
   std::vector<Diagnostic> errors;

@@ -18,6 +18,28 @@ std::string documented(const std::string& help, bool extension, const std::strin
                      as_xml_text(help), extension ? " (Not known to ros2 launch.)" : "");
 }
 
+// Of a value with a substitution, nothing is known. A number is told by its first character, which refuses no number.
+constexpr const char* kXmlValueTypes =
+    "  <xs:simpleType name=\"boolean.value\">\n    <xs:restriction base=\"xs:string\">\n"
+    "      <xs:pattern value=\"[\\s\\S]*\\$\\([\\s\\S]*"
+    "|\\s*([Tt]rue|TRUE|[Ff]alse|FALSE|[Yy]es|YES|[Nn]o|NO|[Oo]n|ON|[Oo]ff|OFF|1|0)\\s*\"/>\n"
+    "    </xs:restriction>\n  </xs:simpleType>\n"
+    "  <xs:simpleType name=\"number.value\">\n    <xs:restriction base=\"xs:string\">\n"
+    "      <xs:pattern value=\"[\\s\\S]*\\$\\([\\s\\S]*|\\s*[\\-+.0-9]\\S*\\s*\"/>\n"
+    "    </xs:restriction>\n  </xs:simpleType>\n";
+
+const char* xml_type(AttributeType type) {
+  switch (type) {
+    case AttributeType::kBoolean:
+      return "boolean.value";
+    case AttributeType::kFloat:
+    case AttributeType::kInteger:
+      return "number.value";
+    default:
+      return "xs:string";
+  }
+}
+
 // The type of one element: its attributes, and in any order and number the elements that it holds.
 class XmlSchema {
  public:
@@ -42,7 +64,7 @@ class XmlSchema {
     return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
            "<!-- Made by `launch schema xsd`. -->\n"
            "<xs:schema xmlns:xs=\"http://www.w3.org/2001/XMLSchema\">\n" +
-           body + item_types_ + "</xs:schema>\n";
+           body + item_types_ + kXmlValueTypes + "</xs:schema>\n";
   }
 
  private:
@@ -68,8 +90,8 @@ class XmlSchema {
     }
     text += "    </xs:choice>\n";
     for (const AttributeSpec& attribute : attributes) {
-      text += fmt::format("    <xs:attribute name=\"{}\" type=\"xs:string\"{}>\n{}    </xs:attribute>\n",
-                          attribute.name, attribute.required ? " use=\"required\"" : "",
+      text += fmt::format("    <xs:attribute name=\"{}\" type=\"{}\"{}>\n{}    </xs:attribute>\n", attribute.name,
+                          xml_type(attribute.type), attribute.required ? " use=\"required\"" : "",
                           documented(attribute.help, attribute.extension, "      "));
     }
     for (const char* const condition : {"if", "unless"}) {
@@ -90,10 +112,6 @@ std::string description_of(const std::string& help, bool extension) {
   return help + (extension ? " (Not known to ros2 launch.)" : "");
 }
 
-Json any_scalar() {
-  return {"string", "boolean", "number"};
-}
-
 void add_attributes(Json& schema, const std::vector<AttributeSpec>& attributes) {
   Json required = Json::array();
   for (const AttributeSpec& attribute : attributes) {
@@ -101,8 +119,10 @@ void add_attributes(Json& schema, const std::vector<AttributeSpec>& attributes) 
     property["description"] = description_of(attribute.help, attribute.extension);
     if (attribute.type == AttributeType::kBoolean) {
       property["type"] = {"boolean", "string"};
-    } else if (attribute.type == AttributeType::kFloat || attribute.type == AttributeType::kInteger) {
+    } else if (attribute.type == AttributeType::kFloat) {
       property["type"] = {"number", "string"};
+    } else if (attribute.type == AttributeType::kInteger) {
+      property["type"] = {"integer", "string"};
     } else if (attribute.type == AttributeType::kWords) {
       property["type"] = {"string", "array"};
     } else if (attribute.type == AttributeType::kText && attribute.extension) {
@@ -123,7 +143,7 @@ void add_attributes(Json& schema, const std::vector<AttributeSpec>& attributes) 
 void add_conditions(Json& schema) {
   for (const char* const condition : {"if", "unless"}) {
     if (!schema["properties"].contains(condition)) {
-      schema["properties"][condition] = {{"type", any_scalar()}};
+      schema["properties"][condition] = {{"type", "string"}};
     }
   }
 }
@@ -187,9 +207,10 @@ std::string json_schema(const Registry& registry) {
     if (type.holds_actions) {
       const Json actions = {{"type", "array"}, {"items", child_schema(tag, type.items)}};
       schema["properties"]["children"] = actions;
+      if (!type.may_hold_none) {
+        schema["required"].push_back("children");
+      }
       either = {{"anyOf", Json::array({schema, actions})}};
-    } else if (!schema.contains("required")) {
-      either["type"] = {"object", "null"};
     }
     either["description"] = description_of(type.help, type.extension);
     definitions[tag] = std::move(either);

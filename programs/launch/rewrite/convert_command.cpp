@@ -5,9 +5,8 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <regex>
-
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "actions/builtin_actions.hpp"
 #include "base/diagnostics/read_source_file.hpp"
@@ -81,8 +80,8 @@ Plan plan_of(const std::shared_ptr<const SourceFile>& file, const Registry& regi
 // The parts of two plans that differ, for a person; empty if there are none.
 std::string difference(const Plan& before, const Plan& after) {
   if (before.errors != after.errors) {
-    const auto [left, right] = std::mismatch(before.errors.begin(), before.errors.end(), after.errors.begin(),
-                                             after.errors.end());
+    const auto [left, right] =
+        std::mismatch(before.errors.begin(), before.errors.end(), after.errors.begin(), after.errors.end());
     return fmt::format("the given file has the error '{}', the new one '{}'", left == before.errors.end() ? "" : *left,
                        right == after.errors.end() ? "" : *right);
   }
@@ -96,8 +95,8 @@ std::string ending_of(const std::string& language) {
 
 // "robot.launch.xml" and "robot_launch.xml" become "robot.launch.yaml".
 std::filesystem::path path_beside(const std::filesystem::path& given, const std::string& language) {
-  const std::string name = std::regex_replace(given.filename().string(),
-                                              std::regex("([._]launch)?\\.(xml|yaml|yml|launch)$"), "");
+  const std::string name =
+      std::regex_replace(given.filename().string(), std::regex("([._]launch)?\\.(xml|yaml|yml|launch)$"), "");
   return given.parent_path() / (name + ending_of(language));
 }
 
@@ -119,7 +118,8 @@ int convert_command(const Words& words) {
   LaunchTarget target;
   Subcommand command(
       "launch convert",
-      "Writes an XML or YAML launch file in another language: XML, YAML or Python. Comments stay. What has no form in the "
+      "Writes an XML or YAML launch file in another language: XML, YAML or Python. Comments stay. What has no form in "
+      "the "
       "other language is an error at its place, and then nothing is written. The plan of the new file is compared with "
       "that of the given one, with the arguments that are given; where they differ, nothing is written either. The new "
       "file stands beside the given one, which stays.");
@@ -149,7 +149,8 @@ int convert_command(const Words& words) {
     const std::filesystem::path path = output.empty() ? path_beside(given, language) : std::filesystem::path(output);
     const bool exists = !print && std::filesystem::exists(path);
     if (exists) {
-      throw LaunchError(fmt::format("'{}' exists", path.string()), {}, "--output names another file, --print writes none");
+      throw LaunchError(fmt::format("'{}' exists", path.string()), {},
+                        "--output names another file, --print writes none");
     }
     Converted made = converted(file, language, registry);
     if (!made.errors.empty()) {

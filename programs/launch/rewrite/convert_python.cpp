@@ -94,8 +94,9 @@ class PythonConverter {
 
  private:
   void refuse(const std::string& what, const SourceRange& where) {
-    result_.errors.push_back({Severity::kError, fmt::format("launch convert knows no form in Python for {}", what), where,
-                              "write it by hand (docs/python_launch_files.md), or leave this file as it is and include it"});
+    result_.errors.push_back(
+        {Severity::kError, fmt::format("launch convert knows no form in Python for {}", what), where,
+         "write it by hand (docs/python_launch_files.md), or leave this file as it is and include it"});
   }
 
   std::string name(std::string_view module, std::string_view name) {
@@ -161,7 +162,8 @@ class PythonConverter {
     }
     try {
       const Value read = yaml11_value(LocatedText(given));
-      return read.scalar() != nullptr && read.scalar()->type == Scalar::Type::kUntyped ? text(given, where) : typed(read);
+      return read.scalar() != nullptr && read.scalar()->type == Scalar::Type::kUntyped ? text(given, where)
+                                                                                       : typed(read);
     } catch (const LaunchError&) {
       return text(given, where);
     }
@@ -281,7 +283,8 @@ class PythonConverter {
   void attribute(const Attribute& attribute, const Entity& entity, const DeclaredElement& declared,
                  const PythonForm& form, PythonCall& call) {
     if (attribute.name == "if" || attribute.name == "unless") {
-      const std::string condition = name("launch.conditions", attribute.name == "if" ? "IfCondition" : "UnlessCondition");
+      const std::string condition =
+          name("launch.conditions", attribute.name == "if" ? "IfCondition" : "UnlessCondition");
       call.arguments.push_back(
           fmt::format("condition={}({})", condition, text(text_of(attribute.value), attribute.value.where)));
       return;
@@ -300,7 +303,8 @@ class PythonConverter {
       // The extensions have their names in Python, too.
       std::string named = attribute.name;
       std::replace(named.begin(), named.end(), '-', '_');
-      call.arguments.push_back(fmt::format("{}={}", named, this->argument({"", "", kind_of(spec->type)}, attribute.value)));
+      call.arguments.push_back(
+          fmt::format("{}={}", named, this->argument({"", "", kind_of(spec->type)}, attribute.value)));
       return;
     }
     if (argument == form.arguments.end()) {
@@ -312,7 +316,8 @@ class PythonConverter {
 
   void include(const Entity& entity, PythonCall& call) {
     const Attribute* const file = entity.find("file");
-    call.arguments.push_back(fmt::format("{}({})", name("launch.launch_description_sources", "AnyLaunchDescriptionSource"),
+    call.arguments.push_back(fmt::format("{}({})",
+                                         name("launch.launch_description_sources", "AnyLaunchDescriptionSource"),
                                          file == nullptr ? "None" : text(text_of(file->value), file->value.where)));
   }
 
@@ -357,7 +362,8 @@ class PythonConverter {
       call.arguments.push_back("launch_arguments=" + list.text(indent + 4));
     } else if (tag == "choice") {
       for (const Entity* const item : given) {
-        list.arguments.push_back(python_string(item->find("value") == nullptr ? "" : text_of(item->find("value")->value)));
+        list.arguments.push_back(
+            python_string(item->find("value") == nullptr ? "" : text_of(item->find("value")->value)));
       }
       call.arguments.push_back("choices=" + list.text(indent + 4));
     } else if (tag == "composable_node") {

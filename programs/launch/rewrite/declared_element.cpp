@@ -23,8 +23,8 @@ DeclaredElement declared_in(const DeclaredElement& around, std::string_view tag,
     return around;
   }
   if (around.items != nullptr) {
-    const auto item = std::find_if(around.items->begin(), around.items->end(),
-                                   [&](const ItemSpec& each) { return each.tag == tag; });
+    const auto item =
+        std::find_if(around.items->begin(), around.items->end(), [&](const ItemSpec& each) { return each.tag == tag; });
     if (item != around.items->end()) {
       return {&item->attributes, &item->items, item->recursive ? &*item : nullptr, false, true};
     }

@@ -19,11 +19,12 @@ int format_command(const Words& words) {
   bool check = false;
   bool print = false;
   std::vector<std::string> given;
-  Subcommand command("launch format",
-                     "Writes XML and YAML launch files anew in the form in which the documentation has them: indentation, "
-                     "blanks, quotes and the order of attributes in XML. Comments and blank lines stay, and what a file "
-                     "means stays the same. Of a directory, all XML and YAML launch files below it. Exit code 1 after an "
-                     "error, and with --check when a file is in another form.");
+  Subcommand command(
+      "launch format",
+      "Writes XML and YAML launch files anew in the form in which the documentation has them: indentation, "
+      "blanks, quotes and the order of attributes in XML. Comments and blank lines stay, and what a file "
+      "means stays the same. Of a directory, all XML and YAML launch files below it. Exit code 1 after an "
+      "error, and with --check when a file is in another form.");
   command.take_words("FILE", given, true, "XML or YAML launch files, or directories");
   command.take_flag("--check", check, "change nothing; name the files that are in another form");
   command.take_flag("--print", print, "print the new text instead of writing it into the file");

@@ -13,16 +13,15 @@ namespace launch {
 
 namespace {
 
-
 constexpr std::size_t kIndent = 2;
 
 std::size_t characters(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(
-      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
-// Where the attribute stands in a tag: the package first, then as the reference has it, then what the reference does not
-// have, then the condition.
+// Where the attribute stands in a tag: the package first, then as the reference has it, then what the reference does
+// not have, then the condition.
 std::size_t rank(std::string_view name, const DeclaredElement& declared) {
   constexpr std::size_t kUnknown = 1000;
   if (name == "pkg") {
@@ -106,7 +105,8 @@ class XmlWriter {
   }
 
   void tag(const XmlPiece& piece) {
-    const bool closes = piece.kind == XmlPiece::Kind::kStart && next_ + 1 < pieces_.size() && pieces_[next_ + 1].kind == XmlPiece::Kind::kEnd;
+    const bool closes = piece.kind == XmlPiece::Kind::kStart && next_ + 1 < pieces_.size() &&
+                        pieces_[next_ + 1].kind == XmlPiece::Kind::kEnd;
     const DeclaredElement declared =
         around_.size() == 1 ? declared_root() : declared_in(around_.back(), piece.name, registry_);
     std::vector<XmlPiece::Attribute> attributes = piece.attributes;

@@ -40,7 +40,8 @@ std::string tidy_flow(std::string_view text) {
     }
     if (c == ' ') {
       const std::size_t next = text.find_first_not_of(' ', i);
-      const bool is_last = next == std::string_view::npos || text[next] == ',' || text[next] == ']' || text[next] == '}';
+      const bool is_last =
+          next == std::string_view::npos || text[next] == ',' || text[next] == ']' || text[next] == '}';
       const bool is_extra = before == '{' || before == '[' || before == ' ' || is_last;
       // Blanks inside of a plain text are a part of it.
       const bool is_inside = std::string_view("{[,: ").find(before) == std::string_view::npos && !is_last;
@@ -62,7 +63,8 @@ std::string tidy_flow(std::string_view text) {
 
 class YamlWriter {
  public:
-  explicit YamlWriter(const std::shared_ptr<const SourceFile>& file) : text_(file->text()), blocks_(yaml_blocks(file)) {}
+  explicit YamlWriter(const std::shared_ptr<const SourceFile>& file)
+      : text_(file->text()), blocks_(yaml_blocks(file)) {}
 
   std::string write() {
     std::size_t at = text_.starts_with("\xEF\xBB\xBF") ? 3 : 0;
@@ -168,9 +170,8 @@ class YamlWriter {
     result_ += ' ';
     const std::string_view value = given.substr(first);
     const std::size_t begin = at + first;
-    const auto flow = std::find_if(blocks_.flows.begin(), blocks_.flows.end(), [&](const YamlSpan& span) {
-      return span.begin == begin && span.end <= line_end;
-    });
+    const auto flow = std::find_if(blocks_.flows.begin(), blocks_.flows.end(),
+                                   [&](const YamlSpan& span) { return span.begin == begin && span.end <= line_end; });
     if (flow == blocks_.flows.end()) {
       result_ += ends_in_text(line_end) ? value : without_end(value);
       return;
@@ -205,9 +206,9 @@ class YamlWriter {
 
   std::string_view text_;
   YamlBlocks blocks_;
-  std::size_t next_ = 0;        // the next token
-  std::vector<Level> levels_;   // of the last line with tokens
-  bool blank_ = false;          // blank lines were passed over
+  std::size_t next_ = 0;       // the next token
+  std::vector<Level> levels_;  // of the last line with tokens
+  bool blank_ = false;         // blank lines were passed over
   std::string result_;
 };
 

@@ -20,11 +20,12 @@ int migrate_command(const Words& words) {
   std::vector<std::string> given;
   std::string output;
   bool print = false;
-  Subcommand command("launch migrate",
-                     "Writes an XML launch file of ROS 1, or one with old names, in the words of ROS 2. Comments stay. What "
-                     "must be done by hand is told at its place. The new file stands beside robot.launch as "
-                     "robot.launch.xml; a file with another ending needs --output or --print. Exit code 1 after an error, "
-                     "and when something is left to be done by hand.");
+  Subcommand command(
+      "launch migrate",
+      "Writes an XML launch file of ROS 1, or one with old names, in the words of ROS 2. Comments stay. What "
+      "must be done by hand is told at its place. The new file stands beside robot.launch as "
+      "robot.launch.xml; a file with another ending needs --output or --print. Exit code 1 after an error, "
+      "and when something is left to be done by hand.");
   command.take_words("FILE", given, true, "a launch file in XML");
   command.take_text("-o,--output", output, "the new file, which may be the given one");
   command.take_flag("--print", print, "print the new text instead of writing it into a file");
@@ -33,7 +34,8 @@ int migrate_command(const Words& words) {
   }
   const bool has_name = print || !output.empty() || given.front().ends_with(".launch");
   if (given.size() != 1 || !has_name) {
-    fmt::print(stderr, "{}", usage_error("launch migrate", given.size() != 1 ? "give one file" : "--output is missing"));
+    fmt::print(stderr, "{}",
+               usage_error("launch migrate", given.size() != 1 ? "give one file" : "--output is missing"));
     return kWrongCommandLine;
   }
   ResultOutput result("launch migrate");

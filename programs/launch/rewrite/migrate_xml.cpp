@@ -150,7 +150,8 @@ class Migration {
     for (const std::string_view gone : kGone) {
       made.take(gone);
     }
-    const bool has_content = next != nullptr && piece.kind == XmlPiece::Kind::kStart && next->kind == XmlPiece::Kind::kText;
+    const bool has_content =
+        next != nullptr && piece.kind == XmlPiece::Kind::kStart && next->kind == XmlPiece::Kind::kText;
     by_tag(piece, made, has_content);
     const bool is_open = piece.kind == XmlPiece::Kind::kStart;
     write(made, is_open);
@@ -201,8 +202,10 @@ class Migration {
     if (made.take("machine")) {
       left(piece.name, "'machine' is not known to ROS 2", "start a launch file on each machine");
     }
-    if (NewAttribute* const cwd = made.find("cwd"); cwd != nullptr && (cwd->value == "node" || cwd->value == "ROS_HOME")) {
-      left(piece.name, fmt::format("'cwd=\"{}\"' is not known to ROS 2", cwd->value), "write the path of the directory");
+    if (NewAttribute* const cwd = made.find("cwd");
+        cwd != nullptr && (cwd->value == "node" || cwd->value == "ROS_HOME")) {
+      left(piece.name, fmt::format("'cwd=\"{}\"' is not known to ROS 2", cwd->value),
+           "write the path of the directory");
       made.take("cwd");
     }
   }

@@ -36,7 +36,8 @@ const std::map<std::string_view, PythonForm>& python_forms() {
                                         {"args", "arguments", kWords},
                                         {"ros_args", "ros_arguments", kWords}},
                                        process);
-  static const Arguments composable = {{"pkg", "package"}, {"plugin", "plugin"}, {"name", "name"}, {"namespace", "namespace"}};
+  static const Arguments composable = {
+      {"pkg", "package"}, {"plugin", "plugin"}, {"name", "name"}, {"namespace", "namespace"}};
   static const Arguments pair = {{"name", "name"}, {"value", "value"}};
   static const std::map<std::string_view, PythonForm> forms = {
       {"append_env",
@@ -49,8 +50,7 @@ const std::map<std::string_view, PythonForm>& python_forms() {
         {{"name", "name", kLiteral}, {"default", "default_value"}, {"description", "description", kLiteral}}}},
       {"composable_node", {"launch_ros.descriptions", "ComposableNode", composable}},
       {"executable", {actions, "ExecuteProcess", joined({{"cmd", "cmd", kWords}, {"name", "name"}}, process)}},
-      {"group",
-       {actions, "GroupAction", {{"scoped", "scoped", kBool}, {"forwarding", "forwarding", kBool}}}},
+      {"group", {actions, "GroupAction", {{"scoped", "scoped", kBool}, {"forwarding", "forwarding", kBool}}}},
       {"include", {actions, "IncludeLaunchDescription", {}}},
       {"let", {actions, "SetLaunchConfiguration", pair}},
       {"lifecycle_node", {ros_actions, "LifecycleNode", joined(node, {{"autostart", "autostart", kBool}})}},

@@ -33,8 +33,8 @@ struct PythonForm {
 // By the tag.
 const std::map<std::string_view, PythonForm>& python_forms();
 
-// What makes an object of a substitution, by its name: the class, and the arguments in order. An argument without a name
-// is positional.
+// What makes an object of a substitution, by its name: the class, and the arguments in order. An argument without a
+// name is positional.
 struct PythonSubstitution {
   std::string_view module;
   std::string_view name;

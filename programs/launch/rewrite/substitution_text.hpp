@@ -17,7 +17,7 @@ struct SubstitutionCall {
 
 // A piece of a text: words, or one substitution.
 struct SubstitutionText {
-  std::string words;  // without escapes
+  std::string words;                   // without escapes
   std::vector<SubstitutionCall> call;  // one, or none
 };
 

@@ -9,7 +9,6 @@ namespace launch {
 
 namespace {
 
-
 constexpr std::string_view kXmlBlanks = " \t\r\n";
 
 class PieceReader {

@@ -23,7 +23,8 @@ bool may_be_plain(std::string_view text, bool in_flow) {
     return false;
   }
   for (const char c : text) {
-    if (static_cast<unsigned char>(c) < ' ' || (in_flow && std::string_view(",[]{}").find(c) != std::string_view::npos)) {
+    if (static_cast<unsigned char>(c) < ' ' ||
+        (in_flow && std::string_view(",[]{}").find(c) != std::string_view::npos)) {
       return false;
     }
   }

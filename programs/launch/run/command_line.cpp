@@ -85,6 +85,14 @@ std::variant<CommandLine, ExitNow> parse_command_line(const std::vector<std::str
       ->take_all()
       ->expected(1)
       ->allow_extra_args(false);
+  app.add_option("--log-file-name", command.log_file_name, "the name of the log file, launch.log by default")
+      ->type_name("NAME")
+      ->check(CLI::Validator(
+          [](const std::string& name) {
+            return name.empty() || name.find('/') != std::string::npos ? std::string("a name without '/' is needed")
+                                                                       : std::string();
+          },
+          ""));
   app.add_option("--log-size", command.log_size,
                  "begin a new log file when one has this size: bytes, or with K, M or G; 64M by default, 0: never")
       ->type_name("SIZE")

@@ -32,6 +32,7 @@ struct CommandLine {
   bool timestamps = false;
   bool reload_on_hangup = false;
   bool watch = false;                                // reload when a launch file changes
+  std::string log_file_name;                         // of launch.log; without ".log", too
   std::uint64_t log_size = std::uint64_t{64} << 20;  // bytes; 0: no limit
   std::string keep_logs;                             // of earlier launches (old_logs.hpp)
   int log_files = 5;

@@ -37,6 +37,9 @@ OutputRouter::Options output_options(const CommandLine& command, const Environme
       name != environment.end() && !name->second.empty()) {
     options.log_name = std::filesystem::path(name->second).filename().string();
   }
+  if (!command.log_file_name.empty()) {
+    options.log_name = command.log_file_name + (command.log_file_name.ends_with(".log") ? "" : ".log");
+  }
   options.screen_level = command.debug ? LogLevel::kDebug : LogLevel::kInfo;
   options.colour = shows_colour(STDOUT_FILENO);
   options.timestamps = command.timestamps;

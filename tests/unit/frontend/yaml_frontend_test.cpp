@@ -33,6 +33,13 @@ TEST(YamlFrontend, TypesPlainScalarsAndTakesQuotedOnesAsText) {
   EXPECT_EQ(type("h"), Scalar::Type::kOther);
 }
 
+TEST(YamlFrontend, ACarriageReturnAloneEndsALine) {
+  const Entity root = yaml("launch:\r- log: {message: a}\r- log:\r    message: 'b'\r");
+  ASSERT_EQ(root.children.size(), 2U);
+  EXPECT_EQ(root.children[1].find("message")->value.scalar()->text.text(), "b");
+  EXPECT_EQ(to_string(root.children[1].where), "t.launch.yaml:3:3");
+}
+
 TEST(YamlFrontend, ATagMakesAFloatOfAnyNumber) {
   const Entity root = yaml("launch:\n- x: {a: !!float 10, b: !!float 1e3, c: !!float +1_6}\n");
   for (const auto& [name, number] : {std::pair("a", 10.0), std::pair("b", 1000.0), std::pair("c", 16.0)}) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Launch files in another of the three languages. That plans stay the same is shown in tests/e2e/command_line/rewrite_test.py.
+// Launch files in another of the three languages. That plans stay the same is shown in
+// tests/e2e/command_line/rewrite_test.py.
 #include "programs/launch/rewrite/convert.hpp"
 
 #include <gtest/gtest.h>
@@ -113,7 +114,8 @@ TEST(Convert, WritesPythonFromXml) {
 }
 
 TEST(Convert, NamesWhatHasNoFormInTheOtherLanguage) {
-  const Converted made = convert(convert_to_python, "<launch><log message=\"$(index i)\" level=\"INFO\"/><reset_all/></launch>");
+  const Converted made =
+      convert(convert_to_python, "<launch><log message=\"$(index i)\" level=\"INFO\"/><reset_all/></launch>");
   ASSERT_EQ(made.errors.size(), 2U);
   EXPECT_EQ(made.errors[0].message, "launch convert knows no form in Python for this use of $(index)");
   EXPECT_EQ(made.errors[1].message, "launch convert knows no form in Python for 'reset_all'");

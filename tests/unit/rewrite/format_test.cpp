@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Launch files written anew in the form of the documentation.
-#include "programs/launch/rewrite/formatted.hpp"
-
 #include <gtest/gtest.h>
 
 #include "actions/builtin_actions.hpp"
 #include "base/diagnostics/diagnostic.hpp"
+#include "programs/launch/rewrite/formatted.hpp"
 
 namespace launch {
 namespace {
@@ -21,7 +20,8 @@ TEST(Format, WritesXmlAsTheDocumentationDoes) {
   EXPECT_EQ(format("<?xml version=\"1.0\"?>\n\n\n\n<launch>\n\n"
                    "<arg default='1'   name = \"x\" ></arg>\n\n\n"
                    "\t<!-- two\n\t     lines -->\n"
-                   "      <node exec='talker' if=\"$(var x)\" pkg='a' name='say \"n\"'><param value='1' name='p' /> <!-- why -->\n"
+                   "      <node exec='talker' if=\"$(var x)\" pkg='a' name='say \"n\"'><param value='1' name='p' /> "
+                   "<!-- why -->\n"
                    "  </node></launch>\n\n"),
             "<?xml version=\"1.0\"?>\n"
             "\n"
@@ -40,9 +40,13 @@ TEST(Format, BreaksLongTagsOfXmlBelowTheFirstAttribute) {
   const std::string word(60, 'w');
   EXPECT_EQ(format("<launch><executable cmd=\"" + word + "\" name=\"" + word + "\" output=\"screen\"/></launch>"),
             "<launch>\n"
-            "  <executable cmd=\"" + word + "\"\n"
-            "              name=\"" + word + "\" output=\"screen\"/>\n"
-            "</launch>\n");
+            "  <executable cmd=\"" +
+                word +
+                "\"\n"
+                "              name=\"" +
+                word +
+                "\" output=\"screen\"/>\n"
+                "</launch>\n");
 }
 
 TEST(Format, KeepsLineEndsWithinValuesAndOfTheFile) {

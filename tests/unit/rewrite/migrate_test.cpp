@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Launch files of ROS 1 in the words of ROS 2.
-#include "programs/launch/rewrite/migrate_xml.hpp"
-
 #include <gtest/gtest.h>
 
 #include "actions/builtin_actions.hpp"
 #include "programs/launch/rewrite/formatted.hpp"
+#include "programs/launch/rewrite/migrate_xml.hpp"
 
 namespace launch {
 namespace {
