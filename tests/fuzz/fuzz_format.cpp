@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `launch format`: a file that it writes anew says the same, and a second time gives the same text. What it converts can be
-// read.
+// `launch format`: a file that it writes anew says the same, and a second time gives the same text. What it converts
+// can be read.
 #include <cstdlib>
 
 #include "launcher/frontend/frontend.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an editor sends: frames, changes of a document, and what the language server reads in a file that is being written.
+// What an editor sends: frames, changes of a document, and what the language server reads in a file that is being
+// written.
 #include <cstdlib>
 #include <stdexcept>
 #include <string>

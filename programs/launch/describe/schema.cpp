@@ -21,11 +21,11 @@ std::string documented(const std::string& help, bool extension, const std::strin
 // Of a value with a substitution, nothing is known. A number is told by its first character, which refuses no number.
 constexpr const char* kXmlValueTypes =
     "  <xs:simpleType name=\"boolean.value\">\n    <xs:restriction base=\"xs:string\">\n"
-    "      <xs:pattern value=\"[\\s\\S]*\\$\\([\\s\\S]*"
+    "      <xs:pattern value=\"[\\s\\S]*[$]\\([\\s\\S]*"
     "|\\s*([Tt]rue|TRUE|[Ff]alse|FALSE|[Yy]es|YES|[Nn]o|NO|[Oo]n|ON|[Oo]ff|OFF|1|0)\\s*\"/>\n"
     "    </xs:restriction>\n  </xs:simpleType>\n"
     "  <xs:simpleType name=\"number.value\">\n    <xs:restriction base=\"xs:string\">\n"
-    "      <xs:pattern value=\"[\\s\\S]*\\$\\([\\s\\S]*|\\s*[\\-+.0-9]\\S*\\s*\"/>\n"
+    "      <xs:pattern value=\"[\\s\\S]*[$]\\([\\s\\S]*|\\s*[\\-+.0-9]\\S*\\s*\"/>\n"
     "    </xs:restriction>\n  </xs:simpleType>\n";
 
 const char* xml_type(AttributeType type) {

@@ -24,8 +24,7 @@ std::size_t comment_in(std::string_view line) {
     if (quote != '\0') {
       i += line[i] == '\\' && quote == '"' ? 1 : 0;
       quote = i < line.size() && line[i] == quote ? '\0' : quote;
-    } else if ((line[i] == '"' || line[i] == '\'') &&
-               std::string_view(" ,[{:").find(before) != std::string_view::npos) {
+    } else if (begins_quoted(line, i)) {
       quote = line[i];
     } else if (line[i] == '#' && (before == ' ' || before == '\t')) {
       return i;

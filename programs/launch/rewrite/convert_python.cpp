@@ -300,11 +300,14 @@ class PythonConverter {
                                        [&](const PythonArgument& each) { return each.attribute == attribute.name; });
     const AttributeSpec* const spec = declared.attribute(attribute.name);
     if (argument == form.arguments.end() && spec != nullptr && spec->extension && !declared.holds_actions) {
-      // The extensions have their names in Python, too.
+      // The extensions have their names in Python, too. A list is one of words there, not of the parts of a text.
       std::string named = attribute.name;
       std::replace(named.begin(), named.end(), '-', '_');
-      call.arguments.push_back(
-          fmt::format("{}={}", named, this->argument({"", "", kind_of(spec->type)}, attribute.value)));
+      std::string value = this->argument({"", "", kind_of(spec->type)}, attribute.value);
+      if (value.starts_with('[') && kind_of(spec->type) == PythonKind::kText) {
+        value = fmt::format("{}({})", name("launch.substitutions", "StringJoinSubstitution"), value);
+      }
+      call.arguments.push_back(fmt::format("{}={}", named, value));
       return;
     }
     if (argument == form.arguments.end()) {

@@ -34,8 +34,7 @@ std::string tidy_flow(std::string_view text) {
       continue;
     }
     const char before = result.empty() ? ' ' : result.back();
-    const bool begins = std::string_view(" ,[{:").find(before) != std::string_view::npos;
-    if ((c == '"' || c == '\'') && begins) {
+    if (begins_quoted(text, i)) {
       quote = c;
     }
     if (c == ' ') {

@@ -85,7 +85,6 @@ const std::map<std::string_view, PythonForm>& python_forms() {
          {"subbuffer-size-ust", "subbuffer_size_ust", kNumber},
          {"subbuffer-size-kernel", "subbuffer_size_kernel", kNumber},
          {"snapshot-mode", "snapshot_mode", kBool},
-         {"url", "url"},
          {"dual-session", "dual_session", kBool}}}},
       {"unset", {actions, "UnsetLaunchConfiguration", {{"name", "name"}}}},
       {"unset_env", {actions, "UnsetEnvironmentVariable", {{"name", "name"}}}},

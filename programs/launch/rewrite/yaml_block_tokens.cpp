@@ -82,14 +82,13 @@ class BlockWalk {
     for (; at < text_.size(); ++at) {
       const char c = text_[at];
       const char before = at == 0 ? ' ' : text_[at - 1];
-      const bool may_begin = std::string_view(" \t\n,[{:").find(before) != std::string_view::npos;
       if (c == '[' || c == '{') {
         ++depth;
       } else if (c == ']' || c == '}') {
         if (--depth == 0) {
           return at + 1;
         }
-      } else if ((c == '"' || c == '\'') && may_begin) {
+      } else if (begins_quoted(text_, at)) {
         at = end_of_quoted(at) - 1;
       } else if (c == '#' && (before == ' ' || before == '\t' || before == '\n')) {
         at = std::min(text_.find('\n', at), text_.size());
@@ -148,6 +147,15 @@ class BlockWalk {
 };
 
 }  // namespace
+
+bool begins_quoted(std::string_view text, std::size_t at) {
+  if (text[at] != '"' && text[at] != '\'') {
+    return false;
+  }
+  const char before = at == 0 ? ' ' : text[at - 1];
+  const bool behind_quoted_key = before == ':' && at > 1 && (text[at - 2] == '"' || text[at - 2] == '\'');
+  return behind_quoted_key || std::string_view(" \t\n,[{").find(before) != std::string_view::npos;
+}
 
 YamlBlocks yaml_blocks(const std::shared_ptr<const SourceFile>& file) {
   return BlockWalk(file).walk();

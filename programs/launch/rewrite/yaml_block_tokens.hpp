@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "base/diagnostics/source.hpp"
@@ -30,6 +31,9 @@ struct YamlBlocks {
   std::vector<YamlSpan> flows;         // collections in brackets, the outer ones
   std::vector<YamlSpan> scalars;       // texts over several lines
 };
+
+// Whether a quote at this place of a line begins a text; elsewhere it is a character of a plain text.
+bool begins_quoted(std::string_view text, std::size_t at);
 
 // The text must be one that parse_yaml() takes. Throws LaunchError at a form that is not known.
 YamlBlocks yaml_blocks(const std::shared_ptr<const SourceFile>& file);

@@ -51,11 +51,11 @@ TEST_F(OutputOptions, FormatsOfMessagesAreThoseOfRos2Launch) {
 
 TEST_F(OutputOptions, TheLogFileHasTheNameThatIsGiven) {
   const std::string file = write(R"xml(<executable cmd="echo text" name="a"/>)xml");
-  const CommandResult result = run_command({.argv = {LAUNCH_PROGRAM, "--log-file-name", "run", file}});
+  const CommandResult result = run_command({LAUNCH_PROGRAM, "--log-file-name", "run", file});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(read_file(log_directory(result) / "run.log"), HasSubstr("process started with pid ["));
   EXPECT_FALSE(std::filesystem::exists(log_directory(result) / "launch.log"));
-  EXPECT_EQ(run_command({.argv = {LAUNCH_PROGRAM, "--log-file-name", "a/b", file}}).exit_code, 2);
+  EXPECT_EQ(run_command({LAUNCH_PROGRAM, "--log-file-name", "a/b", file}).exit_code, 2);
 }
 
 TEST_F(OutputOptions, AFormatWithAnErrorStartsNothing) {
