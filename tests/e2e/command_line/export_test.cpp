@@ -43,8 +43,8 @@ TEST_F(Export, UnitsRunInTheirOrderAndEndTogether) {
   ASSERT_EQ(exported.exit_code, 0) << exported.err;
   EXPECT_EQ(exported.out, path("units/robot.target") + "\n" + path("units/robot-calibrate.service") + "\n" +
                               path("units/robot-node.service") + "\n" + path("units/robot-again.service") +
-                              "\nnext: systemctl link " + path("units") +
-                              "/*, then systemctl enable --now robot.target\n");
+                              "\nnext: systemctl link " + path("units") + "/*.service " + path("units") +
+                              "/*.target, then systemctl enable --now robot.target\n");
   ASSERT_EQ(inside({"sh", "-c",
                     "sed -i s:^WorkingDirectory=.*:WorkingDirectory=" + sandbox_.directory().string() +
                         ": units/*.service && cp units/* /etc/systemd/system && systemctl daemon-reload"})
