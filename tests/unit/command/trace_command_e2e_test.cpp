@@ -125,6 +125,8 @@ TEST_F(TraceCommandE2e, ASignalLeavesNoSessionHalfMade) {
     }
     EXPECT_THAT(listed_sessions(), testing::Not(testing::HasSubstr("run [")));
   }
+  Sandbox::wait_until_daemons_are_left();  // who ends a session for a command that a signal has killed may live a
+                                           // moment longer
 }
 
 // kill -9 comes while the session is made, or a little later.
