@@ -160,7 +160,7 @@ print(root.attrib['tests'], sorted({case.get('classname') + '/' + case.get('name
         self.assertIn('\nfails False 3 2 1 0\n', self.run_in_a_program('fails'))
         self.assertIn('\nskipped True 1 0 0 1\n', self.run_in_a_program('skipped'))
         output = self.run_in_a_program('dies_early')
-        self.assertIn('\nProcesses under test stopped before tests completed\n', output)
+        self.assertIn('Processes under test stopped before tests completed\n', output)
         self.assertRegex(output, r'\ndies_early False \d+ \d+ 0 0\n')
 
     def test_a_launch_for_each_parameter(self):
