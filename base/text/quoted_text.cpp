@@ -12,6 +12,29 @@ std::string without_control_characters(std::string text) {
   return text;
 }
 
+std::string backslash_quoted(std::string_view text, char quote) {
+  std::string result(1, quote);
+  for (const char c : text) {
+    switch (c) {
+      case '\n':
+        result += "\\n";
+        break;
+      case '\t':
+        result += "\\t";
+        break;
+      case '\r':
+        result += "\\r";
+        break;
+      default:
+        if (c == quote || c == '\\') {
+          result += '\\';
+        }
+        result += c;
+    }
+  }
+  return result + quote;
+}
+
 std::string as_xml_text(std::string_view text) {
   std::string result;
   for (const char character : text) {

@@ -223,6 +223,10 @@ std::string NodeMetrics::families() {
     watch_ = std::make_unique<NodeWatch>(NodeWatch::Tells::kMetrics);
   }
   watch_->update();
+  if (!watch_->goes_on()) {
+    watch_.reset();  // old figures are no figures; the next question begins anew
+    return "";
+  }
   return watch_->metrics();
 }
 

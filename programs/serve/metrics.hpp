@@ -33,7 +33,8 @@ class NodeMetrics {
  public:
   static constexpr std::chrono::seconds kPatience{120};  // twice the usual longest time between two questions
 
-  // The newest families; "" until there are any. Begins the recording if there is none. Throws SpawnError.
+  // The newest families; "" until there are any, and when the recording has ended by itself. Begins one if there is
+  // none. Throws SpawnError.
   std::string families();
   // Ends the recording if nobody has asked for so long.
   void rest();

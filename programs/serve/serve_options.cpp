@@ -70,6 +70,9 @@ std::optional<int> parse_serve_options(const std::vector<std::string>& words, Se
   if (options.token_file.empty() && !options.open_metrics) {
     return wrong("--token-file is required", token_recipe("FILE"));
   }
+  if (options.token_file.empty() && options.allow_control) {
+    return wrong("--allow-control needs --token-file", token_recipe("FILE"));
+  }
   if (options.tls_certificate.empty() != options.tls_key.empty()) {
     return wrong("--tls-cert and --tls-key belong together");
   }

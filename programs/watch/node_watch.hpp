@@ -27,6 +27,8 @@ class NodeWatch {
 
   // Takes what has come. Does not block.
   void update();
+  // False when the recording has ended by itself; lines() says why.
+  bool goes_on() const { return static_cast<bool>(output_); }
   // The columns of the terminal.
   void set_width(std::size_t columns);
 

@@ -2,7 +2,7 @@
 // Runs the launch command, in the environment of a workspace.
 'use strict';
 
-const { execFile, spawn } = require('node:child_process');
+const { execFile } = require('node:child_process');
 
 // The largest output that is read of one command, in bytes: a report of a long recording is a few MiB.
 const LARGEST_OUTPUT = 256 * 1024 * 1024;
@@ -39,12 +39,6 @@ class LaunchProgram {
       return `${this.path}: no such program. The setting launch.path names it, launch.setup the workspace that has it.`;
     }
     return error.message;
-  }
-
-  // Starts `launch WORDS` and goes on. Its output is not read.
-  start(words) {
-    const { command, args } = this.commandLine(words);
-    return spawn(command, args, { cwd: this.directory, stdio: 'ignore' });
   }
 }
 

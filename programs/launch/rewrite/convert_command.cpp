@@ -22,7 +22,7 @@
 #include "programs/command_line/subcommand.hpp"
 #include "programs/launch/command_functions.hpp"
 #include "programs/launch/rewrite/convert.hpp"
-#include "programs/launch/rewrite/replace_file.hpp"
+#include "programs/launch/rewrite/rewritten_files.hpp"
 
 namespace launch {
 
@@ -168,7 +168,7 @@ int convert_command(const Words& words) {
       result.print(made.text);
     } else {
       std::ofstream(path, std::ios::binary).close();  // replace_file() keeps the permissions of a file that is there
-      replace_file(path.string(), made.text);
+      rewrite_file(path.string(), made.text);
       result.print(path.string() + "\n");
     }
   } catch (const LaunchError& error) {

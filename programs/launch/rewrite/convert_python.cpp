@@ -11,6 +11,7 @@
 #include "programs/launch/rewrite/convert.hpp"
 #include "programs/launch/rewrite/declared_element.hpp"
 #include "programs/launch/rewrite/formatted.hpp"
+#include "programs/launch/rewrite/python_expressions.hpp"
 #include "programs/launch/rewrite/python_forms.hpp"
 #include "programs/launch/rewrite/substitution_text.hpp"
 
@@ -18,60 +19,13 @@ namespace launch {
 
 namespace {
 
-std::string python_string(std::string_view text) {
-  std::string result = "'";
-  for (const char c : text) {
-    switch (c) {
-      case '\n':
-        result += "\\n";
-        break;
-      case '\t':
-        result += "\\t";
-        break;
-      case '\r':
-        result += "\\r";
-        break;
-      case '\'':
-      case '\\':
-        result += '\\';
-        [[fallthrough]];
-      default:
-        result += c;
-    }
-  }
-  return result + "'";
-}
-
-const std::string& text_of(const Value& value) {
-  return value.scalar()->text.text();
-}
-
-// An object as a call: one line if that is short, or a line for each argument.
-struct PythonCall {
-  std::string head;  // "Node("
-  std::vector<std::string> arguments;
-  std::string tail = ")";
-
-  std::string text(std::size_t indent) const {
-    const std::string line = fmt::format("{}{}{}", head, fmt::join(arguments, ", "), tail);
-    if (line.find('\n') == std::string::npos && indent + line.size() < kFormattedColumns) {
-      return line;
-    }
-    std::string result = head + "\n";
-    for (const std::string& argument : arguments) {
-      result += fmt::format("{:{}}{},\n", "", indent + 4, argument);
-    }
-    return result + fmt::format("{:{}}{}", "", indent, tail);
-  }
-};
-
-class PythonConverter {
+class PythonConverter : PythonExpressions {
  public:
   PythonConverter(Comments comments, const Registry& registry) : comments_(std::move(comments)), registry_(registry) {}
 
   Converted convert(const Entity& root) {
     const std::vector<std::string> head = comments_.take_before(root.where.begin);
-    imports_["launch"].insert("LaunchDescription");
+    name("launch", "LaunchDescription");
     for (const Attribute& attribute : root.attributes) {
       if (attribute.name != "version") {
         refuse(fmt::format("'{}' of 'launch'", attribute.name), attribute.name_where);
@@ -84,133 +38,17 @@ class PythonConverter {
     for (const std::string& line : head) {
       result_.text += line.empty() ? "" : fmt::format("# {}\n", line);
     }
-    for (const auto& [module, names] : imports_) {
+    for (const auto& [module, names] : imports()) {
       PythonCall import{fmt::format("from {} import (", module), {names.begin(), names.end()}, ")"};
       const std::string line = fmt::format("from {} import {}", module, fmt::join(names, ", "));
       result_.text += (line.size() < kFormattedColumns ? line : import.text(0)) + "\n";
     }
     result_.text += "\n\ndef generate_launch_description():\n    return LaunchDescription([\n" + body + "    ])\n";
+    result_.errors = errors();
     return std::move(result_);
   }
 
  private:
-  void refuse(const std::string& what, const SourceRange& where) {
-    result_.errors.push_back(
-        {Severity::kError, fmt::format("launch convert knows no form in Python for {}", what), where,
-         "write it by hand (docs/python_launch_files.md), or leave this file as it is and include it"});
-  }
-
-  std::string name(std::string_view module, std::string_view name) {
-    imports_[std::string(module)].insert(std::string(name));
-    return std::string(name);
-  }
-
-  // One expression, or a list of them.
-  std::string text(const std::vector<SubstitutionText>& pieces, const SourceRange& where) {
-    std::vector<std::string> parts;
-    for (const SubstitutionText& piece : pieces) {
-      parts.push_back(piece.call.empty() ? python_string(piece.words) : call(piece.call.front(), where));
-    }
-    return parts.empty() ? "''" : parts.size() == 1 ? parts.front() : fmt::format("[{}]", fmt::join(parts, ", "));
-  }
-
-  std::string text(const std::string& given, const SourceRange& where) {
-    return text(substitution_texts(given), where);
-  }
-
-  std::string call(const SubstitutionCall& call, const SourceRange& where) {
-    const auto found = python_substitutions().find(call.name);
-    if (found == python_substitutions().end() || call.arguments.size() > found->second.arguments.size()) {
-      refuse(fmt::format("this use of $({})", call.name), where);
-      return "None";
-    }
-    std::vector<std::string> arguments;
-    for (std::size_t i = 0; i < call.arguments.size(); ++i) {
-      const std::string_view argument = found->second.arguments[i];
-      arguments.push_back((argument.empty() ? "" : std::string(argument) + "=") + text(call.arguments[i], where));
-    }
-    return fmt::format("{}({})", name(found->second.module, found->second.name), fmt::join(arguments, ", "));
-  }
-
-  // What the rules of YAML make of the text of a parameter.
-  std::string typed(const Value& value) {
-    if (const auto* const list = value.list()) {
-      std::vector<std::string> items;
-      std::transform(list->begin(), list->end(), std::back_inserter(items),
-                     [this](const Value& item) { return typed(item); });
-      return fmt::format("[{}]", fmt::join(items, ", "));
-    }
-    const Scalar& scalar = *value.scalar();
-    switch (scalar.type) {
-      case Scalar::Type::kBool:
-        return scalar.bool_value ? "True" : "False";
-      case Scalar::Type::kInt:
-        return std::to_string(scalar.int_value);
-      case Scalar::Type::kFloat: {
-        const std::string number = fmt::format("{}", scalar.float_value);
-        return number.find_first_of("n") != std::string::npos ? fmt::format("float('{}')", number) : number;
-      }
-      case Scalar::Type::kUntyped:
-        return typed_text(scalar.text.text(), value.where);
-      default:
-        return text(scalar.text.text(), value.where);
-    }
-  }
-
-  std::string typed_text(const std::string& given, const SourceRange& where) {
-    if (given.find("$(") != std::string::npos) {
-      return text(given, where);
-    }
-    try {
-      const Value read = yaml11_value(LocatedText(given));
-      return read.scalar() != nullptr && read.scalar()->type == Scalar::Type::kUntyped ? text(given, where)
-                                                                                       : typed(read);
-    } catch (const LaunchError&) {
-      return text(given, where);
-    }
-  }
-
-  std::string argument(const PythonArgument& argument, const Value& value) {
-    if (argument.kind == PythonKind::kTyped) {
-      return typed(value);
-    }
-    if (argument.kind == PythonKind::kWords) {
-      return words(value);
-    }
-    if (value.scalar() == nullptr) {
-      refuse("a list here", value.where);
-      return "None";
-    }
-    const std::string& given = text_of(value);
-    const Scalar read = yaml11_scalar(LocatedText(given));
-    switch (argument.kind) {
-      case PythonKind::kLiteral:
-        return python_string(given);
-      case PythonKind::kBool:
-        return read.type == Scalar::Type::kBool ? (read.bool_value ? "True" : "False") : text(given, value.where);
-      case PythonKind::kNumber:
-        return read.type == Scalar::Type::kInt     ? std::to_string(read.int_value)
-               : read.type == Scalar::Type::kFloat ? given
-                                                   : text(given, value.where);
-      default:
-        return text(given, value.where);
-    }
-  }
-
-  std::string words(const Value& value) {
-    PythonCall list{"[", {}, "]"};
-    if (const auto* const items = value.list()) {
-      for (const Value& item : *items) {
-        list.arguments.push_back(text(text_of(item), item.where));
-      }
-    } else {
-      for (const std::vector<SubstitutionText>& word : command_words(text_of(value))) {
-        list.arguments.push_back(text(word, value.where));
-      }
-    }
-    return list.text(kFormattedColumns / 4);
-  }
-
   std::string actions(const std::vector<Entity>& entities, const DeclaredElement& around, std::size_t indent) {
     std::string result;
     bool is_first = true;
@@ -367,7 +205,7 @@ class PythonConverter {
     } else if (tag == "choice") {
       for (const Entity* const item : given) {
         list.arguments.push_back(
-            python_string(item->find("value") == nullptr ? "" : text_of(item->find("value")->value)));
+            python_literal(item->find("value") == nullptr ? "" : text_of(item->find("value")->value)));
       }
       call.arguments.push_back("choices=" + list.text(indent + 4));
     } else if (tag == "composable_node") {
@@ -448,7 +286,6 @@ class PythonConverter {
 
   Comments comments_;
   const Registry& registry_;
-  std::map<std::string, std::set<std::string>> imports_;
   Converted result_;
 };
 

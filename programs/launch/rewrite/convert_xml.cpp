@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "base/text/quoted_text.hpp"
 #include "launcher/frontend/frontend.hpp"
 #include "programs/launch/rewrite/convert.hpp"
 #include "programs/launch/rewrite/declared_element.hpp"
@@ -13,30 +14,14 @@ namespace launch {
 
 namespace {
 
+// Line ends and tabs of an attribute would be read as blanks.
 std::string escaped(std::string_view text) {
   std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      case '\n':
-        result += "&#10;";
-        break;
-      case '\t':
-        result += "&#9;";
-        break;
-      case '\r':
-        result += "&#13;";
-        break;
-      default:
-        result += c;
+  for (const char c : as_xml_text(text)) {
+    if (c == '\n' || c == '\t' || c == '\r') {
+      result += fmt::format("&#{};", static_cast<int>(c));
+    } else {
+      result += c;
     }
   }
   return result;

@@ -11,7 +11,7 @@
 #include "programs/command_line/subcommand.hpp"
 #include "programs/launch/command_functions.hpp"
 #include "programs/launch/rewrite/formatted.hpp"
-#include "programs/launch/rewrite/replace_file.hpp"
+#include "programs/launch/rewrite/rewritten_files.hpp"
 
 namespace launch {
 
@@ -44,7 +44,7 @@ int format_command(const Words& words) {
         result.print(path + "\n");
         is_right = is_right && !check;
         if (!check) {
-          replace_file(path, text);
+          rewrite_file(path, text);
         }
       }
     } catch (const LaunchError& error) {

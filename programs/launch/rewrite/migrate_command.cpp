@@ -12,7 +12,7 @@
 #include "programs/launch/command_functions.hpp"
 #include "programs/launch/rewrite/formatted.hpp"
 #include "programs/launch/rewrite/migrate_xml.hpp"
-#include "programs/launch/rewrite/replace_file.hpp"
+#include "programs/launch/rewrite/rewritten_files.hpp"
 
 namespace launch {
 
@@ -53,7 +53,7 @@ int migrate_command(const Words& words) {
       if (!std::filesystem::exists(path)) {
         std::ofstream(path, std::ios::binary).close();
       }
-      replace_file(path, text);
+      rewrite_file(path, text);
       result.print(path + "\n");
     }
     if (!made.left.empty()) {

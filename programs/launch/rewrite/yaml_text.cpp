@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/diagnostics/diagnostic.hpp"
+#include "base/text/quoted_text.hpp"
 #include "launcher/frontend/frontend.hpp"
 
 namespace launch {
@@ -44,27 +45,7 @@ std::string quoted(std::string_view text) {
     }
     return result + "'";
   }
-  std::string result = "\"";
-  for (const char c : text) {
-    switch (c) {
-      case '\n':
-        result += "\\n";
-        break;
-      case '\t':
-        result += "\\t";
-        break;
-      case '\r':
-        result += "\\r";
-        break;
-      case '"':
-      case '\\':
-        result += '\\';
-        [[fallthrough]];
-      default:
-        result += c;
-    }
-  }
-  return result + "\"";
+  return backslash_quoted(text, '"');
 }
 
 // The value of a parameter in XML: the launcher reads it by the rules of YAML.

@@ -21,8 +21,7 @@ std::string header_of(const char* name, const char* type, const char* unit, cons
   return text + fmt::format("# HELP {} {}\n", name, help);
 }
 
-}  // namespace
-
+// The name of a label and its value in quotes: `topic="/scan"`.
 std::string metric_label(const char* name, const std::string& value) {
   std::string text = std::string(name) + "=\"";
   for (const char c : value) {
@@ -37,6 +36,8 @@ std::string metric_label(const char* name, const std::string& value) {
   }
   return text + '"';
 }
+
+}  // namespace
 
 void LiveMetrics::Histogram::add(std::int64_t took_ns) {
   const auto* const bound = std::lower_bound(kBounds.begin(), kBounds.end(), took_ns);

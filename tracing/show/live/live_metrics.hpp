@@ -50,7 +50,4 @@ class LiveMetrics : public ExecutionSink, public TraceSink {
   std::vector<Histogram> latencies_;  // publish to callback, by ObjectId of the subscription
 };
 
-// The name of a label and its value in quotes: `topic="/scan"`.
-std::string metric_label(const char* name, const std::string& value);
-
 }  // namespace tracing

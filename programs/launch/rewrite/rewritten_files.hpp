@@ -10,8 +10,7 @@ namespace launch {
 // The words, with the XML and YAML launch files below a directory in its place, in order.
 std::vector<std::string> launch_files_in(const std::vector<std::string>& words);
 
-// Writes the text into the file, by way of a new one beside it, so that the file is whole at any time. Its permissions
-// stay. Throws LaunchError.
-void replace_file(const std::string& path, const std::string& text);
+// Puts the text in the place of a file that is there. A link stays one, and the permissions stay. Throws LaunchError.
+void rewrite_file(const std::string& path, const std::string& text);
 
 }  // namespace launch

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "programs/launch/rewrite/replace_file.hpp"
+#include "programs/launch/rewrite/rewritten_files.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <system_error>
 
 #include "base/diagnostics/diagnostic.hpp"
+#include "base/files/replace_file.hpp"
 #include "launcher/invocation/find_launch_file.hpp"
 
 namespace launch {
@@ -34,31 +34,15 @@ std::vector<std::string> launch_files_in(const std::vector<std::string>& words) 
   return files;
 }
 
-void replace_file(const std::string& path, const std::string& text) {
-  const auto failed = [&](const std::string& reason) {
-    throw LaunchError(fmt::format("'{}' can't be written: {}", path, reason), {}, {}, Finding::kUnreadableFile);
-  };
-  std::error_code error;
-  const fs::path target = fs::canonical(path, error);  // a link stays one
-  if (error) {
-    failed(error.message());
-  }
-  const fs::path fresh = target.parent_path() / ("." + target.filename().string() + ".new");
-  {
-    std::ofstream file(fresh, std::ios::binary);
-    file << text;
-    file.close();
-    if (!file) {
-      fs::remove(fresh, error);
-      failed("no space, or no permission in its directory");
-    }
-  }
-  fs::permissions(fresh, fs::status(target).permissions(), error);
-  fs::rename(fresh, target, error);
-  if (error) {
-    const std::string reason = error.message();
-    fs::remove(fresh, error);
-    failed(reason);
+void rewrite_file(const std::string& path, const std::string& text) {
+  try {
+    const fs::path target = fs::canonical(path);
+    const fs::perms permissions = fs::status(target).permissions();
+    replace_file(target.string(), text);
+    fs::permissions(target, permissions);
+  } catch (const std::system_error& error) {
+    throw LaunchError(fmt::format("'{}' can't be written: {}", path, error.code().message()), {}, {},
+                      Finding::kUnreadableFile);
   }
 }
 
