@@ -17,6 +17,7 @@
 #include "base/diagnostics/command_error.hpp"
 #include "base/diagnostics/diagnostic.hpp"
 #include "programs/read/event_printer.hpp"
+#include "tracing/decode/reader/recorded_bytes.hpp"
 #include "tracing/decode/reader/trace_reader.hpp"
 #include "tracing/model/selection/event_filter.hpp"
 #include "tracing/model/selection/missing_names.hpp"
@@ -238,10 +239,14 @@ int read_into(const Arguments& arguments, tracing::TraceSink& sink, CountingSink
   }
   LossNote note(sink);
   const int exit_code = read_all(arguments, note, counter);
-  if (exit_code != kSuccess || !note.has_losses) {
+  if (exit_code != kSuccess) {
     return exit_code;
   }
-  print_error("the trace is incomplete: events were lost");
+  const std::vector<std::string> damage = tracing::recorded_damage(arguments.directories);
+  if (!note.has_losses && damage.empty()) {
+    return exit_code;
+  }
+  print_error("the trace is incomplete: " + (note.has_losses ? "events were lost" : damage.front()));
   return kFailedOn;
 }
 

@@ -34,9 +34,8 @@ std::string PythonCall::text(std::size_t indent) const {
 }
 
 void PythonExpressions::refuse(const std::string& what, const SourceRange& where) {
-  errors_.push_back(
-      {Severity::kError, fmt::format("launch convert knows no form in Python for {}", what), where,
-       "write it by hand (docs/python_launch_files.md), or leave this file as it is and include it"});
+  errors_.push_back({Severity::kError, fmt::format("launch convert knows no form in Python for {}", what), where,
+                     "write it by hand (docs/python_launch_files.md), or leave this file as it is and include it"});
 }
 
 std::string PythonExpressions::name(std::string_view module, std::string_view name) {
@@ -100,8 +99,7 @@ std::string PythonExpressions::typed_text(const std::string& given, const Source
   }
   try {
     const Value read = yaml11_value(LocatedText(given));
-    return read.scalar() != nullptr && read.scalar()->type == Scalar::Type::kUntyped ? text(given, where)
-                                                                                     : typed(read);
+    return read.scalar() != nullptr && read.scalar()->type == Scalar::Type::kUntyped ? text(given, where) : typed(read);
   } catch (const LaunchError&) {
     return text(given, where);
   }

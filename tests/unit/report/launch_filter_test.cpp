@@ -73,6 +73,21 @@ TEST_F(OfLaunch, LeavesOthersOut) {
   EXPECT_EQ(report["events"], 57);
 }
 
+// A program of the launch without tracetools counts nothing, so nothing tells whose it is.
+TEST_F(OfLaunch, AProcessWithoutEventsOfRos2Stays) {
+  TraceWriter writer(directory_.path() / "ust/uid/0/64-bit");
+  const std::uint16_t asked =
+      writer.declare("lttng_ust_libc:malloc", "integer { size = 32; align = 8; signed = 0; } size;\n");
+  const std::string bytes("\x40\0\0\0", 4);
+  writer.write_raw(2, testing::kPingPongBegin, kStranger, asked, bytes);
+  write_ping_pong(writer);
+  writer.finish();
+  judge(directory_.path(), "[71, 72]");
+  const nlohmann::json report = json();
+  EXPECT_THAT(ids(report["processes"]), ::testing::Contains(90));
+  EXPECT_TRUE(report["others"].empty()) << report["others"];
+}
+
 TEST_F(OfLaunch, HasEverythingWhenThatIsAskedFor) {
   record(directory_.path());
   judge(directory_.path(), "[60, 71, 72]");

@@ -14,7 +14,15 @@ TEST(TextReport, OfAnEmptyTraceSaysSo) {
   EXPECT_EQ(text_report({"/traces/run", {}, ""}),
             "Trace      /traces/run\n"
             "Events     0 of 0 processes\n"
-            "Losses     no events lost\n");
+            "Losses     unknown, as nothing tells what was to be recorded\n");
+}
+
+TEST(TextReport, DamageThatTheVerdictTellsLeavesLossesUnknown) {
+  Report report{"/traces/run", {}, ""};
+  report.results.overview = overview_of(9, {{71, "ping", 9, false}});
+  report.verdict.found = report.verdict.damaged = true;
+  EXPECT_THAT(text_report(report), HasSubstr("\nLosses     unknown, as a part of the trace is missing\n"));
+  EXPECT_THAT(summary_line(report.results.overview, report.verdict), HasSubstr("unknown how many lost"));
 }
 
 TEST(TextReport, SaysThatTheTraceIsStillBeingWritten) {

@@ -64,6 +64,19 @@ std::set<fs::path> verdict_files(const std::vector<fs::path>& directories) {
   return files;
 }
 
+std::vector<std::string> recorded_damage(const std::vector<fs::path>& directories) {
+  std::vector<std::string> lines;
+  for (const fs::path& file : verdict_files(directories)) {
+    std::ifstream stream(file);
+    const json verdict = json::parse(stream, nullptr, false);
+    const json damage = verdict.is_object() ? verdict.value("damage", json()) : json();
+    if (damage.is_string() && !damage.get_ref<const std::string&>().empty()) {
+      lines.push_back(damage.get<std::string>());
+    }
+  }
+  return lines;
+}
+
 RecordedBytes::RecordedBytes(const std::vector<fs::path>& directories) {
   for (const fs::path& file : verdict_files(directories)) {
     std::ifstream stream(file);

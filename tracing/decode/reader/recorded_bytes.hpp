@@ -15,6 +15,9 @@ namespace tracing {
 // The files verdict.json in these directories and below them.
 std::set<std::filesystem::path> verdict_files(const std::vector<std::filesystem::path>& directories);
 
+// A line for each of these verdicts that says that its recording is damaged.
+std::vector<std::string> recorded_damage(const std::vector<std::filesystem::path>& directories);
+
 class RecordedBytes {
  public:
   RecordedBytes() = default;  // knows no verdict

@@ -25,6 +25,7 @@ struct RecordedVerdict {
     static const Field<ProcessCost> kFields[];
   };
   std::vector<std::string> absences = {};  // sentences: programs and events that were not there, damage
+  bool found = false;                      // there is a verdict
   bool damaged = false;  // data are missing that were not counted, so nothing tells how many events were lost
   std::vector<std::string> overwritten = {};  // "12 events overwritten, as asked"; what else the first packets lack
   std::uint64_t discarded_events = 0;         // those that no packet counts are among them

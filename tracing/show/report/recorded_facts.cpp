@@ -117,6 +117,7 @@ RecordedVerdict read_verdicts(const std::vector<fs::path>& directories) {
     if (!verdict.is_object()) {
       continue;
     }
+    result.found = true;
     if (verdict.contains("absent") && verdict["absent"].is_array()) {
       for (const nlohmann::json& absence : verdict["absent"]) {
         if (absence.is_string()) {

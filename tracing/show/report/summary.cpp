@@ -51,6 +51,9 @@ std::string incomplete_phrase(const TraceOverview& overview, const RecordedVerdi
   if (has_losses(overview, verdict)) {
     return loss_phrase(overview, verdict);
   }
+  if (overview.events == 0 && !verdict.found) {
+    return "it has no events, and no verdict";
+  }
   return verdict.absences.empty() ? "" : verdict.absences.front();
 }
 

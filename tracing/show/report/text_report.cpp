@@ -69,8 +69,10 @@ std::string head(const Report& report, bool color) {
   const bool doubtful = !overview.losses.empty() || !report.error.empty();
   const RecordedVerdict& verdict = report.verdict;
   const bool counts_none = overview.losses.empty() && verdict.discarded_events == 0 && verdict.lost_packets == 0;
-  const bool none = counts_none && report.error.empty() && !verdict.damaged;
-  const std::string losses = counts_none && !none                  ? "unknown, as a part of the trace is missing"
+  const bool is_void = overview.events == 0 && !verdict.found && report.open.empty();
+  const bool none = counts_none && report.error.empty() && !verdict.damaged && !is_void;
+  const std::string losses = counts_none && !none && is_void       ? "unknown, as nothing tells what was to be recorded"
+                             : counts_none && !none                ? "unknown, as a part of the trace is missing"
                              : none && verdict.overwritten.empty() ? "no events lost"
                                                                    : loss_phrase(overview, verdict);
   return text + "Losses     " +
