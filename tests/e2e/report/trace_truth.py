@@ -77,7 +77,7 @@ class Truth:
         self.waited = collections.Counter()  # by process and thread
         self.callbacks_of = collections.Counter()
         self.states = []  # of lifecycle nodes: goals
-        events = list(events)
+        self.events = events = list(events)
         self.rows = Rows(events)
         self.read(events)
 

@@ -15,7 +15,11 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from deliveries_truth import Deliveries
+from machine_truth import Machines
 from own_launch import launch, started
+from served_truth import Served
+from table_queries import DELIVERIES, MACHINES, OF_ONE_PROCESS, SERVED
 from trace_truth import Truth, events_of
 
 EXAMPLES = Path(os.environ['SOURCE_DIRECTORY']) / 'launch_examples'
@@ -111,9 +115,11 @@ class TruthCase(unittest.TestCase):
             missing = report['overwritten'] or report['error']
             print('events were lost, because this machine is busy: what is there is compared', file=sys.stderr)
         self.assertEqual(not missing, is_whole)
+        machines = None if truth else Machines(trace)  # two sessions have the same events twice
         truth = truth or Truth(events_of(trace))
         self.compared = self.compared_hops = 0
         self.check_rows(rows, truth, is_whole)
+        self.check_sums(rows, truth, machines, is_whole)
         at_address = collections.defaultdict(list)  # one may be where another one was that has gone
         for callback in report['callbacks']:
             at_address[callback['vpid'], callback['address']].append(callback)
@@ -194,6 +200,32 @@ class TruthCase(unittest.TestCase):
                     self.compared_hops += sum(len(hop) > 2 and hop[4] is not None for hop in each)
                 with self.subTest(chain=chain, name=name, steps=len(steps)):
                     self.compare_rows(collections.Counter(map(tuple, hops.values())), collections.Counter(expected_hops))
+        database.close()
+
+    def check_sums(self, file, truth, machines, is_whole):
+        """What the report sums up, and the objects and the machine that it is about."""
+        deliveries, served = Deliveries(truth.events), Served(truth.events, truth.rows)
+        nodes, doubtful_nodes = served.node_rows()
+        published = collections.Counter({name: counts['published'] for name, counts in deliveries.topics.items()})
+        expected = [(DELIVERIES, {'subscription_statistics': deliveries.subscription_rows(),
+                                  'topic_statistics': deliveries.topic_rows(), 'quality': deliveries.quality_rows()}),
+                    (SERVED, {'callbacks': served.callback_rows(), 'node_statistics': nodes,
+                              'call_statistics': served.call_rows(), 'actions': served.action_rows(published),
+                              'execution_statistics': served.execution_rows(), 'lifecycle_statistics': served.stay_rows()})]
+        if machines:
+            expected.append((MACHINES, {'trace': machines.trace_rows(), 'hosts': machines.host_rows(),
+                                        'processes': machines.process_rows(), 'threads': sorted(machines.threads),
+                                        'allocations': machines.allocation_rows()}))
+        with sqlite3.connect(file) as database:
+            for queries, tables in expected:
+                for table, own in tables.items():
+                    found = database.execute(queries[table]).fetchall()
+                    if table in OF_ONE_PROCESS:
+                        found, own = ([row for row in rows if row[0] in self.started] for rows in (found, own))
+                    if table == 'node_statistics':
+                        found = [row for row in found if row[:2] not in doubtful_nodes]
+                    with self.subTest(table=table):
+                        self.compare_rows(collections.Counter(found), collections.Counter(own))
         database.close()
 
     def compare_rows(self, found, own):

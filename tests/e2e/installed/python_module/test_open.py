@@ -206,6 +206,23 @@ class Plots(OpenedRun):
             heights[round(bar.get_x(), 1)] = heights.get(round(bar.get_x(), 1), 0) + bar.get_height()
         self.assertAlmostEqual(max(heights.values()), chain.summary()['max_ns'] / 1e6)
 
+    @needs('matplotlib')
+    def test_scheduling_begins_with_the_first_callback(self):
+        import matplotlib
+        matplotlib.use('agg')
+        first = min(self.run_.callback_instances.to_list('start_ns')) - self.run_.trace.to_list('begin_ns')[0]
+        axes = self.run_.plot.scheduling(seconds=1e-6)
+        self.assertEqual(len(axes.collections), 1)
+        self.assertAlmostEqual(axes.collections[0].get_paths()[0].get_extents().x0, first / 1e9)
+
+    def test_a_legend_has_the_largest_parts_and_one_line_for_the_rest(self):
+        styles = launch_trace._plot._colours({f'part {number}': float(number) for number in range(20)})
+        self.assertEqual([style['label'] for style in styles.values() if 'label' in style],
+                         ['11 shorter parts', *(f'part {number}' for number in range(11, 20))])
+        colours = [style['color'] for label, style in styles.items() if int(label.split()[1]) > 10]
+        self.assertEqual(len(set(colours)), len(colours))
+        self.assertEqual({style['color'] for label, style in styles.items() if int(label.split()[1]) <= 10}, {'lightgrey'})
+
     def test_without_matplotlib_the_error_says_what_to_install(self):
         if has('matplotlib'):
             self.skipTest('matplotlib is installed')

@@ -80,7 +80,7 @@ inline const char* ExecutionResult::kind_word() const {
 
 inline constexpr Field<ExecutionResult> ExecutionResult::kFields[] = {
     {"process", &ExecutionResult::process, "index in `processes`", trait::kProcess},
-    {"node", &ExecutionResult::node, "`\"\"` for waitables"},
+    {"node", &ExecutionResult::node, "none for waitables"},
     {"kind", {&ExecutionResult::kind_word, kExecutionKinds}, "what was served"},
     {"service", &ExecutionResult::service, "of a service or client", trait::kPlain, &ExecutionResult::is_of_service},
     {"address", &ExecutionResult::address, "of a waitable", trait::kPlain, &ExecutionResult::is_waitable},

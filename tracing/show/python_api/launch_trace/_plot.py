@@ -14,8 +14,41 @@ if TYPE_CHECKING:
 PERCENTS = (50, 90, 99, 100)
 
 
+MOST_COLOURS = 9  # matplotlib has ten; the rest is grey
+LONGEST_TITLE = 60
+
+
 def _axes(ax: Any) -> Any:
-    return needed('matplotlib.pyplot', 'a plot').subplots()[1] if ax is None else ax
+    if ax is not None:
+        return ax
+    return needed('matplotlib.pyplot', 'a plot').subplots(figsize=(10, 5), constrained_layout=True)[1]
+
+
+def _legend_beside(ax: Any) -> None:
+    ax.legend(fontsize='small', loc='center left', bbox_to_anchor=(1.0, 0.5))
+
+
+def _title(chain: Chain) -> str:
+    if len(chain.name) <= LONGEST_TITLE:
+        return chain.name
+    return f'{chain.steps[0].node} → … → {chain.steps[-1].node} ({len(chain.steps)} callbacks)'
+
+
+def _colours(sums: dict[str, float]) -> dict[str, dict[str, Any]]:
+    """For each part how it is drawn: the largest ones have colours of their own, and stand in the legend."""
+    largest = sorted(sums, key=lambda label: -sums[label])[:MOST_COLOURS]
+    styles: dict[str, dict[str, Any]] = {}
+    for label in sums:
+        if label in largest:
+            styles[label] = {'color': f'C{len([one for one in styles if one in largest])}', 'label': label}
+        else:
+            styles[label] = {'color': 'lightgrey'}
+    if rest := len(sums) - len(largest):
+        styles[next(label for label in sums if label not in largest)]['label'] = f'{rest} shorter parts'
+    for style in styles.values():
+        if style['color'] == 'C7':
+            style['color'] = f'C{MOST_COLOURS}'  # grey is for the rest
+    return styles
 
 
 class Plots:
@@ -112,17 +145,16 @@ class Plots:
         ax = _axes(ax)
         bars = [(f'p{percent}' if percent < 100 else 'max', ways[_rank(len(ways), percent)]) for percent in PERCENTS if ways]
         bottoms = [0.0] * len(bars)
-        labels = [label for label, _ in chain.parts(bars[-1][1][3])] if bars else []
-        for place, label in enumerate(labels):
-            heights = []
-            for _, way in bars:
-                parts = chain.parts(way[3])
-                heights.append(parts[place][1] / 1e6 if place < len(parts) else 0.0)
-            ax.bar([name for name, _ in bars], heights, bottom=bottoms, label=label)
+        parts = [chain.parts(way[3]) for _, way in bars]
+        styles = _colours({label: float(sum(of[place][1] for of in parts if place < len(of)))
+                           for place, (label, _) in enumerate(parts[-1] if parts else [])})
+        for place, (label, style) in enumerate(styles.items()):
+            heights = [of[place][1] / 1e6 if place < len(of) else 0.0 for of in parts]
+            ax.bar([name for name, _ in bars], heights, bottom=bottoms, **style)
             bottoms = [bottom + height for bottom, height in zip(bottoms, heights)]
-        ax.set(ylabel='ms', title=chain.name)
-        if labels:
-            ax.legend(fontsize='small')
+        ax.set(ylabel='ms', title=_title(chain))
+        if styles:
+            _legend_beside(ax)
         return ax
 
     def message_flow(self, chain: Chain, count: int = 50, ax: Any = None) -> Any:
@@ -137,17 +169,22 @@ class Plots:
             ax.plot(self._seconds(times), places, linewidth=1)
         ax.set_yticks(range(len(chain.steps)), [f'{step.node}, {step.callback}' for step in chain.steps])
         ax.invert_yaxis()
-        ax.set(xlabel='s', title=f'message flow of {chain.name}')
+        ax.set(xlabel='s')
+        ax.set_title(f'message flow of {_title(chain)}', loc='right')  # the names on the left are long
         return ax
 
-    def scheduling(self, begin_s: float = 0.0, seconds: float = 1.0, ax: Any = None) -> Any:
-        """Which callback ran when in which thread, from `begin_s` seconds after the begin of the trace on."""
+    def scheduling(self, begin_s: float | None = None, seconds: float = 1.0, ax: Any = None) -> Any:
+        """Which callback ran when in which thread, from `begin_s` seconds after the begin of the trace on, or else from the
+        first callback on."""
         run = self._run
         ax = _axes(ax)
+        if begin_s is None:
+            begin_s = (min(run.callback_instances.to_list('start_ns'), default=self._begin_ns) - self._begin_ns) / 1e9
         first = self._begin_ns + begin_s * 1e9
         last = first + seconds * 1e9
         labels = self._labels()
-        threads = run.threads.to_list('vtid')
+        names = run.processes.to_list('name')
+        threads = [f"{names[row['process']] or 'thread'} [{row['vtid']}]" for row in run.threads]
         bars: dict[int, dict[int, list[tuple[float, float]]]] = {}
         for callback, thread, start, duration in run.callback_instances.rows('callback', 'thread', 'start_ns',
                                                                              'duration_ns'):
@@ -158,10 +195,10 @@ class Plots:
             for thread, spans in by_thread.items():
                 ax.broken_barh(spans, (rows[thread] - 0.4, 0.8), color=f'C{number % 10}')
             ax.plot([], [], color=f'C{number % 10}', linewidth=6, label=labels[callback])
-        ax.set_yticks(list(rows.values()), [f'thread {threads[thread]}' for thread in rows])
+        ax.set_yticks(list(rows.values()), [threads[thread] for thread in rows])
         ax.set(xlabel='s', title='callbacks in threads')
         if bars:
-            ax.legend(fontsize='small')
+            _legend_beside(ax)
         return ax
 
     def outliers(self, chain: Chain, count: int = 10, ax: Any = None) -> Any:
@@ -170,14 +207,15 @@ class Plots:
         usual, slowest = outlier_parts(chain, count)
         bottoms = [0.0] * len(slowest)
         names = [f'{second:.3f} s' for second in self._seconds([begin for begin, _ in slowest])]
-        for label in usual:
-            heights = [max(parts.get(label, 0) - usual[label], 0) / 1e6 for _, parts in slowest]
-            ax.barh(names, heights, left=bottoms, label=label)
+        above = {label: [max(parts.get(label, 0) - usual[label], 0) / 1e6 for _, parts in slowest] for label in usual}
+        for label, style in _colours({label: sum(heights) for label, heights in above.items()}).items():
+            heights = above[label]
+            ax.barh(names, heights, left=bottoms, **style)
             bottoms = [bottom + height for bottom, height in zip(bottoms, heights)]
         ax.invert_yaxis()
-        ax.set(xlabel='ms above the median of the part', title=f'slowest of {chain.name}')
+        ax.set(xlabel='ms above the median of the part', title=f'slowest of {_title(chain)}')
         if usual:
-            ax.legend(fontsize='small')
+            _legend_beside(ax)
         return ax
 
 
