@@ -11,14 +11,26 @@ import subprocess
 LINE = re.compile(r'\[(\d+)\.(\d{9})\] \([^)]*\) (\S+) (\w+):(\w+): \{[^}]*\}, \{(.*?)\}, \{(.*)\}$')
 NAME = re.compile(r'procname = "((?:[^"\\]|\\.)*)"')
 NUMBER = re.compile(r'(\w+) = (-?(?:0x)?[0-9A-Fa-f]+)')
+LOST = re.compile(r'Tracer (?:discarded|lost) (\d+) (?:trace )?(event|packet)s? ')
+TEXT = re.compile(r'(\w+) = "((?:[^"\\]|\\.)*)"')
 ASKING = ('malloc', 'calloc', 'realloc', 'memalign', 'posix_memalign')
+
+
+def text_of(trace):
+    return subprocess.run(['babeltrace2', '--clock-seconds', trace], check=True, capture_output=True, text=True)
+
+
+def lost_of(trace):
+    """Events that were dropped and packets that were overwritten, as far as they were counted, of all streams."""
+    lost = collections.Counter()
+    for count, what in LOST.findall(text_of(trace).stderr):
+        lost[what] += int(count)
+    return lost['event'], lost['packet']
 
 
 def everything_of(trace):
     """(time, host, provider, event, name of the thread, numbers of the context and of the fields, text) in the order of time."""
-    run = subprocess.run(['babeltrace2', '--clock-seconds', trace], check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
-                         text=True)
-    for line in run.stdout.splitlines():
+    for line in text_of(trace).stdout.splitlines():
         match = LINE.match(line)
         assert match, line
         seconds, nanoseconds, host, provider, event, context, fields = match.groups()
@@ -27,26 +39,71 @@ def everything_of(trace):
         yield int(seconds) * 10**9 + int(nanoseconds), host, provider, event, name and name[1], numbers, fields
 
 
+class Starts:
+    """What the launcher's events tell of each process that it has started."""
+
+    def __init__(self):
+        self.spawned, self.processes, self.first = {}, {}, collections.defaultdict(dict)
+        self.node_of_rcl, self.topic_of = {}, {}
+
+    def of_launcher(self, event, numbers, fields):
+        texts = dict(TEXT.findall(fields))
+        if event == 'spawn':
+            self.spawned[texts['file'], numbers['line'], texts['process']] = numbers['time']
+        elif event == 'exec':
+            name, place = texts['process'].rpartition('-')[0], (texts['file'], numbers['line'])
+            self.processes[numbers['pid']] = texts['process'], *place, numbers['time'] - self.spawned[(*place, name)]
+
+    def of_process(self, time, process, event, numbers, fields):
+        first = self.first[process]
+        if event == 'rcl_init':
+            first.setdefault('init', time)
+        elif event == 'rcl_node_init':
+            first.setdefault('node', time)
+        elif event.startswith('rclcpp_executor_') and 'node' in first:
+            first.setdefault('ready', time)
+        elif event == 'callback_start':
+            first.setdefault('callback', time)
+        elif event == 'rcl_publisher_init':
+            topic = dict(TEXT.findall(fields))['topic_name']
+            self.topic_of[process, numbers['rmw_publisher_handle']] = self.topic_of[process, numbers['publisher_handle']] = topic
+        elif event in ('rmw_publish', 'rclcpp_intra_publish'):
+            handle = numbers['rmw_publisher_handle' if event == 'rmw_publish' else 'publisher_handle']
+            if self.topic_of.get((process, handle)) not in (None, '/rosout', '/parameter_events'):
+                first.setdefault('publication', time)
+
+    def rows(self):
+        return [(process, *told, *(self.first[process].get(what) for what in ('init', 'node', 'ready', 'callback', 'publication')))
+                for process, told in self.processes.items()]
+
+
 class Machines:
 
     def __init__(self, trace):
+        self.lost = lost_of(trace)
+        self.starts = Starts()
         self.events = collections.Counter()  # by process
         self.hosts = collections.defaultdict(set)  # processes
         self.host_of = {}
         self.names = {}  # of the main thread of each process
+        self.of_others = {}  # of any thread
         self.threads = set()
         self.asked = collections.defaultdict(lambda: [0, 0])  # by process, callback and begin: calls and bytes
         self.begin = self.end = None
         running = collections.defaultdict(list)
         publishers = set()
-        for time, host, provider, event, name, numbers, _ in everything_of(trace):
+        for time, host, provider, event, name, numbers, fields in everything_of(trace):
             process, thread = numbers['vpid'], (numbers['vpid'], numbers['vtid'])
-            if process == thread[1]:
+            if name and process == thread[1]:
                 self.names[process] = name
+            if name:
+                self.of_others.setdefault(process, name)
             self.host_of[process] = host
             self.hosts[host].add(process)
             if provider == 'launch':
+                self.starts.of_launcher(event, numbers, fields)
                 continue
+            self.starts.of_process(time, process, event, numbers, fields)
             self.begin = time if self.begin is None else self.begin
             self.end = time
             self.events[process] += 1
@@ -75,7 +132,10 @@ class Machines:
         return [(host, len(processes)) for host, processes in self.hosts.items()]
 
     def process_rows(self):
-        return [(process, self.names.get(process), host, self.events.get(process)) for process, host in self.host_of.items()]
+        return [(process, self.names.get(process, self.of_others.get(process)), host, self.events.get(process)) for process, host in self.host_of.items()]
+
+    def cost_rows(self):
+        return [(process, count) for process, count in self.events.items()]
 
     def allocation_rows(self):
         return [(*instance, *memory) for instance, memory in self.asked.items()]

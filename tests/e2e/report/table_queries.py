@@ -46,6 +46,10 @@ MACHINES = {
     'hosts': 'SELECT name, processes FROM hosts',
     'processes': 'SELECT vpid, name, host, events FROM processes',
     'threads': f'SELECT vpid, vtid FROM threads {of_process("threads")}',
+    'losses': 'SELECT coalesce(sum(events), 0), coalesce(sum(packets), 0) FROM losses',
+    'tracing_cost': 'SELECT vpid, events FROM tracing_cost',
+    'starts': '''SELECT vpid, process, file, line, exec_ns - spawn_ns, exec_ns + init_after_ns, exec_ns + node_after_ns,
+      exec_ns + ready_after_ns, exec_ns + callback_after_ns, exec_ns + publication_after_ns FROM starts''',
     'allocations': '''SELECT vpid, address, start_ns, allocations, allocated_bytes FROM allocations
       JOIN callback_instances ON callback_instance = callback_instances.id
       JOIN callbacks ON callback = callbacks.id JOIN processes ON process = processes.id''',

@@ -57,6 +57,8 @@ ROWS = {
     'goals': f'''SELECT action, {NODE}, sent_ns, answered_ns, asked_ns, result_ns FROM goals
       LEFT JOIN nodes ON client = nodes.id LEFT JOIN processes ON nodes.process = processes.id''',
 }
+# The verdict of the recording knows events that are gone. When a process began to run is known from later events of the launcher.
+KNOW_MORE = ('tracing_cost', 'starts')
 NOT_OF_ONE_PROCESS = ('messages', 'ways', 'calls', 'goals')
 STEPS = '''SELECT vpid, address FROM chain_steps JOIN callbacks ON callback_id = callbacks.id
   JOIN processes ON callbacks.process = processes.id WHERE chain = ? ORDER BY step'''
@@ -215,13 +217,16 @@ class TruthCase(unittest.TestCase):
         if machines:
             expected.append((MACHINES, {'trace': machines.trace_rows(), 'hosts': machines.host_rows(),
                                         'processes': machines.process_rows(), 'threads': sorted(machines.threads),
-                                        'allocations': machines.allocation_rows()}))
+                                        'allocations': machines.allocation_rows(), 'losses': [machines.lost],
+                                        'tracing_cost': machines.cost_rows(), 'starts': machines.starts.rows()}))
         with sqlite3.connect(file) as database:
             for queries, tables in expected:
                 for table, own in tables.items():
                     found = database.execute(queries[table]).fetchall()
                     if table in OF_ONE_PROCESS:
                         found, own = ([row for row in rows if row[0] in self.started] for rows in (found, own))
+                    if table in KNOW_MORE and not is_whole:
+                        continue
                     if table == 'node_statistics':
                         found = [row for row in found if row[:2] not in doubtful_nodes]
                     with self.subTest(table=table):

@@ -34,6 +34,22 @@ class Deliveries : public ::testing::Test {
   Feed feed;
 };
 
+TEST(DeliveriesOfAnUnknownNode, BelongToTheProcessThatTookThem) {
+  Feed feed;
+  feed.in(71, 71)(ros2::RclNodeInit{1, 0, "talker", "/"})(ros2::RmwPublisherInit{1, {}});
+  feed(ros2::RclPublisherInit{11, 1, 1, "/topic", 10}).at(1'000)(ros2::RmwPublish{1, 9, 777});
+  feed.in(72, 72)(ros2::RmwSubscriptionInit{2, {}})(ros2::RclSubscriptionInit{12, 1, 2, "/topic", 2});
+  feed(ros2::RclcppSubscriptionInit{12, 22})(ros2::RclcppSubscriptionCallbackAdded{22, 0xcb});
+  feed.at(1'100)(ros2::RmwTake{2, 9, 777, true});
+  feed.at(1'105)(ros2::CallbackStart{0xcb, false}).at(1'109)(ros2::CallbackEnd{0xcb});
+  const Ros2Results results = feed.results();
+  ASSERT_EQ(results.subscriptions.size(), 1u);
+  ASSERT_EQ(results.callbacks.size(), 1u);
+  EXPECT_EQ(results.subscriptions[0].node, "");
+  EXPECT_EQ(results.subscriptions[0].process, results.callbacks[0].process);
+  EXPECT_NE(results.subscriptions[0].process, results.nodes.at(0).process);
+}
+
 TEST_F(Deliveries, DivideTheTimeOfAMessageThatTheExecutorWaitsFor) {
   feed.in(72, 72).at(1'000)(ros2::RclcppExecutorWaitForWork{-1});
   feed.in(71, 71).at(2'000)(ros2::RclcppPublish{9}).at(2'001)(ros2::RclPublish{11, 9});

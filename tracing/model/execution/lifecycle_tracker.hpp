@@ -23,6 +23,7 @@ struct LifecycleRecord {
   bool ended = true;
   AllocationCount of_callbacks = {};  // of the node, in this state
   AllocationCount of_process = {};
+  ProcessId process = kNoProcess;
 };
 
 class LifecycleTracker {

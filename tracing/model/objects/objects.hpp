@@ -38,6 +38,7 @@ struct EndpointObject {  // publisher or subscription
   ObjectId topic = kNoObject;
   std::uint64_t queue_depth = 0;                        // as the program asked for it
   std::optional<ros2::EndpointQos> qos = std::nullopt;  // if the trace has it
+  ProcessId process = kNoProcess;                       // known even if the node is not
   bool operator==(const EndpointObject&) const = default;
 };
 

@@ -40,7 +40,7 @@ TopicResult topic_result(const Subjects& subjects, ObjectId id, const MessageMat
     result.intra_process_received += deliveries.subscriptions()[subscription].intra_process;
   }
   const auto of_topic = [id, &subjects](const EndpointObject& endpoint) {
-    return endpoint.topic == id && subjects.is_doubtful_node(endpoint.node);
+    return endpoint.topic == id && subjects.is_doubtful(subjects.place_of(endpoint.process));
   };
   result.doubtful = std::any_of(model.publishers().begin(), model.publishers().end(), of_topic) ||
                     std::any_of(model.subscriptions().begin(), model.subscriptions().end(), of_topic);
@@ -89,8 +89,8 @@ std::vector<SubscriptionResult> subscription_results(const Subjects& subjects, c
     }
     const EndpointObject& subscription = model.subscriptions()[id];
     SubscriptionResult result;
+    result.process = subjects.place_of(subscription.process);
     if (subscription.node != kNoObject) {
-      result.process = subjects.place_of(model.nodes()[subscription.node].process);
       result.node = model.nodes()[subscription.node].name;
     }
     result.topic = model.topics()[subscription.topic].name;
@@ -115,7 +115,7 @@ std::vector<SubscriptionResult> subscription_results(const Subjects& subjects, c
     result.take = record.take.summary();
     result.estimated = record.estimated;
     result.unidentified = record.unidentified;
-    result.doubtful = subjects.is_doubtful_node(subscription.node);
+    result.doubtful = subjects.is_doubtful(result.process);
     results.push_back(std::move(result));
   }
   std::stable_sort(results.begin(), results.end(), [](const SubscriptionResult& a, const SubscriptionResult& b) {

@@ -37,9 +37,6 @@ class Subjects {
   }
   // Whether events may be missing.
   bool is_doubtful(ProcessIndex process) const { return process < processes_.size() && processes_[process].doubtful; }
-  bool is_doubtful_node(ObjectId node) const {
-    return node != kNoObject && is_doubtful(place_of(model_.nodes()[node].process));
-  }
   // In a second, from the first to the last one. 0 for a burst: the time between them is less than a tenth of that from
   // the first one to the end of the trace.
   double rate(std::uint64_t count, std::int64_t first_ns, std::int64_t last_ns) const {
