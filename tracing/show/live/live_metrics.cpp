@@ -118,20 +118,26 @@ std::string LiveMetrics::text() const {
   };
   const std::vector<std::uint64_t> missed_of = analysis_.missed_periods();
   for (ObjectId id = 0; id < callbacks_.size(); ++id) {
-    if (callbacks_[id].count > 0) {
-      callbacks[labels_of_callback(id)].add(callbacks_[id]);
+    if (callbacks_[id].count == 0) {
+      continue;
     }
-    if (id < missed_of.size() && missed_of[id] > 0) {
-      missed[labels_of_callback(id)] += missed_of[id];
+    const std::string labels = labels_of_callback(id);
+    callbacks[labels].add(callbacks_[id]);
+    if (objects.callbacks()[id].owner == CallbackObject::Owner::kTimer) {
+      missed[labels] += id < missed_of.size() ? missed_of[id] : 0;  // from 0 on: who counts must see the first one
     }
   }
   const std::vector<std::uint64_t> dropped_of = analysis_.dropped_messages();
   for (ObjectId id = 0; id < std::max(latencies_.size(), dropped_of.size()); ++id) {
-    if (id < latencies_.size() && latencies_[id].count > 0) {
-      latencies[labels_of_subscription(id)].add(latencies_[id]);
+    const bool has_messages = id < latencies_.size() && latencies_[id].count > 0;
+    const std::uint64_t count = id < dropped_of.size() ? dropped_of[id] : 0;
+    if (!has_messages && count == 0) {
+      continue;
     }
-    if (id < dropped_of.size() && dropped_of[id] > 0) {
-      dropped[labels_of_subscription(id)] += dropped_of[id];
+    const std::string labels = labels_of_subscription(id);
+    dropped[labels] += count;
+    if (has_messages) {
+      latencies[labels].add(latencies_[id]);
     }
   }
 
