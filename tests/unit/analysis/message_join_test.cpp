@@ -107,6 +107,22 @@ TEST_F(MessageJoinTest, CountsInternalAndUnknownMessages) {
   EXPECT_EQ(join.counts().unknown_publications, 1u);
 }
 
+// As rmw_cyclonedds does for ros_discovery_info.
+TEST_F(MessageJoinTest, CountsWhatMiddlewareDoesForItselfWithoutTellingOfTheEndpoint) {
+  join.on({90, 0, 71}, ros2::RclInit{1, "8.2.0"});
+  join.on({95, 0, 71}, publishing, ros2::RclPublish{11, 9});
+  join.on({96, 0, 71}, publishing, ros2::RmwPublish{1, 9, 776});
+  join.on({97, 0, 72}, publishing, ros2::RclcppExecutorExecute{12});
+  join.on({110, 0, 73}, taking, ros2::RmwPublish{4, 9, 778});
+  join.on({120, 0, 73}, taking, ros2::RmwTake{5, 9, 778, true});
+  EXPECT_EQ(publications.size(), 1u);
+  EXPECT_EQ(join.counts().internal, 2u);
+  EXPECT_EQ(join.counts().unknown, 0u);
+  join.on({130, 0, 71}, publishing, ros2::RclPublish{14, 10});
+  join.on({131, 0, 71}, publishing, ros2::RmwPublish{6, 10, 779});
+  EXPECT_EQ(join.counts().unknown_in_whole, 1u) << "the program has published that";
+}
+
 TEST_F(MessageJoinTest, TellsTheLinksBetweenObjectsOfTheTrace) {
   join.on({100, 0, 71}, ros2::MessageLinkPartialSync{{12, 99}, {11}});
   ASSERT_EQ(links.size(), 1u);

@@ -69,7 +69,11 @@ void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::RmwP
     log = log_publisher(origin, thread, event.message);
     publisher = log.id == kNoObject ? publisher : RmwLookup{RmwHandle::kKnown, log.id};
   }
-  if (publisher.kind == RmwHandle::kInternal) {
+  // Some middleware does not tell of the endpoints that it makes for itself, and yet publishes and takes with them.
+  const bool is_whole = begun_.contains(origin.process);
+  const bool is_unasked = event.rmw_publisher_handle != 0 && tells_publishers_ && thread.rcl_message != event.message;
+  if (publisher.kind == RmwHandle::kInternal ||
+      (publisher.kind == RmwHandle::kUnknown && is_whole && is_unasked)) {
     ++counts_.internal;
   } else if (publisher.kind == RmwHandle::kUnknown) {
     if (event.rmw_publisher_handle == 0 && thread.rcl_message != event.message) {
@@ -125,7 +129,9 @@ void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::RmwT
     return;
   }
   const RmwLookup subscription = model_.rmw_subscription(origin.process, event.rmw_subscription_handle);
-  if (subscription.kind == RmwHandle::kInternal) {
+  const bool is_unasked = tells_executions_ && thread.executed == 0 && !thread.waits.is_known;
+  if (subscription.kind == RmwHandle::kInternal ||
+      (subscription.kind == RmwHandle::kUnknown && begun_.contains(origin.process) && is_unasked)) {
     ++counts_.internal;
   } else if (subscription.kind == RmwHandle::kUnknown) {
     count_unknown(origin);
