@@ -192,6 +192,7 @@ class Deliveries:
         self.untaken.pop(key, None)
         self.pending[thread] = Taken(subscription, publisher, place, False, self.is_executed(thread, subscription),
                                      len(self.sent_on[subscription.topic]))
+        self.executing.pop(thread, None)  # what is taken after it, the program takes
 
     def rclcpp_ring_buffer_enqueue(self, time, process, thread, f):
         object_ = self.object_of_buffer.get((process, f['buffer']))
@@ -269,6 +270,6 @@ class Deliveries:
 
     def quality_rows(self):
         """Of publishers and subscriptions, as the middleware has agreed to it."""
-        return [(kind, one.process, one.topic, None if one.is_reliable is None else int(one.is_reliable), one.history,
+        return [(kind, one.process if one.node else None, one.topic, None if one.is_reliable is None else int(one.is_reliable), one.history,
                  int(one.is_filtered) if kind == 'subscription' and one.is_reliable is not None else None)
                 for kind, table in (('publisher', self.publishers), ('subscription', self.subscriptions)) for one in table]

@@ -8,7 +8,7 @@ import collections
 import re
 import subprocess
 
-LINE = re.compile(r'\[(\d+)\.(\d{9})\] \([^)]*\) (\S+) (\w+):(\w+): \{[^}]*\}, \{(.*?)\}, \{(.*)\}$')
+LINE = re.compile(r'\[(\d+)\.(\d{9})\] \([^)]*\) ([^\s:]+)\S* (\w+):(\w+): \{[^}]*\}, \{(.*?)\}, \{(.*)\}$')
 NAME = re.compile(r'procname = "((?:[^"\\]|\\.)*)"')
 NUMBER = re.compile(r'(\w+) = (-?(?:0x)?[0-9A-Fa-f]+)')
 LOST = re.compile(r'Tracer (?:discarded|lost) (\d+) (?:trace )?(event|packet)s? ')
@@ -81,6 +81,9 @@ class Machines:
 
     def __init__(self, trace):
         self.lost = lost_of(trace)
+        # Of several recordings, verdicts count what is twice there, or not at all.
+        self.has_parts = (len(list(trace.rglob('verdict.json'))) > 1
+                          or any(path.name.startswith('snapshot-') for path in trace.rglob('*') if path.is_dir()))
         self.starts = Starts()
         self.events = collections.Counter()  # by process
         self.hosts = collections.defaultdict(set)  # processes

@@ -47,6 +47,8 @@ class Scheduler:
         turns = self.turns[cpu]
         if turns and turns[-1][0] == before:
             turns[-1][2] = time
+        elif turns:
+            turns.pop()  # some kernels pass over switches; until when it had the processor is not known
         turns.append([after, time, None])
 
     def change(self, now, thread, state, time, cpu):

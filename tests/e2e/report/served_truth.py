@@ -26,8 +26,9 @@ class Served:
         self.node_of, self.owner_of_rcl, self.object_of = {}, {}, {}  # by process and handle
         self.callbacks = {}  # kind, node, topic, service and period, by process and address
         self.executions = collections.defaultdict(lambda: [0, []])
-        self.is_reused = set()
-        executing = {}
+        self.owners = collections.defaultdict(set)  # of an address: another object may have it later
+        self.client_runs = []  # process, node, time that the callback took
+        executing, answering = {}, {}
         for time, name, f in events:
             if not name:
                 continue
@@ -54,6 +55,12 @@ class Served:
             elif name in ('rclcpp_service_callback_added', 'rclcpp_timer_callback_added'):
                 handle = f['service_handle' if 'service_handle' in f else 'timer_handle']
                 self.add(process, f['callback'], self.owner_of_rcl.get((process, handle)), handle)
+            elif name == 'rclcpp_client_callback_start':
+                answering[thread] = f['client_handle'], time
+            elif name == 'rclcpp_client_callback_end' and thread in answering:
+                handle, begin = answering.pop(thread)
+                self.client_runs.append((process, self.owner_of_rcl.get((process, handle), (None, None))[1], time - begin))
+                self.end_execution(executing, thread, name, time)
             elif name.startswith('rclcpp_executor_execute_'):
                 kind = name.removeprefix('rclcpp_executor_execute_')
                 handle = f['waitable' if kind == 'waitable' else f'{kind}_handle']
@@ -61,28 +68,35 @@ class Served:
                 served = process, node, kind, what, handle if kind == 'waitable' else None
                 self.executions[served][0] += 1
                 executing[thread] = served, time
-            elif thread in executing and name == ENDS.get(executing[thread][0][2]):
-                served, begin = executing.pop(thread)
-                self.executions[served][1].append(time - begin)
+            else:
+                self.end_execution(executing, thread, name, time)
+
+    def end_execution(self, executing, thread, name, time):
+        if thread in executing and name == ENDS.get(executing[thread][0][2]):
+            served, begin = executing.pop(thread)
+            self.executions[served][1].append(time - begin)
 
     def own(self, process, handle, owner):
         """The owner of the callbacks that were added to the object before is known."""
-        for key, (known, of_handle) in list(self.callbacks.items()):
+        for key, (_, of_handle) in list(self.callbacks.items()):
             if key[0] == process and of_handle == handle:
                 self.callbacks[key] = owner, handle
+                self.owners[key].add(owner)
 
     def add(self, process, callback, owner, handle=None):
-        before = self.callbacks.get((process, callback))
-        if before and before[0] != owner:
-            self.is_reused.add((process, callback))
         self.callbacks[process, callback] = owner, handle
+        if owner:
+            self.owners[process, callback].add(owner)
+
+    def is_reused(self, key):
+        return len({owner[1:] for owner in self.owners[key] if owner[1]}) > 1
 
     def callback_rows(self):
         """Of callbacks that ran, and whose address is that of no other one."""
         ran = {(one.process, one.callback) for one in self.rows.instances}
         rows = []
         for (process, callback), (owner, _) in self.callbacks.items():
-            if owner and (process, callback) in ran and (process, callback) not in self.is_reused:
+            if owner and (process, callback) in ran and not self.is_reused((process, callback)):
                 kind, node, what = owner
                 rows.append((process, callback, kind, node, what))
         return rows
@@ -96,11 +110,15 @@ class Served:
             if owner is None or owner[1] is None:
                 continue
             key = one.process, owner[1]
-            if (one.process, one.callback) in self.is_reused:
-                doubtful.add(key)
+            if self.is_reused((one.process, one.callback)):
+                doubtful |= {(one.process, node) for _, node, _ in self.owners[one.process, one.callback]}
             if one.end is not None and key in result:
                 result[key][0] += 1
                 result[key][1] += one.end - one.begin
+        for process, node, took in self.client_runs:
+            if (process, node) in result:
+                result[process, node][0] += 1
+                result[process, node][1] += took
         return [(*key, *sums) for key, sums in result.items() if key not in doubtful], doubtful
 
     def call_rows(self):

@@ -124,8 +124,8 @@ void SchedulerTracker::on_switch(const Event& event, const Plan& plan, ProcessId
     if (next.state == State::kRunnable && next.id && next.since_ns != 0) {
       other = longest_on(next.cpu, next.since_ns, event.timestamp_ns);
     }
-    next.cpu = cpu;
     change(next, State::kRunning, event.timestamp_ns, other);
+    next.cpu = cpu;
   }
 }
 

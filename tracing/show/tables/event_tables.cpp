@@ -181,7 +181,8 @@ Table state_table(System system) {
         "`running`, `runnable` (it waited for a processor), `blocked`"},
        {"begin_ns", kInteger, [](System, const ThreadState& state) { return Cell{state.begin_ns}; }},
        {"end_ns", kInteger, [](System, const ThreadState& state) { return Cell{state.end_ns}; }},
-       {"cpu", kInteger, [](System, const ThreadState& state) { return number(state.cpu); }},
+       {"cpu", kInteger, [](System, const ThreadState& state) { return number(state.cpu); },
+        "where it ran; of `runnable` and `blocked`: where it waited, the one that it was woken for, or had last"},
        {"other_tid", kInteger,
         [](System all, const ThreadState& state) {
           return state.other == kNone ? Cell{} : Cell{all.timeline.other_threads[state.other].tid};
