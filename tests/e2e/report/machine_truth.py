@@ -94,7 +94,7 @@ class Machines:
         self.asked = collections.defaultdict(lambda: [0, 0])  # by process, callback and begin: calls and bytes
         self.begin = self.end = None
         running = collections.defaultdict(list)
-        publishers = set()
+        publishers, subscriptions, published = {}, {}, set()
         for time, host, provider, event, name, numbers, fields in everything_of(trace):
             process, thread = numbers['vpid'], (numbers['vpid'], numbers['vtid'])
             if name and process == thread[1]:
@@ -111,7 +111,7 @@ class Machines:
             self.end = time
             self.events[process] += 1
             if event == 'rcl_publisher_init':
-                publishers.add((process, numbers['rmw_publisher_handle']))
+                publishers[process, numbers['rmw_publisher_handle']] = dict(TEXT.findall(fields))['topic_name']
             if event == 'callback_start':
                 running[thread].append((process, numbers['callback'], time))
             elif event == 'callback_end':
@@ -123,8 +123,15 @@ class Machines:
                 memory = self.asked[running[thread][-1]]
                 memory[0] += 1
                 memory[1] += numbers['size'] * numbers.get('nmemb', 1)
+            if event == 'rcl_subscription_init':
+                subscriptions[process, numbers['rmw_subscription_handle']] = dict(TEXT.findall(fields))['topic_name']
+            topic = subscriptions.get((process, numbers.get('rmw_subscription_handle')))
+            if event == 'rmw_take' and numbers['taken'] and (topic, numbers['source_timestamp']) in published:
+                self.threads.add(thread)
             if event == 'rmw_publish' and (process, numbers['rmw_publisher_handle']) not in publishers:
                 continue  # of the middleware itself
+            if event == 'rmw_publish':
+                published.add((publishers[process, numbers['rmw_publisher_handle']], numbers['timestamp']))
             if event in ('callback_start', 'rmw_publish', 'rclcpp_intra_publish', 'rclcpp_executor_wait_for_work'):
                 self.threads.add(thread)
 
