@@ -3,9 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <string>
-#include <string_view>
 
 #include "actions/process/resource_settings.hpp"
 
@@ -40,19 +38,8 @@ Setting<Limits> number_setting(const char* name, const char* fallback, std::uint
           }};
 }
 
-// "150%"
 void perform_quota(const Fields& fields, Scope& scope, Limits& limits) {
-  const std::string text = fields.text("cpu_quota").perform(scope);
-  double percent = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), percent);
-  constexpr double kLeast = 1;  // the kernel takes no less than a millisecond of a period
-  constexpr double kMost = 1e6;
-  if (error != std::errc() || std::string_view(end, text.data() + text.size()) != "%" || !(percent >= kLeast) ||
-      percent > kMost) {
-    throw LaunchError(fmt::format("'{}' is no share of a processor", text), fields.where("cpu_quota"),
-                      "write percents of one processor, from 1% on, such as 50% or 150%");
-  }
-  limits.cpu_quota = percent / 100;
+  limits.cpu_quota = parse_share(fields.text("cpu_quota").perform(scope), fields.where("cpu_quota"));
 }
 
 }  // namespace

@@ -161,6 +161,19 @@ std::uint64_t parse_bytes(const std::string& text, const SourceRange& where) {
   return value << shift;
 }
 
+double parse_share(const std::string& text, const SourceRange& where) {
+  double percent = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), percent);
+  constexpr double kLeast = 1;  // the kernel takes no less than a millisecond of a period
+  constexpr double kMost = 1e6;
+  if (error != std::errc() || std::string_view(end, text.data() + text.size()) != "%" || !(percent >= kLeast) ||
+      percent > kMost) {
+    throw LaunchError(fmt::format("'{}' is no share of a processor", text), where,
+                      "write percents of one processor, from 1% on, such as 50% or 150%");
+  }
+  return percent / 100;
+}
+
 const std::vector<Setting<ResourceLimits>>& resource_settings() {
   static const std::vector<Setting<ResourceLimits>> settings = {
       {.attribute = {"nice", AttributeType::kInteger, false, "the launcher's", "niceness, from -20 (urgent) to 19",

@@ -7,10 +7,12 @@
 #include <sys/un.h>
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <limits>
 
+#include "actions/process/resource_settings.hpp"
 #include "actions/values/ros_condition.hpp"
 #include "actions/values/ros_names.hpp"
 #include "launcher/language/output_pattern.hpp"
@@ -55,6 +57,17 @@ const std::vector<KindAttribute>& kind_attributes() {
       {{"watchdog", Type::kBoolean, false, "false",
         "with notify: true: once it is ready, the process must also say WATCHDOG=1 in each timeout", true},
        "notify"},
+      {{"max_memory", Type::kText, false, "",
+        "with memory: resident memory of the process alone, in bytes, or with K, M or G", true},
+       "memory"},
+      {{"max_growth", Type::kText, false, "",
+        "with memory: so much more than at the first look after start_period, likewise", true},
+       "memory"},
+      {{"max_load", Type::kText, false, "",
+        "with load: time of processors of the process alone over each timeout, in percents of one processor, such as "
+        "150%",
+        true},
+       "load"},
   };
   return attributes;
 }
@@ -103,6 +116,22 @@ LifecycleState perform_lifecycle(const Fields& fields, Scope& scope, const Proce
                       "give node=\"…\", or a name to the node of the process", Finding::kMissingAttribute);
   }
   return {process.other_names.back(), std::move(state)};
+}
+
+MemoryStays perform_memory(const Fields& fields, Scope& scope) {
+  MemoryStays memory;
+  const auto perform = [&](const char* name, std::optional<std::uint64_t>& bytes) {
+    if (fields.has(name)) {
+      bytes = parse_bytes(fields.text(name).perform(scope), fields.where(name));
+    }
+  };
+  perform("max_memory", memory.most);
+  perform("max_growth", memory.most_growth);
+  return memory;
+}
+
+LoadStays perform_load(const Fields& fields, Scope& scope) {
+  return {.most = parse_share(fields.text("max_load").perform(scope), fields.where("max_load"))};
 }
 
 bool is_address(const std::string& text) {
@@ -198,8 +227,8 @@ Duration default_interval(const HealthWatch& watch) {
 }  // namespace
 
 const std::vector<std::string>& watch_kinds() {
-  static const std::vector<std::string> kinds = {"executor", "output",    "blocked", "command", "topic",
-                                                 "service",  "lifecycle", "port",    "notify"};
+  static const std::vector<std::string> kinds = {"executor",  "output", "blocked", "command", "topic", "service",
+                                                 "lifecycle", "port",   "notify",  "memory",  "load"};
   return kinds;
 }
 
@@ -228,6 +257,16 @@ void check_watch_subject(const Fields& fields, const std::string& kind) {
     require(fields, kind, "topic", "topic");
   } else if (kind == "service") {
     require(fields, kind, "service", "service");
+  } else if (kind == "memory" && !fields.has("max_memory") && !fields.has("max_growth")) {
+    throw LaunchError("a watch of kind=\"memory\" needs max_memory or max_growth", fields.where("kind"),
+                      "give max_memory=\"500M\"", Finding::kMissingAttribute);
+  } else if (kind == "memory" && is_literal_or_missing("max_memory") && is_literal_or_missing("max_growth")) {
+    perform_memory(fields, nothing);
+  } else if (kind == "load") {
+    require(fields, kind, "max_load", "load");
+    if (is_literal_or_missing("max_load")) {
+      perform_load(fields, nothing);
+    }
   } else if (kind == "port") {
     check_port(fields);
   } else if (kind == "lifecycle" && is_literal_or_missing("lifecycle_state")) {
@@ -267,6 +306,12 @@ WatchSubject perform_watch_subject(const Fields& fields, const std::string& kind
   }
   if (kind == "port") {
     return perform_port(fields, scope);
+  }
+  if (kind == "memory") {
+    return perform_memory(fields, scope);
+  }
+  if (kind == "load") {
+    return perform_load(fields, scope);
   }
   if (kind == "notify") {
     return Notifies{.watchdog = fields.boolean("watchdog", false).perform(scope)};

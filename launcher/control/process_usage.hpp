@@ -6,23 +6,15 @@
 
 #include <condition_variable>
 #include <cstddef>
-#include <cstdint>
 #include <mutex>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <thread>
 #include <vector>
 
+#include "base/processes/process_usage.hpp"
+
 namespace launch {
-
-struct ProcessUsage {
-  double cpu = 0;            // seconds of processor time of all its threads
-  std::uint64_t memory = 0;  // bytes that are resident, shared ones included
-  bool stopped = false;      // by a signal or a debugger
-};
-
-// Nothing when the process has gone.
-std::optional<ProcessUsage> read_process_usage(pid_t pid);
 
 // Reads the usage of many processes. The kernel takes microseconds for each, so other threads begin while the caller
 // still adds processes. For use by one thread.

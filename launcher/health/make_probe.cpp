@@ -18,6 +18,7 @@
 #include "launcher/health/output_probe.hpp"
 #include "launcher/health/port_probe.hpp"
 #include "launcher/health/topic_probe.hpp"
+#include "launcher/health/usage_probe.hpp"
 
 namespace launch {
 namespace {
@@ -69,6 +70,10 @@ std::unique_ptr<HealthProbe> HealthMonitor::make_probe(const HealthWatch& watch,
                                              state.state, watch.timeout);
       },
       [&](const PortAccepts& port) -> Made { return std::make_unique<PortProbe>(loop_, port, watch.timeout, later); },
+      [&](const MemoryStays& memory) -> Made {
+        return std::make_unique<MemoryProbe>(memory, watch.timeout, watch.start_period);
+      },
+      [&](const LoadStays& load) -> Made { return std::make_unique<LoadProbe>(load, watch.timeout); },
       [&](const Notifies& notifies) -> Made { return make_notify_probe(watch, notifies.watchdog, spec, id, number); },
   };
   return std::visit(make, watch.subject);

@@ -19,6 +19,8 @@ std::string_view kind_of(const HealthWatch& watch) {
                         [](const LifecycleState&) { return "lifecycle"; },
                         [](const PortAccepts&) { return "port"; },
                         [](const Notifies&) { return "notify"; },
+                        [](const MemoryStays&) { return "memory"; },
+                        [](const LoadStays&) { return "load"; },
                     },
                     watch.subject);
 }
@@ -29,6 +31,11 @@ std::string address_of(const PortAccepts& port) {
   }
   const bool has_colons = port.host.find(':') != std::string::npos;
   return fmt::format("{}{}{}:{}", has_colons ? "[" : "", port.host, has_colons ? "]" : "", port.port);
+}
+
+std::string size_text(std::uint64_t bytes) {
+  constexpr double kMebi = 1024.0 * 1024.0;
+  return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / kMebi);
 }
 
 std::string_view to_string(OnUnhealthy reaction) {
@@ -80,6 +87,20 @@ std::string describe(const HealthWatch& watch) {
           [&](const Notifies& notifies) {
             return fmt::format("it says within {} s that it is ready{}", timeout,
                                notifies.watchdog ? ", and then as often that it lives" : "");
+          },
+          [&](const MemoryStays& memory) {
+            std::string limits;
+            if (memory.most) {
+              limits = fmt::format("does not have more than {} of memory", size_text(*memory.most));
+            }
+            if (memory.most_growth) {
+              limits += fmt::format("{}does not grow by more than {}", limits.empty() ? "" : " and ",
+                                    size_text(*memory.most_growth));
+            }
+            return fmt::format("it {} for {} s", limits, timeout);
+          },
+          [&](const LoadStays& load) {
+            return fmt::format("it uses at most {:.0f} % of a processor, over {} s", load.most * 100, timeout);
           },
       },
       watch.subject);

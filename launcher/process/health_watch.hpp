@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -63,8 +64,18 @@ struct Notifies {
   bool watchdog = false;
 };
 
+// The process does not have more resident memory than this, in bytes, for the time-out.
+struct MemoryStays {
+  std::optional<std::uint64_t> most;
+  std::optional<std::uint64_t> most_growth;  // since the first look after the start period
+};
+// Over each time-out, the threads of the process do not use more than this share of one processor.
+struct LoadStays {
+  double most = 0;
+};
+
 using WatchSubject = std::variant<ExecutorProgress, OutputLines, NotBlocked, CommandSucceeds, TopicIsPublished,
-                                  ServiceAnswers, LifecycleState, PortAccepts, Notifies>;
+                                  ServiceAnswers, LifecycleState, PortAccepts, Notifies, MemoryStays, LoadStays>;
 
 // What follows when the process gets unhealthy.
 enum class OnUnhealthy { kNothing, kRestart, kSignal, kShutdown };
@@ -82,6 +93,9 @@ struct HealthWatch {
 
 // "127.0.0.1:8080", "[::1]:8080", "/run/map.sock"
 std::string address_of(const PortAccepts& port);
+
+// "512.0 MiB"
+std::string size_text(std::uint64_t bytes);
 
 // "executor", "output", "blocked", "command" and so on: the word of a launch file.
 std::string_view kind_of(const HealthWatch& watch);
