@@ -118,11 +118,13 @@ std::vector<Setting<TraceRequest>> make_trace_settings() {
        .place = at(&Config::session_name),
        .perform = perform_session_name,
        .shown = "session-name"},
-      {.attribute = {"append-timestamp", Type::kBoolean, false, "false", "append -YYYYMMDDHHMMSS to the name"},
+      {.attribute = {"append-timestamp", Type::kBoolean, false, "false",
+                     "append -YYYYMMDDHHMMSS to the name, and -2, -3, … if another launch has it"},
        .perform =
            [](const Fields& fields, Scope& scope, TraceRequest& request) {
              if (fields.boolean("append-timestamp", false).perform(scope)) {
                request.config.session_name += tracing::session_timestamp();
+               request.config.has_timestamp = true;
              }
            }},
       {.attribute = {"base-path", Type::kText, false, "$ROS_TRACE_DIR, $ROS_HOME/tracing or ~/.ros/tracing",

@@ -158,6 +158,23 @@ std::string files_of(const Json& answer) {
   return names;
 }
 
+namespace {
+
+// Whether the launch has the file: by its name, or by a path, from here or absolute.
+bool is_file_of(const Json& answer, const std::string& wanted) {
+  std::error_code unknown;
+  const std::filesystem::path path = std::filesystem::weakly_canonical(wanted, unknown);
+  const std::string files = files_of(answer);
+  const Json& paths = answer.at("launch").at("files");
+  return (", " + files + ", ").find(", " + wanted + ", ") != std::string::npos ||
+         std::any_of(paths.begin(), paths.end(), [&](const Json& file) {
+           const auto& text = file.get_ref<const std::string&>();
+           return text == wanted || (!path.empty() && std::filesystem::weakly_canonical(text, unknown) == path);
+         });
+}
+
+}  // namespace
+
 ControlClient choose_launch(const Environment& environment, const std::string& wanted) {
   std::vector<ControlClient> all;
   for (FoundLaunch& found : find_launches(environment, WhoseLaunches::kAll)) {
@@ -179,8 +196,11 @@ ControlClient choose_launch(const Environment& environment, const std::string& w
       return std::move(client);
     }
     std::string files;
+    bool named = false;
     try {
-      files = files_of(client.ask("info"));
+      const Json answer = client.ask("info");
+      files = files_of(answer);
+      named = is_file_of(answer, wanted);
     } catch (const ControlError& error) {
       if (client.ended()) {
         continue;
@@ -188,7 +208,6 @@ ControlClient choose_launch(const Environment& environment, const std::string& w
       files = error.what();
     }
     list += fmt::format("\n  {:<8} {}{}", client.pid(), files, is_own(client) ? "" : ", of " + client.user());
-    const bool named = (", " + files + ", ").find(", " + wanted + ", ") != std::string::npos;
     if ((wanted.empty() && has_own) || wanted == std::to_string(client.pid()) || named) {
       chosen.push_back(std::move(client));
     }

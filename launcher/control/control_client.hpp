@@ -72,7 +72,7 @@ class ControlClient {
 };
 
 // The launch that is meant: the only one of this user that runs, or the one of this number or with a launch file of
-// this name, for root also of another user. Throws ControlError.
+// this name or path, for root also of another user. Throws ControlError.
 ControlClient choose_launch(const Environment& environment, const std::string& wanted);
 // "system.launch.xml, left.launch.xml", of an answer to "info" or "ps".
 std::string files_of(const ControlClient::Json& answer);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <regex>
 #include <set>
 #include <utility>
 #include <variant>
@@ -14,21 +15,11 @@
 namespace launch {
 namespace {
 
-// The settings of a scope as one text. A time in a name differs in each reading.
+// The settings of a scope as one text. A time in a name differs in each reading, and may have a number behind it.
 std::string text_of(const RunScope& scope) {
+  static const std::regex time("[0-9]{14}(-[0-9]+)?");  // YYYYMMDDHHMMSS
   std::string text = scope.kind();
-  const auto add = [&text](std::string_view value) {
-    constexpr std::size_t kTimestamp = 14;  // YYYYMMDDHHMMSS
-    std::size_t digits = 0;
-    for (const char character : value) {
-      text += character;
-      digits = character >= '0' && character <= '9' ? digits + 1 : 0;
-      if (digits == kTimestamp) {
-        text.resize(text.size() - kTimestamp);
-      }
-    }
-    text += '\n';
-  };
+  const auto add = [&text](const std::string& value) { text += std::regex_replace(value, time, "") + '\n'; };
   for (const ShownSetting& setting : scope.describe()) {
     add(setting.name);
     std::visit(

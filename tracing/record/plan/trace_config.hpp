@@ -61,8 +61,9 @@ struct TracetoolsUse {
 
 // Events are given as the text of an event rule (event_rule.hpp), in the simplest case the name.
 struct TraceConfig {
-  std::string session_name;  // final: any time stamp already appended
-  std::string base_path;     // absolute directory that will hold the trace directory
+  std::string session_name;    // any time stamp already appended
+  bool has_timestamp = false;  // a run may append a number (free_name.hpp)
+  std::string base_path;       // absolute directory that will hold the trace directory
   bool append_trace = false;
   bool fail_on_loss = false;  // lost events are a failure of the run
   std::vector<std::string> events_ust = default_ros_events();

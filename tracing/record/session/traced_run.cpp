@@ -19,6 +19,7 @@
 #include "tracing/record/lttng/installed_program.hpp"
 #include "tracing/record/plan/preload.hpp"
 #include "tracing/record/plan/trace_error.hpp"
+#include "tracing/record/session/free_name.hpp"
 #include "tracing/record/session/overhead_watch.hpp"
 
 namespace tracing {
@@ -84,6 +85,7 @@ TracedRun::TracedRun(TraceConfig config, std::unique_ptr<Tracer> tracer, std::st
 }
 
 std::vector<std::string> TracedRun::clean_up_command() {
+  name_ = claim_free_name(config_);
   counters_ = CounterDirectory::shared();
   config_.event_counters = counters_ ? counters_->path().string() : "";
   // The command is chosen before the session is created. A session that has the name already belongs to somebody else.

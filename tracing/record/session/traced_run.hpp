@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "base/files/unique_fd.hpp"
 #include "tracing/model/chains/chain_definition.hpp"
 #include "tracing/record/account/counters/counter_directory.hpp"
 #include "tracing/record/account/loss_account.hpp"
@@ -71,7 +72,8 @@ class TracedRun {
   void warn(std::string warning) { setup_.warnings.push_back(std::move(warning)); }
 
   // The command that releases what start() takes when this process is killed before finish(). Call it once, before
-  // start(), and only if there will be a run: it makes the directory of counters.
+  // start(), and only if there will be a run: it makes the directory of counters, and chooses the name of a session
+  // that has a time stamp.
   std::vector<std::string> clean_up_command();
 
   // Begins the session, its flight recorder and the guard of max-overhead. Throws TraceError; nothing is left then.
@@ -114,7 +116,8 @@ class TracedRun {
   std::unique_ptr<Tracer> tracer_;
   std::string prefix_;
   RunChoices choices_;
-  std::int64_t created_;  // when this run was made, in seconds since the epoch
+  std::int64_t created_;   // when this run was made, in seconds since the epoch
+  launch::UniqueFd name_;  // claims that of the session, if it has a time stamp
   std::vector<std::string> preload_;
   std::shared_ptr<CounterDirectory> counters_;
   SetupReport setup_;
