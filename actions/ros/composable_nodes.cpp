@@ -43,8 +43,10 @@ void find_missing_plugin(const ComposableNode& node, const Environment& environm
   std::ifstream file(registrations_of(prefix, node.package));
   if (!file) {
     context.exploration().remark(
-        {Severity::kError, fmt::format("package '{}' registers no components", node.package), package_where,
-         fmt::format("'{}' does not exist", registrations_of(prefix, node.package).string()), Finding::kMissingPlugin});
+        {Severity::kError, fmt::format("no component of package '{}' is installed", node.package), package_where,
+         fmt::format("'{}' does not exist; the build of the package writes it (rclcpp_components_register_nodes)",
+                     registrations_of(prefix, node.package).string()),
+         Finding::kMissingPlugin});
     return;
   }
   std::vector<std::string> plugins;

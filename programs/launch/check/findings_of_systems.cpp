@@ -52,8 +52,8 @@ constexpr FindingInfo kRowsOfSystems[] = {
     rate: 10.0
 )x"},
     {Finding::kMissingPlugin, "Plugin not found", Severity::kError,
-     "A container can't load the component: the package registers no components, none of its libraries has a plugin of "
-     "this name, or the library does not exist.",
+     "A container can't load the component: no component of the package is installed, none of its libraries has a "
+     "plugin of this name, or the library does not exist.",
      R"x(<launch>
   <node_container pkg="rclcpp_components" exec="component_container" name="parts" namespace="">
     <composable_node pkg="composition" plugin="composition::Talkr" name="talker"/>
