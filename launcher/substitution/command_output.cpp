@@ -9,10 +9,16 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "base/files/pipe.hpp"
 #include "base/files/unique_fd.hpp"
@@ -52,12 +58,27 @@ class HeldSignals {
   UniqueFd arrived_;
 };
 
-[[noreturn]] void interrupt(pid_t pid) {
-  ::kill(pid, SIGTERM);
+// Sends the signal to the command and to what it has started. The command has no process group of its own: it may ask
+// for a password on the terminal.
+void signal_all(pid_t pid, int signal) {
+  std::ifstream list(fmt::format("/proc/{0}/task/{0}/children", pid));
+  const std::vector<pid_t> children{std::istream_iterator<pid_t>(list), {}};
+  ::kill(pid, signal);
+  for (const pid_t child : children) {
+    signal_all(child, signal);
+  }
+}
+
+void end_command(pid_t pid) {
+  signal_all(pid, SIGTERM);
   if (!ends_within(pid, std::chrono::seconds(1))) {
-    ::kill(pid, SIGKILL);
+    signal_all(pid, SIGKILL);
   }
   wait_for(pid);
+}
+
+[[noreturn]] void interrupt(pid_t pid) {
+  end_command(pid);
   throw std::runtime_error("interrupted by a signal");
 }
 
@@ -74,7 +95,7 @@ bool read_some(int fd, std::string& text) {
 }  // namespace
 
 CommandOutput capture_command(const std::string& program, const std::vector<std::string>& argv,
-                              const Environment& environment, bool merge_error) {
+                              const Environment& environment, const CommandRules& rules) {
   const HeldSignals held;
   Pipe out = make_pipe();
   Pipe error = make_pipe();
@@ -86,7 +107,7 @@ CommandOutput capture_command(const std::string& program, const std::vector<std:
         .environment = &environment.variables(),
         .descriptors = {{STDIN_FILENO, kDevNull},
                         {STDOUT_FILENO, out.write.get()},
-                        {STDERR_FILENO, (merge_error ? out : error).write.get()}},
+                        {STDERR_FILENO, (rules.merge_error ? out : error).write.get()}},
         // The launcher blocks signals that its loop reads; a program expects none to be blocked.
         .signals = ChildSignals::kNoneBlocked,
     });
@@ -100,8 +121,26 @@ CommandOutput capture_command(const std::string& program, const std::vector<std:
   std::array<pollfd, 3> streams = {
       {{out.read.get(), POLLIN, 0}, {error.read.get(), POLLIN, 0}, {held.descriptor(), POLLIN, 0}}};
   std::array<std::string*, 2> texts = {&output.text, &output.error};
+  const auto give_up = [&](CommandOutput::GivenUp why) {
+    end_command(pid);
+    output.given_up = why;
+    return std::move(output);
+  };
+  const auto begin = std::chrono::steady_clock::now();
+  const auto patience = [&] {
+    if (!rules.limit) {
+      return -1;
+    }
+    const auto left =
+        std::chrono::ceil<std::chrono::milliseconds>(begin + *rules.limit - std::chrono::steady_clock::now());
+    return static_cast<int>(std::clamp<std::int64_t>(left.count(), 0, std::numeric_limits<int>::max()));
+  };
   while (streams[0].fd >= 0 || streams[1].fd >= 0) {
-    if (::poll(streams.data(), streams.size(), -1) < 0) {
+    const int ready = ::poll(streams.data(), streams.size(), patience());
+    if (ready == 0 && patience() == 0) {
+      return give_up(CommandOutput::GivenUp::kTookTooLong);
+    }
+    if (ready <= 0) {
       continue;
     }
     if (streams[2].revents != 0) {
@@ -112,10 +151,20 @@ CommandOutput capture_command(const std::string& program, const std::vector<std:
         streams[i].fd = -1;  // poll() skips it
       }
     }
+    if (output.text.size() + output.error.size() > kLargestCommandOutput) {
+      return give_up(CommandOutput::GivenUp::kWroteTooMuch);
+    }
+    if (patience() == 0) {
+      return give_up(CommandOutput::GivenUp::kTookTooLong);  // it writes all the time
+    }
   }
   const UniqueFd process(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
   std::array<pollfd, 2> end = {{{process.get(), POLLIN, 0}, {held.descriptor(), POLLIN, 0}}};
-  while (process && ::poll(end.data(), end.size(), -1) < 0) {
+  for (int ready = -1; process && ready <= 0;) {
+    ready = ::poll(end.data(), end.size(), patience());
+    if (ready == 0 && patience() == 0) {
+      return give_up(CommandOutput::GivenUp::kTookTooLong);
+    }
   }
   if (end[0].revents == 0 && end[1].revents != 0) {
     interrupt(pid);

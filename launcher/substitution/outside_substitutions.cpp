@@ -9,6 +9,7 @@
 #include <random>
 #include <sstream>
 
+#include "launcher/python/interpreter/python_guest.hpp"
 #include "launcher/python/interpreter/python_module.hpp"
 #include "launcher/substitution/command_output.hpp"
 #include "launcher/substitution/substitution_call.hpp"
@@ -23,6 +24,14 @@ namespace {
 std::string last_line(std::string text) {
   text.erase(text.find_last_not_of("\r\n") + 1);
   return text.substr(text.find_last_of('\n') + 1);
+}
+
+PythonPlace python_place(const SourceRange& where) {
+  if (where.file == nullptr) {
+    return {};
+  }
+  const SourceFile::Position position = where.file->position(where.begin);
+  return {where.file->path(), position.line, position.column};
 }
 
 }  // namespace
@@ -63,11 +72,20 @@ std::string command(const SubstitutionCall& call) {
   }
   CommandOutput output;
   try {
-    output = capture_command(program, words, call.scope().environment, on_stderr == "capture");
+    output = capture_command(program, words, call.scope().environment,
+                             {.merge_error = on_stderr == "capture", .limit = command_limit()});
   } catch (const std::runtime_error& error) {
     call.fail(fmt::format("executing command '{}' failed: {}", line, error.what()), {}, Finding::kExpression);
   }
   const std::string said = output.error.empty() ? std::string() : fmt::format("it wrote: {}", last_line(output.error));
+  if (output.given_up != CommandOutput::GivenUp::kNot) {
+    const bool took_too_long = output.given_up == CommandOutput::GivenUp::kTookTooLong;
+    call.fail(took_too_long ? fmt::format("executing command '{}' failed: it runs for more than {} s, and was ended",
+                                          line, command_limit()->count())
+                            : fmt::format("executing command '{}' failed: it wrote more than {} MiB, and was ended",
+                                          line, kLargestCommandOutput >> 20U),
+              took_too_long ? "--python-seconds gives it more time" : "", Finding::kExpression);
+  }
   if (output.status != 0) {
     call.fail(fmt::format("executing command '{}' failed: {}", line, describe_status(output.status)),
               said.empty() ? "it wrote nothing to standard error" : said, Finding::kExpression);
@@ -87,9 +105,9 @@ std::string command(const SubstitutionCall& call) {
 std::string eval(const SubstitutionCall& call) {
   const std::string expression = call.text(0);
   try {
-    return evaluate_python(expression, call.has(1) ? call.text(1) : "math");
-  } catch (const std::runtime_error& error) {
-    std::string help;
+    return evaluate_python(expression, call.has(1) ? call.text(1) : "math", python_place(call.where(0)));
+  } catch (const EvaluationError& error) {
+    std::string help = error.help;
     for (const char* const word : {"true", "false"}) {
       if (std::string_view(error.what()).find(fmt::format("name '{}' is not defined", word)) !=
           std::string_view::npos) {

@@ -18,12 +18,16 @@ Subcommand::Subcommand(const std::string& name, const std::string& description)
 Subcommand::~Subcommand() = default;
 
 void add_python_limits(CLI::App& app, PythonLimits& limits) {
-  app.add_option("--python-seconds", limits.seconds,
-                 "how long Python of a launch file may run at once where it is only looked at, 60 by default")
+  app.add_option(
+         "--python-seconds", limits.seconds,
+         "how long Python of a launch file, or a $(command …), may take at once; 60 by default where the file is "
+         "only looked at, and for $(eval …)")
       ->type_name("N")
-      ->check(CLI::Range(1U, 86400U));
+      ->check(CLI::Range(1U, 86400U))
+      ->each([&limits](const std::string&) { limits.seconds_given = true; });
   app.add_option("--python-memory", limits.memory,
-                 "how much memory it may take there: bytes, or with K, M or G; 2G by default")
+                 "how much memory Python may take where a launch file is only looked at, and for $(eval …): bytes, or "
+                 "with K, M or G; 2G by default")
       ->type_name("SIZE")
       ->transform(CLI::AsSizeValue(false));
 }

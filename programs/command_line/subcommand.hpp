@@ -24,9 +24,11 @@ struct LaunchTarget {
   std::vector<std::pair<std::string, std::string>> arguments;
 };
 
-// What a command that only looks at launch files lets Python take for one call (run_python_in_a_guest()).
+// What a command that only looks at launch files lets Python take for one call (run_python_in_a_guest()). In a run,
+// launch files have no limit of memory, and one of time only if the user gives it (python_watch.hpp).
 struct PythonLimits {
   unsigned seconds = 60;
+  bool seconds_given = false;
   std::uint64_t memory = 2ULL << 30U;  // bytes
 };
 

@@ -24,13 +24,13 @@ namespace {
 constexpr std::size_t kNeverWaits = 4096;
 
 // A screen that is not read must not stop the guardian: it loses lines then, and launch.log has them.
-void write_to_screen(std::string_view text) {
+void write_to_screen(std::string_view text, int screen = STDOUT_FILENO) {
   while (!text.empty()) {
-    pollfd writable{STDOUT_FILENO, POLLOUT, 0};
+    pollfd writable{screen, POLLOUT, 0};
     if (::poll(&writable, 1, 0) != 1 || (writable.revents & POLLOUT) == 0) {
       return;
     }
-    const ssize_t written = ::write(STDOUT_FILENO, text.data(), std::min(text.size(), kNeverWaits));
+    const ssize_t written = ::write(screen, text.data(), std::min(text.size(), kNeverWaits));
     if (written <= 0) {
       return;
     }
@@ -52,6 +52,11 @@ void GuardianLog::erase_status_line() {
 
 void GuardianLog::say(std::string_view level, std::string_view text) {
   write("[" + std::string(level) + "] [launch]: " + std::string(text) + "\n", true);
+}
+
+void GuardianLog::error(std::string_view text) {
+  write_to_screen(text, STDERR_FILENO);
+  write(text, false);
 }
 
 void GuardianLog::write_line(std::string_view label, std::string_view line, bool on_screen) {

@@ -25,6 +25,8 @@ class GuardianLog {
 
   // A message of the launcher: "[WARNING] [launch]: text".
   void say(std::string_view level, std::string_view text);
+  // An error of a launch file, with its lines.
+  void error(std::string_view text);
   // A line of a process.
   void write_line(std::string_view label, std::string_view line, bool on_screen);
 

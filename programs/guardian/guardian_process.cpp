@@ -121,10 +121,23 @@ void GuardianProcess::note_end(pid_t pid, int status) {
   }
 }
 
+void GuardianProcess::tell(const DeathInPython& death) const {
+  GuardianLog log;
+  if (const std::string path = read_records(launch_.records).log; !path.empty()) {
+    log.open(path);
+  }
+  log.error(death.error);
+}
+
 void GuardianProcess::finish() {
-  const std::string ended = status_ ? launcher_ended(*status_) : "the launcher has ended";
-  if (!status_ || WIFSIGNALED(*status_)) {
+  std::string ended = status_ ? launcher_ended(*status_) : "the launcher has ended";
+  const std::optional<DeathInPython> death = status_ ? death_in_python(launch_.records, *status_) : std::nullopt;
+  if (!status_ || WIFSIGNALED(*status_) || death) {
     GuardianLog::erase_status_line();
+  }
+  if (death) {
+    tell(*death);
+    ended = "Python has ended the launcher";
   }
   LaunchMembers members = members_below(launch_);
   members.spare = spare_;
@@ -153,6 +166,9 @@ void GuardianProcess::finish() {
   }
   reap();  // the launcher, if the spare has never told of its end
   status_ = status_.value_or(EXIT_FAILURE << 8);
+  if (death && (death->by_launcher || *status_ == 0)) {
+    status_ = EXIT_FAILURE << 8;
+  }
 }
 
 }  // namespace launch

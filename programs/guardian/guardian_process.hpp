@@ -11,6 +11,7 @@
 
 #include "base/files/unique_fd.hpp"
 #include "base/terminal/terminal.hpp"
+#include "programs/guardian/death_in_python.hpp"
 #include "programs/guardian/launch_rest.hpp"
 #include "programs/guardian/unanswered_signals.hpp"
 
@@ -35,6 +36,7 @@ class GuardianProcess {
   void note_end(pid_t pid, int status);
   // Whether the launcher has ended, as far as this process can know: a spare that somebody holds tells nothing.
   bool is_over();
+  void tell(const DeathInPython& death) const;
   void finish();
 
   GuardedLaunch launch_;

@@ -16,7 +16,8 @@ UniqueFd make_guardian_records() {
   const UniqueFd file(::memfd_create("launch-guardian", MFD_CLOEXEC));
   // The number of a standard descriptor is free when that descriptor was closed.
   UniqueFd records(file ? ::fcntl(file.get(), F_DUPFD_CLOEXEC, STDERR_FILENO + 1) : -1);
-  if (!records || ::lseek(records.get(), kGuardianRecords, SEEK_SET) != kGuardianRecords) {
+  if (!records || ::ftruncate(records.get(), kGuardianRecords) != 0 ||
+      ::lseek(records.get(), kGuardianRecords, SEEK_SET) != kGuardianRecords) {
     throw std::system_error(errno, std::system_category(), "cannot create a memory file for launch-guardian");
   }
   return records;

@@ -298,6 +298,21 @@ void Guardian::remove_clean_up(std::int32_t number) {
   write_record(records_.get(), GuardianRecord::Kind::kRemoveCleanUp, number);
 }
 
+PythonAtWork* Guardian::python_at_work() const {
+  void* const memory =
+      ::mmap(nullptr, sizeof(PythonAtWork), PROT_READ | PROT_WRITE, MAP_SHARED, records_.get(), kGuardianPython);
+  return memory == MAP_FAILED ? nullptr : static_cast<PythonAtWork*>(memory);
+}
+
+UniqueFd Guardian::python_traces() const {
+  // A descriptor with a place of its own in the file.
+  UniqueFd traces(::open(fmt::format("/proc/self/fd/{}", records_.get()).c_str(), O_WRONLY | O_CLOEXEC));
+  if (traces && ::lseek(traces.get(), kGuardianPythonTraces, SEEK_SET) != kGuardianPythonTraces) {
+    traces.reset();
+  }
+  return traces;
+}
+
 std::string Guardian::default_program() {
   return own_library_file("launch-guardian");
 }

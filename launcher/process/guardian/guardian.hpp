@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/files/unique_fd.hpp"
+#include "base/processes/python_at_work.hpp"
 #include "launcher/process/process_spec.hpp"
 
 namespace launch {
@@ -58,6 +59,13 @@ class Guardian {
   // The number that it returns takes the command back. Commands run in the opposite order, each as long as it gets on.
   std::int32_t add_clean_up(const std::vector<std::string>& command);
   void remove_clean_up(std::int32_t number);
+
+  // Memory that the guardian reads when the launcher has gone; nullptr if there is none. Lives until the process ends.
+  PythonAtWork* python_at_work() const;
+  // Where Python writes its stack when it ends the launcher.
+  UniqueFd python_traces() const;
+  // The descriptor of the memory file.
+  int records() const { return records_.get(); }
 
   // The process number of the guardian.
   pid_t pid() const { return pid_; }

@@ -4,8 +4,8 @@
 //
 // - The environment of each process holds its mark (process_mark.hpp). A process has it before its first instruction,
 //   and its descendants inherit it. A process can empty its environment, so there is an inherited mark, too.
-// - A memory file holds a table of the processes, for those whose environment can't be read, and behind it the clean-up
-//   commands and the path of launch.log.
+// - A memory file holds a table of the processes, for those whose environment can't be read, then the place of Python
+//   in the launcher, and behind it the clean-up commands and the path of launch.log.
 //
 //   launch-guardian ID LAUNCHER OTHER RECORDS READY CHILDREN -- WORD…
 //
@@ -31,6 +31,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/processes/python_at_work.hpp"
+
 namespace launch {
 
 // A line of the table, at the number of the process in the launch. All zero: there is none.
@@ -44,7 +46,12 @@ struct GuardianEntry {
 constexpr std::size_t kGuardianEntries = 16384;  // further processes are not in the table
 // Behind the table: the value of the inherited mark (inherited_mark.hpp), eight bytes.
 constexpr off_t kGuardianMark = kGuardianEntries * sizeof(GuardianEntry);
-constexpr off_t kGuardianRecords = kGuardianMark + sizeof(std::uint64_t);
+// Then where Python is in the launcher, a PythonAtWork, and what it writes when it ends the launcher. Pages have at
+// most 64 KiB.
+constexpr off_t kLargestPage = 64L << 10U;
+constexpr off_t kGuardianPython = kGuardianMark + kLargestPage;
+constexpr off_t kGuardianPythonTraces = kGuardianPython + kLargestPage;
+constexpr off_t kGuardianRecords = kGuardianPythonTraces + static_cast<off_t>(kPythonTraces);
 
 // The rest of the memory file is a series of records. The last one may be incomplete.
 struct GuardianRecord {

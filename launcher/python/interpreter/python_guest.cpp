@@ -22,10 +22,11 @@
 #include <fstream>
 #include <map>
 #include <new>
-#include <sstream>
+#include <utility>
 
 #include "base/files/unique_fd.hpp"
 #include "base/monotonic_clock.hpp"
+#include "base/processes/python_at_work.hpp"
 
 namespace launch {
 
@@ -114,19 +115,6 @@ End watch(pid_t guest, const Shared& shared, std::chrono::nanoseconds limit) {
     }
     return End::kOutOfTime;
   }
-}
-
-// The innermost line of `name` in the last traceback of the text.
-std::uint32_t line_of(const std::string& traces, const std::string& name) {
-  const std::size_t last = traces.rfind("(most recent call first)");
-  std::istringstream lines(traces.substr(last == std::string::npos ? 0 : last));
-  const std::string start = fmt::format("  File \"{}\", line ", name);
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with(start)) {
-      return static_cast<std::uint32_t>(std::strtoul(line.c_str() + start.size(), nullptr, 10));
-    }
-  }
-  return 0;
 }
 
 std::string content(int descriptor) {
@@ -227,12 +215,13 @@ void become_guest(void (*report_deaths)(int descriptor)) {
       end_like(WIFSIGNALED(status) ? status : EXIT_FAILURE << 8);
     }
     GuestRefusal refusal = refusal_of(status, end, *shared, *self.wanted);
-    refusal.line = line_of(content(traces.get()), name);
+    refusal.line = line_in_python_traces(content(traces.get()), name);
     self.refused.emplace(name, std::move(refusal));
   }
 }
 
 void end_of_guest() {
+  end_of_watched_run();
   if (host().shared != nullptr) {
     host().shared->finished = true;
   }
@@ -247,7 +236,14 @@ std::optional<GuestRefusal> guest_refusal(const std::string& name) {
   return found == host().refused.end() ? std::nullopt : std::optional(found->second);
 }
 
-GuestCall::GuestCall(const std::string& name) : outer_(host().name) {
+std::optional<std::chrono::seconds> command_limit() {
+  const std::optional<GuestLimits>& limits = host().wanted;
+  return limits ? std::optional(limits->time) : watched_call_limit();
+}
+
+GuestCall::GuestCall(const std::string& name) : GuestCall(name, {.file = name}) {}
+
+GuestCall::GuestCall(const std::string& name, PythonPlace place) : outer_(host().name), watched_(std::move(place)) {
   Host& self = host();
   self.name = name;
   if (self.shared != nullptr) {

@@ -4,14 +4,16 @@
 // The first use of Python forks. The child goes on with the command in place of the parent, and the parent passes its
 // exit code on. If Python ends the child (`os.abort()`, `os._exit()`, a null pointer) or reaches a limit, the parent
 // forks again, from where it was, with the launch file refused: loading it is an error at the line that Python was at.
-// So every command tells of it as it tells of other errors, and goes on with other files. A run has no guest: its
-// handlers, coroutines and functions are called until the end, and act on processes of the launcher.
+// So every command tells of it as it tells of other errors, and goes on with other files. A run has no guest
+// (python_watch.hpp).
 #pragma once
 
 #include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
+
+#include "launcher/python/interpreter/python_watch.hpp"
 
 namespace launch {
 
@@ -35,7 +37,7 @@ void run_python_in_a_guest(const GuestLimits& limits);
 // none. `report_deaths` is called in the guest, with a descriptor for the place where Python is when it dies.
 void become_guest(void (*report_deaths)(int descriptor));
 
-// The command has its result. Unless this was called, the end of a guest is Python's doing.
+// The command has its result, or the run has ended. Unless this was called, the end of the process is Python's doing.
 void end_of_guest();
 
 // Whether this process is a guest, and with which limits.
@@ -44,16 +46,22 @@ std::optional<GuestLimits> guest_limits();
 // nullopt while Python may be called for it. `name` is the path of a launch file, or an expression.
 std::optional<GuestRefusal> guest_refusal(const std::string& name);
 
-// For the time of its life Python runs for `name`. Calls nest. Without a guest it does nothing.
+// How long a $(command …) may take; nullopt: as long as it likes.
+std::optional<std::chrono::seconds> command_limit();
+
+// For the time of its life Python runs for `name`, in a guest or in a run. Calls nest. `place` is that of an
+// expression.
 class GuestCall {
  public:
   explicit GuestCall(const std::string& name);
+  GuestCall(const std::string& name, PythonPlace place);
   GuestCall(const GuestCall&) = delete;
   GuestCall& operator=(const GuestCall&) = delete;
   ~GuestCall();
 
  private:
   std::string outer_;
+  WatchedCall watched_;
 };
 
 }  // namespace launch

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "base/environment/own_prefix.hpp"
@@ -72,20 +73,29 @@ void show_python_tracebacks() {
 
 python::Runtime& python_runtime() {
   static python::Runtime* const runtime = load_module();
-  become_guest([](int descriptor) { runtime->report_deaths(descriptor); });
+  const auto report_deaths = [](int descriptor) { runtime->report_deaths(descriptor); };
+  become_guest(report_deaths);
+  python_has_started(report_deaths);
   if (shows_tracebacks()) {
     runtime->show_tracebacks();
   }
   return *runtime;
 }
 
-std::string evaluate_python(const std::string& expression, const std::string& modules) {
-  python::Runtime& runtime = python_runtime();
-  if (const std::optional<GuestRefusal> refusal = guest_refusal(expression)) {
-    throw std::runtime_error(refusal->reason);
+std::string evaluate_python(const std::string& expression, const std::string& modules, PythonPlace place) {
+  std::optional<GuestRefusal> refusal;
+  try {
+    python::Runtime& runtime = python_runtime();
+    refusal = guest_refusal(expression);
+    if (!refusal) {
+      const GuestCall call(expression, std::move(place));
+      return runtime.evaluate(expression, modules);
+    }
+  } catch (const std::runtime_error& error) {
+    const bool lacks_memory = std::string_view(error.what()).starts_with("MemoryError");
+    throw EvaluationError(error.what(), lacks_memory ? "--python-memory gives it more" : "");
   }
-  const GuestCall call(expression);
-  return runtime.evaluate(expression, modules);
+  throw EvaluationError(refusal->reason, refusal->help);
 }
 
 }  // namespace launch

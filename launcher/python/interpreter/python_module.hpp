@@ -3,9 +3,12 @@
 #pragma once
 
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "launcher/python/interpreter/python_runtime.hpp"
+#include "launcher/python/interpreter/python_watch.hpp"
 
 namespace launch {
 
@@ -23,8 +26,17 @@ void use_python_runtime(std::unique_ptr<python::Runtime> runtime);
 void show_python_tracebacks();
 
 // str() of the value of `expression`. `modules` are names separated by commas; the names of "math" are also available
-// unqualified. Throws std::runtime_error with one line: Python's error, or what to install when there is no Python.
-// Must not be called by several threads at once.
-std::string evaluate_python(const std::string& expression, const std::string& modules);
+// unqualified. `place` is that of the expression in its launch file, for messages about a launch that Python has ended.
+// Throws EvaluationError: Python's error, or what to install when there is no Python. Must not be called by several
+// threads at once.
+std::string evaluate_python(const std::string& expression, const std::string& modules, PythonPlace place);
+
+// what() is one line.
+struct EvaluationError : std::runtime_error {
+  EvaluationError(const std::string& message, std::string help_)
+      : std::runtime_error(message), help(std::move(help_)) {}
+
+  std::string help;  // "" if there is none
+};
 
 }  // namespace launch

@@ -3,6 +3,7 @@
 // launch without Python needs no Python and takes no longer.
 #include <dlfcn.h>
 #include <pybind11/embed.h>
+#include <pybind11/eval.h>
 #include <pybind11/stl.h>
 
 #include <filesystem>
@@ -130,8 +131,11 @@ class CPython : public launch::python::Runtime {
   void report_deaths(int descriptor) override {
     start();
     const py::gil_scoped_acquire lock;
-    find_packages();
-    py::module_::import("launch._deaths").attr("report")(descriptor);
+    // The file alone: the package that it belongs to takes long, and expressions need none.
+    py::dict names;
+    names["__builtins__"] = py::module_::import("builtins");
+    py::eval_file(package_directory() + "/launch/_deaths.py", names);
+    names["report"](descriptor);
   }
 
   std::string evaluate(const std::string& expression, const std::string& modules) override {

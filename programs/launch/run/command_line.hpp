@@ -40,7 +40,7 @@ struct CommandLine {
   std::string crash_directory;
   std::string launch_prefix;
   std::string launch_prefix_filter;
-  PythonLimits python;  // where the file is only looked at
+  PythonLimits python;
 };
 
 // The exit code when there is nothing to run: after --help, --version or a wrong command line. The text is already

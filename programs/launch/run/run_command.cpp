@@ -22,7 +22,6 @@
 #include "base/files/unique_fd.hpp"
 #include "base/monotonic_clock.hpp"
 #include "base/processes/outside_number.hpp"
-#include "base/processes/process_mark.hpp"
 #include "base/terminal/terminal.hpp"
 #include "launcher/control/control_socket.hpp"
 #include "launcher/control/launch_control.hpp"
@@ -47,6 +46,7 @@
 #include "programs/command_line/result_output.hpp"
 #include "programs/command_line/subcommand.hpp"
 #include "programs/launch/commands.hpp"
+#include "programs/launch/run/guarded_process.hpp"
 #include "programs/launch/run/log_cleaner.hpp"
 #include "programs/launch/run/output_options.hpp"
 #include "programs/launch/run/service_status.hpp"
@@ -193,6 +193,7 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   service.use_guardian(guardian);
   service.give_up_by([&output] {
     output.show_status("");
+    end_of_guest();
     ::_exit(EXIT_FAILURE);
   });
   if (const auto variable = environment.find("OVERRIDE_LAUNCH_IGNORE_FAILURES");
@@ -250,34 +251,6 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
     print_timing(steps);
   }
   return exit_code;
-}
-
-// Throws std::runtime_error.
-Containment contain(const CommandLine& command) {
-  try {
-    return contain_this_process(command.words, Guardian::default_program());
-  } catch (const std::system_error& error) {
-    throw std::runtime_error(
-        fmt::format("--contain needs a process namespace, which this machine does not allow: {}", error.what()));
-  }
-}
-
-// Before anything else: a launch file can start processes while it is loaded. Programs that the launcher starts for
-// itself have the mark of the launch, too.
-Guardian guard_this_process(const CommandLine& command, const Isolation& isolation, Containment containment) {
-  std::vector<int> held;
-  if (isolation.domain) {
-    held.push_back(isolation.domain->fd());  // it may still end processes of the domain when the launcher has gone
-  }
-  if (containment.alive) {
-    held.push_back(containment.alive.get());
-  }
-  Guardian guardian =
-      Guardian::put_above(command.words, Guardian::default_program(), held, std::move(containment.records));
-  static_cast<void>(containment.alive.release());  // until the end of this process
-  const std::string mark = guardian.mark("launch", {});
-  ::setenv(kMarkVariable, mark.c_str() + std::string_view(kMarkVariable).size() + 1, 1);
-  return guardian;
 }
 
 std::string dry_run(const CommandLine& command, LaunchContext& context, const LaunchDescription& description,
@@ -340,6 +313,9 @@ int run_command(const CommandLine& command, Environment environment,
       fmt::print(stderr, "{}", command_error("launch", error.what()));
       return 1;
     }
+  }
+  if (guardian && !script) {
+    watch_python(command, *guardian);
   }
   const Registry registry = builtin_actions();
   std::optional<ResultOutput> result;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tells where Python is when the process of a launch file that is only looked at dies."""
+"""Tells where Python is when it ends the process in which it runs launch files."""
 
 import faulthandler
 import os
