@@ -47,13 +47,4 @@ std::vector<ArgumentPlace> argument_places(const Outline& outline, std::string_v
   return places;
 }
 
-std::optional<ArgumentPlace> argument_at(const Outline& outline, std::string_view text, std::size_t offset) {
-  for (ArgumentPlace& place : argument_places(outline, text)) {
-    if (place.span.holds(offset)) {
-      return std::move(place);
-    }
-  }
-  return std::nullopt;
-}
-
 }  // namespace launch::lsp

@@ -2,7 +2,6 @@
 // Where the arguments and configurations of a launch file stand in its text.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,8 +24,5 @@ struct ArgumentPlace {
 };
 
 std::vector<ArgumentPlace> argument_places(const Outline& outline, std::string_view text);
-
-// The one that holds the place.
-std::optional<ArgumentPlace> argument_at(const Outline& outline, std::string_view text, std::size_t offset);
 
 }  // namespace launch::lsp

@@ -184,6 +184,9 @@ class Completion {
         add_all(argument.name == value_of(of, "name", text_) ? argument.choices : std::vector<std::string>{},
                 kValueItem);
       }
+    } else if (attribute.name == "node" || attribute.name == "target" || attribute.name == "topic" ||
+               (of.tag == "remap" && (attribute.name == "from" || attribute.name == "to"))) {
+      recorded_names(attribute.name == "node" || attribute.name == "target", begin);
     } else if (spec != nullptr) {
       words_of_help(spec->help, begin);
     }
@@ -191,6 +194,21 @@ class Completion {
       for (const SubstitutionType& type : substitution_types()) {
         add(type.usage, kFunctionItem, offset_ - 1, type.help, "$(" + type.name);
       }
+    }
+  }
+
+  // Of nodes, or of their topics and services, in the recorded run.
+  void recorded_names(bool of_nodes, std::size_t begin) {
+    std::set<std::string> names;
+    for (const RecordedNode& node : workspace_.recorded()) {
+      if (of_nodes) {
+        names.insert(node.name);
+      } else {
+        names.insert(node.names.begin(), node.names.end());
+      }
+    }
+    for (const std::string& name : names) {
+      add(name, kValueItem, begin);
     }
   }
 

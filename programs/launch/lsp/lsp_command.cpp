@@ -25,6 +25,9 @@ int lsp_command(const Words& words) {
                     "errors and arguments");
   command.take_flag("--check-folder", options.checks_folder,
                     "check all XML and YAML launch files of the folder, also those that are not open");
+  command.take_text(
+      "--from-trace", options.trace,
+      "the directory of a recorded run, whose nodes and topics are completed, and remaps checked against");
   command.take_flag("--stdio", stdio, "accepted, as editors give it; there is no other way");
   if (const auto exit_code = command.parse(words)) {
     return *exit_code;

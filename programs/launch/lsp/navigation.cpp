@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <vector>
 
 #include "programs/launch/lsp/argument_places.hpp"
 #include "programs/launch/lsp/features.hpp"
+#include "programs/launch/lsp/python_features.hpp"
 
 namespace launch::lsp {
 
@@ -31,7 +34,7 @@ Json declaration_in(const Workspace& workspace, const std::string& path, const s
   if (!document) {
     return {};
   }
-  for (const ArgumentPlace& place : argument_places(outline_of(document->text()), document->text())) {
+  for (const ArgumentPlace& place : argument_places(reading_of(path, *document), workspace)) {
     if (place.kind == ArgumentPlace::Kind::kDeclared && place.name == name) {
       return location(path, document->range(place.span.begin, place.span.end));
     }
@@ -63,20 +66,21 @@ std::string detail_of(const OutlineElement& element, std::string_view text) {
   return {};
 }
 
-Json symbols_within(const Reading& reading, int parent) {
+// The elements below each one; those of -1 are the outermost.
+using Children = std::map<int, std::vector<std::size_t>>;
+
+Json symbols_within(const Reading& reading, const Children& children, int parent) {
   Json list = Json::array();
-  for (std::size_t i = 0; i < reading.outline.elements.size(); ++i) {
+  const auto found = children.find(parent);
+  for (const std::size_t i : found == children.end() ? std::vector<std::size_t>() : found->second) {
     const OutlineElement& element = reading.outline.elements[i];
-    if (element.parent != parent || element.tag.empty()) {
-      continue;
-    }
     const std::string detail = detail_of(element, reading.document.text());
     list.push_back(
         {{"name", detail.empty() ? element.tag : element.tag + " " + detail},
          {"kind", symbol_kind(element)},
          {"range", reading.document.range(std::min(element.whole.begin, element.tag_span.begin), element.whole.end)},
          {"selectionRange", reading.document.range(element.tag_span.begin, element.tag_span.end)},
-         {"children", symbols_within(reading, static_cast<int>(i))}});
+         {"children", symbols_within(reading, children, static_cast<int>(i))}});
   }
   return list;
 }
@@ -92,12 +96,13 @@ Json definition(const Workspace& workspace, const Reading& reading, const Json& 
   const auto included = [&](const OutlineElement& include) {
     return existing(fs::path(reading.path).parent_path() / performed(value_of(include, "file", text)));
   };
-  if (const auto argument = argument_at(reading.outline, text, offset)) {
+  if (const auto argument = argument_at(reading, workspace, offset)) {
     const bool given = argument->kind == ArgumentPlace::Kind::kGiven;
-    return declaration_in(
-        workspace,
-        given ? included(reading.outline.elements[static_cast<std::size_t>(argument->include)]) : reading.path,
-        argument->name);
+    return declaration_in(workspace, given ? included_file(workspace, reading, argument->include) : reading.path,
+                          argument->name);
+  }
+  if (is_python(reading.path)) {
+    return definition_in_python(workspace, reading, position);
   }
   for (const OutlineElement& element : reading.outline.elements) {
     for (const OutlineAttribute& attribute : element.attributes) {
@@ -122,7 +127,13 @@ Json definition(const Workspace& workspace, const Reading& reading, const Json& 
 }
 
 Json symbols(const Reading& reading) {
-  return symbols_within(reading, -1);
+  Children children;
+  for (std::size_t i = 0; i < reading.outline.elements.size(); ++i) {
+    if (const OutlineElement& element = reading.outline.elements[i]; !element.tag.empty()) {
+      children[element.parent].push_back(i);
+    }
+  }
+  return symbols_within(reading, children, -1);
 }
 
 Json folds(const Reading& reading) {

@@ -25,17 +25,8 @@ struct Place {
   Json range;
 };
 
-std::string included_file(const Workspace& workspace, const Reading& reading, int include) {
-  const std::string_view text = reading.document.text();
-  const OutlineElement& element = reading.outline.elements[static_cast<std::size_t>(include)];
-  const std::optional<std::string> path =
-      workspace.performed(reading.path, reading.outline, value_of(element, "file", text));
-  std::error_code ignored;
-  return path ? fs::weakly_canonical(fs::path(reading.path).parent_path() / *path, ignored).string() : std::string();
-}
-
 std::optional<Argument> argument_at_position(const Workspace& workspace, const Reading& reading, const Json& position) {
-  const auto found = argument_at(reading.outline, reading.document.text(), reading.document.offset(position));
+  const auto found = argument_at(reading, workspace, reading.document.offset(position));
   if (!found) {
     return std::nullopt;
   }
@@ -48,7 +39,7 @@ std::optional<Argument> argument_at_position(const Workspace& workspace, const R
 
 std::vector<Place> places_of(const Workspace& workspace, const Argument& argument, const std::string& folder) {
   std::vector<Place> places;
-  std::set<std::string> files = files_below(folder, argument.file);
+  std::set<std::string> files = files_below(folder, argument.file, true);
   for (const auto& [path, text] : workspace.texts()) {
     files.insert(path);
   }
@@ -57,8 +48,8 @@ std::vector<Place> places_of(const Workspace& workspace, const Argument& argumen
     if (!document || document->text().find(argument.name) == std::string::npos) {
       continue;
     }
-    const Reading reading = {path, *document, outline_of(document->text())};
-    for (const ArgumentPlace& place : argument_places(reading.outline, document->text())) {
+    const Reading reading = reading_of(path, *document);
+    for (const ArgumentPlace& place : argument_places(reading, workspace)) {
       const bool is_it =
           place.name == argument.name &&
           (place.kind == ArgumentPlace::Kind::kGiven ? included_file(workspace, reading, place.include) == argument.file
@@ -73,7 +64,50 @@ std::vector<Place> places_of(const Workspace& workspace, const Argument& argumen
 
 }  // namespace
 
-std::set<std::string> files_below(const std::string& folder, const std::string& own) {
+std::string included_file(const Workspace& workspace, const Reading& reading, int include) {
+  std::error_code ignored;
+  if (is_python(reading.path)) {
+    const PythonFileText file = python_file(workspace, reading);
+    const std::string path = file.included(reading.python.brackets[static_cast<std::size_t>(include)]);
+    return path.empty() ? path : fs::weakly_canonical(path, ignored).string();
+  }
+  const std::string_view text = reading.document.text();
+  const OutlineElement& element = reading.outline.elements[static_cast<std::size_t>(include)];
+  const std::optional<std::string> path =
+      workspace.performed(reading.path, reading.outline, value_of(element, "file", text));
+  return path ? fs::weakly_canonical(fs::path(reading.path).parent_path() / *path, ignored).string() : std::string();
+}
+
+Reading reading_of(const std::string& path, const Document& document) {
+  return is_python(path) ? Reading{path, document, {}, python_source_of(document.text())}
+                         : Reading{path, document, outline_of(document.text())};
+}
+
+bool is_python(const std::string& path) {
+  return path.ends_with(".py");
+}
+
+PythonFileText python_file(const Workspace& workspace, const Reading& reading) {
+  return {[&workspace](const std::string& package) { return workspace.share(package); }, reading.path,
+          reading.document.text(), reading.python};
+}
+
+std::vector<ArgumentPlace> argument_places(const Reading& reading, const Workspace& workspace) {
+  const std::string& text = reading.document.text();
+  return is_python(reading.path) ? python_argument_places(python_file(workspace, reading))
+                                 : argument_places(reading.outline, text);
+}
+
+std::optional<ArgumentPlace> argument_at(const Reading& reading, const Workspace& workspace, std::size_t offset) {
+  for (ArgumentPlace& place : argument_places(reading, workspace)) {
+    if (place.span.holds(offset)) {
+      return std::move(place);
+    }
+  }
+  return std::nullopt;
+}
+
+std::set<std::string> files_below(const std::string& folder, const std::string& own, bool python) {
   std::set<std::string> files = {own};
   std::error_code unreadable;
   constexpr std::size_t kMost = 10'000;
@@ -86,7 +120,7 @@ std::set<std::string> files_below(const std::string& folder, const std::string& 
     if (at->is_directory(unreadable) &&
         (name.starts_with('.') || name == "build" || name == "install" || name == "log")) {
       at.disable_recursion_pending();
-    } else if (is_launch_file(at->path()) && !name.ends_with(".py")) {
+    } else if (is_launch_file(at->path()) && (python || !is_python(name))) {
       files.insert(at->path().string());
     }
   }
@@ -105,8 +139,8 @@ Json references(const Workspace& workspace, const Reading& reading, const Json& 
   return found;
 }
 
-Json prepare_rename(const Reading& reading, const Json& position) {
-  const auto found = argument_at(reading.outline, reading.document.text(), reading.document.offset(position));
+Json prepare_rename(const Workspace& workspace, const Reading& reading, const Json& position) {
+  const auto found = argument_at(reading, workspace, reading.document.offset(position));
   return found ? reading.document.range(found->span.begin, found->span.end) : Json();
 }
 

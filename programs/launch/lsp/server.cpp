@@ -13,12 +13,14 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdint>
 #include <cstdlib>
 #include <stdexcept>
 #include <utility>
 
 #include "launcher/python/interpreter/python_guest.hpp"
 #include "programs/launch/lsp/features.hpp"
+#include "programs/launch/lsp/python_features.hpp"
 
 namespace launch::lsp {
 
@@ -43,10 +45,6 @@ std::string document_path(const Json& parameters) {
   return path_of(parameters.at("textDocument").at("uri").get_ref<const std::string&>());
 }
 
-bool is_python(const std::string& path) {
-  return path.ends_with(".py");
-}
-
 }  // namespace
 
 bool write_all(int fd, std::string_view text) {
@@ -60,7 +58,7 @@ bool write_all(int fd, std::string_view text) {
   return true;
 }
 
-Server::Server(ServerOptions options, int in, int out) : options_(options), in_(in), out_(out) {
+Server::Server(ServerOptions options, int in, int out) : options_(std::move(options)), in_(in), out_(out) {
   ::signal(SIGPIPE, SIG_IGN);
 }
 
@@ -158,6 +156,7 @@ Json Server::initialize(const Json& parameters) {
   if (options.is_object()) {
     options_.runs_python = options.value("runPython", options_.runs_python);
     options_.checks_folder = options.value("checkFolder", options_.checks_folder);
+    options_.trace = options.value("fromTrace", options_.trace);
   }
   if (const Json root = parameters.value("rootUri", Json()); root.is_string()) {
     folder_ = path_of(root.get_ref<const std::string&>());
@@ -165,10 +164,13 @@ Json Server::initialize(const Json& parameters) {
   const Json lenses = parameters.value(Json::json_pointer("/capabilities/workspace/codeLens/refreshSupport"), Json());
   refreshes_lenses_ = lenses.is_boolean() && lenses.get<bool>();
   workspace_.emplace(options_.runs_python);
+  if (!options_.trace.empty()) {
+    workspace_->use_recorded(read_recorded_nodes(options_.trace).value_or(std::vector<RecordedNode>()));
+  }
   initialized_ = true;
   return {{"capabilities",
            {{"textDocumentSync", {{"openClose", true}, {"change", kIncremental}, {"save", true}}},
-            {"completionProvider", {{"triggerCharacters", {"<", "\"", "'", "$", "(", " ", "/"}}}},
+            {"completionProvider", {{"triggerCharacters", {"<", "\"", "'", "$", "(", " ", "/", "."}}}},
             {"hoverProvider", true},
             {"definitionProvider", true},
             {"referencesProvider", true},
@@ -198,13 +200,13 @@ Json Server::answer(const std::string& method, const Json& parameters) {
   if (document == nullptr) {
     throw std::invalid_argument(fmt::format("'{}' is not open", path));
   }
-  const Reading reading = {path, *document, is_python(path) ? Outline() : outline_of(document->text())};
+  const Reading reading = reading_of(path, *document);
   const auto position = [&] { return parameters.at("position"); };
   if (method == "textDocument/completion") {
-    return is_python(path) ? Json() : complete(*workspace_, reading, position());
+    return (is_python(path) ? complete_python : complete)(*workspace_, reading, position());
   }
   if (method == "textDocument/hover") {
-    return describe(*workspace_, reading, position());
+    return (is_python(path) ? describe_python : describe)(*workspace_, reading, position());
   }
   if (method == "textDocument/definition") {
     return definition(*workspace_, reading, position());
@@ -213,16 +215,16 @@ Json Server::answer(const std::string& method, const Json& parameters) {
     return references(*workspace_, reading, position(), folder_);
   }
   if (method == "textDocument/prepareRename") {
-    return prepare_rename(reading, position());
+    return prepare_rename(*workspace_, reading, position());
   }
   if (method == "textDocument/rename") {
     return rename(*workspace_, reading, position(), parameters.at("newName").get<std::string>(), folder_);
   }
   if (method == "textDocument/documentSymbol") {
-    return symbols(reading);
+    return is_python(path) ? python_symbols(*workspace_, reading) : symbols(reading);
   }
   if (method == "textDocument/foldingRange") {
-    return folds(reading);
+    return is_python(path) ? python_folds(reading) : folds(reading);
   }
   if (method == "textDocument/inlayHint") {
     return inlay_hints(*workspace_, reading, parameters.at("range"));
@@ -255,6 +257,10 @@ void Server::notice(const std::string& method, const Json& parameters) {
     return;
   }
   const std::string path = document_path(parameters);
+  // A check of an older text has been given up when a result comes.
+  if (const Json version = parameters.at("textDocument").value("version", Json()); version.is_number_integer()) {
+    versions_[path] = version.get<std::int64_t>();
+  }
   if (method == "textDocument/didOpen") {
     workspace_->open(path, parameters.at("textDocument").at("text").get<std::string>());
   } else if (method == "textDocument/didChange") {
@@ -265,11 +271,10 @@ void Server::notice(const std::string& method, const Json& parameters) {
     for (const Json& change : parameters.at("contentChanges")) {
       document->change(change);
     }
-    if (is_python(path)) {
-      return;  // nothing runs while somebody is typing
-    }
+    run_next_.erase(path);  // nothing runs while somebody is typing
   } else if (method == "textDocument/didClose") {
     workspace_->close(path);
+    versions_.erase(path);
     std::erase(to_check_, path);
     if (folder_files_.contains(path)) {
       check_later(path);  // it counts as it is on the disk now
@@ -279,6 +284,9 @@ void Server::notice(const std::string& method, const Json& parameters) {
     return;
   } else if (method != "textDocument/didSave") {
     return;
+  }
+  if (method == "textDocument/didOpen" || method == "textDocument/didSave") {
+    run_next_.insert(path);
   }
   check_later(path);
   for (const auto& [other, text] : workspace_->texts()) {
@@ -292,9 +300,11 @@ void Server::notice(const std::string& method, const Json& parameters) {
 }
 
 void Server::publish(const std::string& path, Json diagnostics) {
-  send({{"jsonrpc", "2.0"},
-        {"method", "textDocument/publishDiagnostics"},
-        {"params", {{"uri", uri_of(path)}, {"diagnostics", std::move(diagnostics)}}}});
+  Json parameters = {{"uri", uri_of(path)}, {"diagnostics", std::move(diagnostics)}};
+  if (const auto version = versions_.find(path); version != versions_.end()) {
+    parameters["version"] = version->second;
+  }
+  send({{"jsonrpc", "2.0"}, {"method", "textDocument/publishDiagnostics"}, {"params", std::move(parameters)}});
 }
 
 void Server::send(const Json& message) {

@@ -4,6 +4,7 @@
 
 #include <sys/types.h>
 
+#include <cstdint>
 #include <deque>
 #include <map>
 #include <optional>
@@ -18,9 +19,10 @@
 namespace launch::lsp {
 
 struct ServerOptions {
-  // An editor can ask for both, too.
+  // An editor can ask for all of them, too.
   bool runs_python = false;    // may run Python launch files, in a process of their own
   bool checks_folder = false;  // checks all launch files of the folder, also those that are not open
+  std::string trace{};         // the directory of a recorded run, whose names are completed and checked; "": none
 };
 
 // False if not all could be written.
@@ -72,8 +74,10 @@ class Server {
   std::string folder_;
   bool refreshes_lenses_ = false;                 // the editor asks for lenses again when it is told to
   std::set<std::string> folder_files_;            // those that are checked though they are not open
+  std::map<std::string, std::int64_t> versions_;  // of open documents, as the editor counts them
   std::map<std::string, std::size_t> processes_;  // that a file starts, from its last check
   std::deque<std::string> to_check_;
+  std::set<std::string> run_next_;  // Python files whose text is that of the disk: the next check may run them
   std::optional<Check> check_;
   bool initialized_ = false;
   bool shut_down_ = false;

@@ -15,12 +15,13 @@
 
 #include "launcher/python/interpreter/python_guest.hpp"
 #include "programs/launch/lsp/features.hpp"
+#include "programs/launch/lsp/python_features.hpp"
 #include "programs/launch/lsp/server.hpp"
 
 namespace launch::lsp {
 
 void Server::check_folder() {
-  const std::set<std::string> before = std::exchange(folder_files_, files_below(folder_, {}));
+  const std::set<std::string> before = std::exchange(folder_files_, files_below(folder_, {}, false));
   for (const std::string& path : before) {
     if (!folder_files_.contains(path) && workspace_->find(path) == nullptr) {
       publish(path, Json::array());
@@ -44,7 +45,7 @@ void Server::check_those_that_name(const std::string& path) {
 }
 
 void Server::check_later(const std::string& path) {
-  if (path.empty() || (path.ends_with(".py") && !options_.runs_python)) {
+  if (path.empty()) {
     return;
   }
   if (check_ && std::find(check_->paths.begin(), check_->paths.end(), path) != check_->paths.end()) {
@@ -107,8 +108,10 @@ void Server::run_check(const std::deque<std::string>& paths, int result) {
   run_python_in_a_guest({std::chrono::seconds(20)});
   bool written = true;
   for (const std::string& path : paths) {
-    const Reading reading = {path, workspace_->document(path).value_or(Document("")), {}};
-    const Json found = check_document(*workspace_, reading);
+    const Document document = workspace_->document(path).value_or(Document(""));
+    const bool only_reads = is_python(path) && !(options_.runs_python && run_next_.contains(path));
+    const Json found = only_reads ? Json{{"diagnostics", python_findings(*workspace_, reading_of(path, document))}}
+                                  : check_document(*workspace_, {path, document, {}});
     written = written && write_all(result, found.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
   }
   end_of_guest();

@@ -17,6 +17,7 @@
 #include "launcher/process/output/output_router.hpp"
 #include "launcher/substitution/package_index.hpp"
 #include "launcher/substitution/template_parser.hpp"
+#include "programs/launch/lsp/python_values.hpp"
 
 namespace launch::lsp {
 
@@ -183,9 +184,15 @@ std::vector<Workspace::Argument> Workspace::arguments_of(const std::string& path
 
 void Workspace::add_arguments_of(const std::string& path, std::set<std::string>& read,
                                  std::vector<Argument>& arguments) const {
-  const std::optional<Document> file =
-      path.ends_with(".py") || !read.insert(path).second ? std::nullopt : document(path);
+  const std::optional<Document> file = read.insert(path).second ? document(path) : std::nullopt;
   if (!file) {
+    return;
+  }
+  if (path.ends_with(".py")) {
+    const PythonSource source = python_source_of(file->text());
+    const std::vector<Argument> declared =
+        python_arguments({[this](const std::string& package) { return share(package); }, path, file->text(), source});
+    arguments.insert(arguments.end(), declared.begin(), declared.end());
     return;
   }
   const Outline outline = outline_of(file->text());

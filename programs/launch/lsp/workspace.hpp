@@ -13,6 +13,8 @@
 
 #include "launcher/language/registry.hpp"
 #include "launcher/substitution/scope.hpp"
+#include "programs/launch/check/recorded_nodes.hpp"
+#include "programs/launch/lsp/declared_argument.hpp"
 #include "programs/launch/lsp/document.hpp"
 #include "programs/launch/outline/outline.hpp"
 
@@ -37,6 +39,10 @@ class Workspace {
   const Environment& environment() const { return environment_; }
   bool runs_python() const { return runs_python_; }
 
+  // The nodes of a recorded run, whose names are completed and checked.
+  void use_recorded(std::vector<RecordedNode> nodes) { recorded_ = std::move(nodes); }
+  const std::vector<RecordedNode>& recorded() const { return recorded_; }
+
   std::vector<std::string> packages() const;
   std::vector<std::string> executables(const std::string& package) const;
   std::vector<std::string> components() const;  // classes that can be loaded into containers
@@ -48,14 +54,9 @@ class Workspace {
   // $(dirname), and arguments with a default. nullopt when something is unknown, or would run code.
   std::optional<std::string> performed(const std::string& path, const Outline& outline, std::string_view text) const;
 
-  // The arguments that a launch file and the files that it includes declare, by their texts. Python files count as
-  // empty.
-  struct Argument {
-    std::string name;
-    std::string description;
-    std::optional<std::string> default_value;  // as it is written
-    std::vector<std::string> choices;
-  };
+  // The arguments that a launch file and the files that it includes declare, by their texts. Of a Python file
+  // those that it declares itself.
+  using Argument = DeclaredArgument;
   std::vector<Argument> arguments_of(const std::string& path) const;
 
  private:
@@ -67,6 +68,7 @@ class Workspace {
   Registry registry_;
   std::shared_ptr<PackageIndex> packages_;
   std::map<std::string, Document> documents_;
+  std::vector<RecordedNode> recorded_;
 };
 
 }  // namespace launch::lsp

@@ -1,0 +1,239 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+The language server on Python launch files, which it does not run, and its quick fixes. LAUNCH_PROGRAM is the launcher.
+"""
+
+import os
+import pathlib
+import tempfile
+import unittest
+
+from lsp_test import BASE, Editor, column
+
+PYTHON = '''import os
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
+from launch.launch_description_sources import AnyLaunchDescriptionSource
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+HERE = os.path.dirname(__file__)
+
+
+def generate_launch_description():
+    speed = LaunchConfiguration('speed')
+    return LaunchDescription([
+        DeclareLaunchArgument('speed', default_value='7', description='how fast', choices=['7', '8']),
+        IncludeLaunchDescription(
+            AnyLaunchDescriptionSource(os.path.join(HERE, 'base.launch.xml')),
+            launch_arguments={'speed': speed, 'mode': 'manual'}.items()),
+        Node(package='demo', executable='talker', name='t', parameters=[{'speed': LaunchConfiguration('speed')}]),
+    ])
+'''
+XML = '''<launch>
+  <include file="$(dirname)/top.launch.py">
+    <arg name="speed" value="8"/>
+  </include>
+</launch>
+'''
+
+
+class InADirectory(unittest.TestCase):
+    def setUp(self):
+        directory = tempfile.TemporaryDirectory()
+        self.addCleanup(directory.cleanup)
+        self.directory = pathlib.Path(directory.name).resolve()
+        prefix = self.directory / '.prefix'
+        (prefix / 'share/ament_index/resource_index/packages').mkdir(parents=True)
+        (prefix / 'share/ament_index/resource_index/packages/demo').touch()
+        (prefix / 'share/demo').mkdir()
+        (prefix / 'share/demo/package.xml').write_text('<package/>')
+        (prefix / 'lib/demo').mkdir(parents=True)
+        (prefix / 'lib/demo/talker').write_text('#!/bin/sh\n')
+        (prefix / 'lib/demo/talker').chmod(0o755)
+        before = os.environ.get('AMENT_PREFIX_PATH')
+        os.environ['AMENT_PREFIX_PATH'] = str(prefix)
+        self.addCleanup(lambda: os.environ.pop('AMENT_PREFIX_PATH') if before is None else os.environ.update(AMENT_PREFIX_PATH=before))
+        for name, text in (('base.launch.xml', BASE), ('top.launch.py', PYTHON), ('over.launch.xml', XML)):
+            (self.directory / name).write_text(text)
+
+    def editor(self, *words, **options):
+        editor = Editor(self.directory, *words, **options)
+        self.addCleanup(editor.process.wait)
+        self.addCleanup(editor.process.stdout.close)
+        self.addCleanup(editor.process.stdin.close)
+        return editor
+
+
+class PythonInTheServer(InADirectory):
+    def at_mark(self, editor, text, method='labels', name='a.launch.py'):
+        """Asks at the place of the bar, which is taken out."""
+        before, after = text.split('|')
+        editor.open(name, before + after)
+        line, character = before.count('\n'), len(before) - before.rfind('\n') - 1
+        return editor.labels(name, line, character) if method == 'labels' else editor.at(method, name, line, character)
+
+    def test_modules_and_names_of_imports(self):
+        editor = self.editor()
+        self.assertIn('launch_ros.actions', self.at_mark(editor, 'from launch_ros.|\n'))
+        labels = self.at_mark(editor, 'from launch_ros.actions import No|\n')
+        self.assertIn('Node', labels)
+        self.assertNotIn('DeclareLaunchArgument', labels)
+        self.assertIn('Node', self.at_mark(editor, 'from launch_ros.actions import (\n    LifecycleNode,\n    No|\n)\n'))
+        self.assertIn('TimerAction', self.at_mark(editor, 'from launch import actions\nactions.|\n'))
+
+    def test_arguments_of_a_class(self):
+        editor = self.editor()
+        labels = self.at_mark(editor, PYTHON.replace("name='t',", '|'))
+        self.assertIn('namespace=', labels)
+        self.assertIn('respawn_delay=', labels)
+        self.assertNotIn('package=', labels)  # it is there
+        self.assertNotIn('namespace=', self.at_mark(editor, PYTHON.replace("name='t'", 'name=|')))
+
+    def test_a_name_that_is_not_imported_brings_its_import(self):
+        editor = self.editor()
+        items = self.at_mark(editor, PYTHON.replace("    speed = L", "    x = Timer|\n    speed = L"), 'completion')['items']
+        [item] = [item for item in items if item['label'] == 'TimerAction']
+        self.assertEqual(item['additionalTextEdits'][0]['newText'], 'from launch.actions import TimerAction\n')
+        self.assertEqual(item['additionalTextEdits'][0]['range']['start'], {'line': 7, 'character': 0})
+
+    def test_values_in_quotes(self):
+        editor = self.editor()
+        self.assertIn('demo', self.at_mark(editor, PYTHON.replace("package='demo'", "package='|'")))
+        self.assertEqual(self.at_mark(editor, PYTHON.replace("executable='talker'", "executable='|'")), ['talker'])
+        self.assertEqual(self.at_mark(editor, PYTHON.replace("parameters=[{'speed': LaunchConfiguration('speed')}]",
+                                                             "parameters=[{'speed': LaunchConfiguration('|')}]")), ['speed'])
+        self.assertIn('demo', self.at_mark(editor, PYTHON.replace('HERE = ', "SHARE = get_package_share_directory('|')\nHERE = ")))
+        self.assertEqual(self.at_mark(editor, PYTHON.replace("'mode': 'manual'", "'|': 'manual'")), ['speed', 'mode'])
+        self.assertEqual(self.at_mark(editor, PYTHON.replace("'manual'", "'|'")), ['auto', 'manual'])
+        self.assertIn('base.launch.xml', self.at_mark(editor, PYTHON.replace("'base.launch.xml'", "'|'")))
+
+    def test_it_works_while_a_call_is_being_written(self):
+        editor = self.editor()
+        begun = PYTHON[:PYTHON.index("name='t'")]
+        self.assertIn('namespace=', self.at_mark(editor, begun + '|'))
+        self.assertIn('namespace=', self.at_mark(editor, begun + 'name|\n\ndef other():\n    pass\n'))
+
+    def test_help(self):
+        editor = self.editor()
+        told = self.at_mark(editor, PYTHON.replace('Node(package', 'No|de(package'), 'hover')['contents']['value']
+        self.assertIn('Node(executable=…, package=…', told)
+        told = self.at_mark(editor, PYTHON.replace("speed = LaunchConfiguration('speed')", "speed = LaunchConfiguration('sp|eed')"), 'hover')
+        self.assertEqual(told['contents']['value'], 'argument **speed**: how fast\n\ndefault: `7`')
+        told = self.at_mark(editor, PYTHON.replace("package='demo'", "package='de|mo'"), 'hover')['contents']['value']
+        self.assertIn('.prefix/share/demo', told)
+
+    def test_definitions(self):
+        editor = self.editor()
+        line = PYTHON.split('\n').index("        DeclareLaunchArgument('speed', default_value='7', description='how fast', choices=['7', '8']),")
+        found = self.at_mark(editor, PYTHON.replace("speed = LaunchConfiguration('speed')", "speed = LaunchConfiguration('sp|eed')"), 'definition')
+        self.assertEqual(found['range']['start'], {'line': line, 'character': column(PYTHON, line, "'speed'", 1)})
+        for before, after, target in (("package='demo'", "package='de|mo'", '.prefix/share/demo/package.xml'),
+                                      ("executable='talker'", "executable='tal|ker'", '.prefix/lib/demo/talker'),
+                                      ("'base.launch.xml'", "'base|.launch.xml'", 'base.launch.xml')):
+            with self.subTest(after=after):
+                found = self.at_mark(editor, PYTHON.replace(before, after), 'definition')
+                self.assertEqual(found['uri'], editor.uri(target))
+        found = self.at_mark(editor, PYTHON.replace("'mode': 'manual'", "'mo|de': 'manual'"), 'definition')
+        self.assertEqual((found['uri'], found['range']['start']), (editor.uri('base.launch.xml'), {'line': 2, 'character': 13}))
+
+    def test_an_argument_is_renamed_across_the_formats(self):
+        editor = self.editor()
+        editor.open('top.launch.py', PYTHON)
+        line = next(number for number, text in enumerate(PYTHON.split('\n')) if 'DeclareLaunchArgument(\'' in text)
+        edits = editor.at('rename', 'top.launch.py', line, column(PYTHON, line, "'speed'", 2), newName='pace')['changes']
+        self.assertEqual(sorted((pathlib.Path(uri).name, len(places)) for uri, places in edits.items()),
+                         [('over.launch.xml', 1), ('top.launch.py', 3)])
+        found = editor.at('references', 'top.launch.py', line, column(PYTHON, line, "'speed'", 2), context={'includeDeclaration': True})
+        self.assertEqual(len(found), 4)
+
+    def test_arguments_of_an_included_python_file(self):
+        editor = self.editor()
+        text = '<launch><include file="$(dirname)/top.launch.py"><arg name=""/></include></launch>'
+        editor.open('b.launch.xml', text)
+        items = editor.at('completion', 'b.launch.xml', 0, column(text, 0, '""', 1))['items']
+        self.assertEqual([(item['label'], item['detail']) for item in items], [('speed', 'default: 7')])
+
+    def test_outline(self):
+        editor = self.editor()
+        editor.open('top.launch.py', PYTHON)
+        symbols = editor.ask('textDocument/documentSymbol', {'textDocument': {'uri': editor.uri('top.launch.py')}})
+        [top] = [one for one in symbols if one['name'] == 'LaunchDescription']
+        self.assertEqual([one['name'] for one in top['children']], ['DeclareLaunchArgument speed', 'IncludeLaunchDescription', 'Node t'])
+        self.assertTrue(editor.ask('textDocument/foldingRange', {'textDocument': {'uri': editor.uri('top.launch.py')}}))
+
+    def test_errors_of_the_text(self):
+        editor = self.editor()
+        editor.open('top.launch.py', PYTHON)
+        self.assertEqual(editor.diagnostics('top.launch.py'), [])
+        wrong = PYTHON.replace('name=', 'nmae=').replace("'demo'", "'dmeo'").replace('import Node', 'import Nodee')
+        editor.change('top.launch.py', {'text': wrong})
+        self.assertEqual([(one['code'], one['message']) for one in editor.diagnostics('top.launch.py')],
+                         [('LF0005', "launch_ros.actions has no 'Nodee'\ndid you mean 'Node'?")])
+        wrong = PYTHON.replace('name=', 'nmae=').replace("'demo'", "'dmeo'")
+        editor.change('top.launch.py', {'text': wrong})
+        found = editor.diagnostics('top.launch.py')
+        self.assertEqual([(one['code'], one['message'].split('\n')[0]) for one in found],
+                         [('LF0005', "Node has no argument 'nmae'"), ('LF0301', "package 'dmeo' was not found")])
+        [fix] = editor.ask('textDocument/codeAction', {'textDocument': {'uri': editor.uri('top.launch.py')}, 'range': found[0]['range'],
+                                                       'context': {'diagnostics': found[:1]}})
+        self.assertEqual(fix['title'], "Change to 'name'")
+        editor.change('top.launch.py', {'text': PYTHON + 'def broken(:\n    pass\n'})
+        [found] = editor.diagnostics('top.launch.py')
+        self.assertEqual((found['message'], found['range']['start']['line']), ('SyntaxError: invalid syntax', PYTHON.count('\n')))
+
+    def test_nothing_of_the_file_runs(self):
+        editor = self.editor()
+        editor.open('a.launch.py', f"open('{self.directory}/ran', 'w').close()\n{PYTHON}")
+        editor.diagnostics('a.launch.py')
+        self.assertFalse((self.directory / 'ran').exists())
+
+
+class QuickFixes(InADirectory):
+    def fixes(self, text, code):
+        """Titles and results of the actions for the findings of this kind."""
+        editor = self.editor()
+        editor.open('q.launch.xml', text)
+        found = [one for one in editor.diagnostics('q.launch.xml') if one['code'] == code]
+        actions = editor.ask('textDocument/codeAction', {'textDocument': {'uri': editor.uri('q.launch.xml')}, 'range': found[0]['range'],
+                                                         'context': {'diagnostics': found[:1]}})
+        lines = text.split('\n')
+        results = {}
+        for action in actions:
+            [edit] = action['edit']['changes'][editor.uri('q.launch.xml')]
+            begin, end = edit['range']['start'], edit['range']['end']
+            offset = [sum(len(one) + 1 for one in lines[:place['line']]) + place['character'] for place in (begin, end)]
+            results[action['title']] = text[:offset[0]] + edit['newText'] + text[offset[1]:]
+        return results
+
+    def test_a_missing_attribute(self):
+        self.assertEqual(self.fixes('<launch>\n  <let name="a"/>\n</launch>\n', 'LF0103'),
+                         {'Add value=""': '<launch>\n  <let value="" name="a"/>\n</launch>\n'})
+
+    def test_an_unknown_attribute(self):
+        fixes = self.fixes('<launch>\n  <log message="a" level="info" colour="red"/>\n</launch>\n', 'LF0101')
+        self.assertEqual(fixes['Remove colour'], '<launch>\n  <log message="a" level="info"/>\n</launch>\n')
+
+    def test_an_argument_that_nobody_reads(self):
+        text = '<launch>\n  <arg name="site" default="hall"/>\n  <log message="a" level="info"/>\n</launch>\n'
+        fixes = self.fixes(text, 'LF0501')
+        self.assertEqual(fixes['Remove <arg>'], '<launch>\n  <log message="a" level="info"/>\n</launch>\n')
+        self.assertEqual(fixes['Ignore LF0501 here'], text.replace('  <arg', '  <!-- launch: ignore LF0501: reason -->\n  <arg'))
+
+    def test_an_argument_that_nobody_declares(self):
+        fixes = self.fixes('<launch>\n  <log message="$(var speed)" level="info"/>\n</launch>\n', 'LF0201')
+        self.assertEqual(fixes["Declare the argument 'speed'"],
+                         '<launch>\n  <arg name="speed"/>\n  <log message="$(var speed)" level="info"/>\n</launch>\n')
+
+    def test_an_argument_without_default(self):
+        fixes = self.fixes('<launch>\n  <arg name="a"/>\n  <log message="$(var a)" level="info"/>\n</launch>\n', 'LF0503')
+        self.assertIn('  <arg name="a" default=""/>\n', fixes['Add default=""'])
+
+    def test_a_useless_comment(self):
+        text = '<launch>\n  <!-- launch: ignore LF0501: reason -->\n  <log message="a" level="info"/>\n</launch>\n'
+        self.assertEqual(self.fixes(text, 'LF0109')['Remove the comment'], '<launch>\n  <log message="a" level="info"/>\n</launch>\n')
+
+
+if __name__ == '__main__':
+    unittest.main()
