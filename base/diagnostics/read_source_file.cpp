@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "base/diagnostics/diagnostic.hpp"
 #include "base/files/unique_fd.hpp"
@@ -38,6 +39,25 @@ const std::string* unsaved_text(const std::string& path) {
   return found == unsaved_texts().end() ? nullptr : &found->second;
 }
 
+// What an included file that does not exist may be meant to be: another one in its folder.
+std::string help_for_missing_include(const std::string& path) {
+  constexpr int kMost = 10'000;
+  const std::filesystem::path wanted(path);
+  std::vector<std::string> names;
+  std::error_code unreadable;
+  const std::filesystem::path folder = wanted.has_parent_path() ? wanted.parent_path() : std::filesystem::path(".");
+  int count = 0;
+  for (std::filesystem::directory_iterator entry(folder, unreadable), end;
+       entry != end && !unreadable && ++count < kMost; entry.increment(unreadable)) {
+    names.push_back(entry->path().filename().string());
+  }
+  std::string help = did_you_mean(wanted.filename().string(), names);
+  if (help.empty() && !path.starts_with('/')) {
+    help = "a relative path is relative to the launcher's working directory; use $(dirname)/…";
+  }
+  return help;
+}
+
 }  // namespace
 
 void set_unsaved_texts(std::map<std::string, std::string> texts) {
@@ -47,10 +67,7 @@ void set_unsaved_texts(std::map<std::string, std::string> texts) {
 std::shared_ptr<const SourceFile> read_source_file(const std::string& path, SourceRange included_from) {
   const auto fail = [&](int error) {
     throw LaunchError(fmt::format("can't read launch file '{}': {}", path, std::strerror(error)), included_from,
-                      included_from && !path.starts_with('/')
-                          ? "a relative path is relative to the launcher's working directory; use $(dirname)/…"
-                          : "",
-                      Finding::kUnreadableFile);
+                      included_from ? help_for_missing_include(path) : "", Finding::kUnreadableFile);
   };
   if (const std::string* const text = unsaved_text(path)) {
     return std::make_shared<const SourceFile>(path, *text, std::move(included_from));

@@ -54,18 +54,21 @@ bool is_program(const std::string& path) {
   return fs::is_regular_file(path, error) && ::access(path.c_str(), X_OK) == 0;
 }
 
-// Existing prefixes in the order of search, `own_prefix` last.
+// Existing prefixes in the order of search, each once, `own_prefix` last.
 std::vector<std::string> search_path(const Environment& environment, const std::string& own_prefix) {
   std::vector<std::string> prefixes;
   std::error_code error;
+  const auto add = [&prefixes](std::string prefix) {
+    if (!prefix.empty() && std::find(prefixes.begin(), prefixes.end(), prefix) == prefixes.end()) {
+      prefixes.push_back(std::move(prefix));
+    }
+  };
   for (std::string& entry : split_path(variable(environment, kSearchPathVariable))) {
-    if (!entry.empty() && fs::is_directory(entry, error)) {
-      prefixes.push_back(std::move(entry));
+    if (fs::is_directory(entry, error)) {
+      add(std::move(entry));
     }
   }
-  if (!own_prefix.empty()) {
-    prefixes.push_back(own_prefix);
-  }
+  add(own_prefix);
   return prefixes;
 }
 

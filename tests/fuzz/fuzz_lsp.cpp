@@ -9,6 +9,8 @@
 #include "programs/launch/lsp/document.hpp"
 #include "programs/launch/lsp/features.hpp"
 #include "programs/launch/lsp/message_stream.hpp"
+#include "programs/launch/lsp/python_source.hpp"
+#include "programs/launch/lsp/python_values.hpp"
 #include "tests/fuzz/fuzz_input.hpp"
 
 namespace {
@@ -41,6 +43,30 @@ void read_document(const Document& document) {
   }
 }
 
+// A Python launch file, whose calls and values are read as far as they are written.
+void read_python(const std::string& text) {
+  const launch::lsp::PythonSource source = launch::lsp::python_source_of(text);
+  for (const launch::lsp::PythonBrackets& brackets : source.brackets) {
+    require(brackets.inside.begin <= brackets.inside.end && brackets.inside.end <= text.size());
+    require(brackets.first <= brackets.last && brackets.last <= source.tokens.size());
+    for (const launch::lsp::PythonArgument& argument : brackets.arguments) {
+      require(argument.first <= argument.last && argument.last <= source.tokens.size());
+    }
+  }
+  const std::string path = "/f.launch.py";
+  const launch::lsp::PythonFileText file{[](const std::string& package) { return "/share/" + package; }, path, text,
+                                         source};
+  for (const launch::lsp::ArgumentPlace& place : python_argument_places(file)) {
+    require(place.span.begin <= place.span.end && place.span.end <= text.size());
+  }
+  static_cast<void>(python_arguments(file));
+  for (const launch::lsp::PythonBrackets& brackets : source.brackets) {
+    for (const launch::lsp::PythonArgument& argument : brackets.arguments) {
+      static_cast<void>(file.value(&argument));
+    }
+  }
+}
+
 // The messages of a stream that comes in pieces are those of the whole one.
 void read_messages(const std::string& bytes) {
   launch::lsp::MessageReader reader;
@@ -69,6 +95,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   read_messages(bytes);
   Document document(bytes);
   read_document(document);
+  read_python(bytes);
   // The bytes in the middle of the document, at every place that the first bytes choose.
   if (size > 2) {
     const Json begin = document.position(data[0]);
