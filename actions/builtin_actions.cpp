@@ -10,6 +10,7 @@ namespace launch {
 #define LAUNCH_BUILTIN_ACTIONS(ACTION) \
   ACTION(append_env)                   \
   ACTION(arg)                          \
+  ACTION(assign_machine)               \
   ACTION(bool_arg)                     \
   ACTION(call)                         \
   ACTION(change_parameter)             \
@@ -29,6 +30,7 @@ namespace launch {
   ACTION(log_error)                    \
   ACTION(log_info)                     \
   ACTION(log_warning)                  \
+  ACTION(machine)                      \
   ACTION(node)                         \
   ACTION(node_container)               \
   ACTION(on_health_change)             \

@@ -255,6 +255,9 @@ void find_faults_of_parameter_file(const ParameterFileUse& use, LaunchContext& c
 
 void find_faults_of_named_files(const std::vector<std::string>& argv, std::size_t first, std::size_t last,
                                 const SourceRange& where, LaunchContext& context) {
+  if (context.scope().machine != nullptr) {
+    return;  // they are there
+  }
   for (std::size_t i = std::max<std::size_t>(first, 1); i < last; ++i) {
     std::error_code ignored;
     if (argv[i - 1] == "--params-file" && std::filesystem::is_regular_file(argv[i], ignored)) {

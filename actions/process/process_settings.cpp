@@ -10,6 +10,7 @@
 #include "actions/process/control_group_settings.hpp"
 #include "actions/process/cpu_faults.hpp"
 #include "actions/process/depends_on.hpp"
+#include "actions/process/machine_settings.hpp"
 #include "actions/process/resource_settings.hpp"
 #include "actions/process/terminal_settings.hpp"
 #include "actions/process/watch.hpp"
@@ -349,11 +350,13 @@ void request_process(const Fields& fields, LaunchContext& context, ProcessSpec s
   perform_settings(control_group_settings(), fields, scope, spec.control_limits);
   check_resources(fields, spec.limits);
   spec.control_groups = scope.control_groups;
-  find_faults_of_cpus(spec.limits.cpus, fields.where("cpus"), context);
+  if (scope.machine == nullptr) {
+    find_faults_of_cpus(spec.limits.cpus, fields.where("cpus"), context);
+  }
   spec.output = output(fields, context);
   perform_settings(process_settings(), fields, scope, spec);
   perform_configurations(fields, scope, spec);
-  if (fields.has("cwd")) {
+  if (fields.has("cwd") && scope.machine == nullptr) {
     find_missing_directory(spec.working_directory, fields.where("cwd"), context);
   }
   if (!spec.crash_directory.empty()) {
@@ -365,6 +368,7 @@ void request_process(const Fields& fields, LaunchContext& context, ProcessSpec s
   for (const Fields* watch : fields.items("watch")) {
     WatchItem::perform(*watch, context, spec);
   }
+  put_on_machine(fields, context, spec);
   for (const Fields* dependency : fields.items("depends_on")) {
     DependsOn(*dependency).request(context, context.requests().processes.size());
   }

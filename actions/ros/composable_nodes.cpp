@@ -20,6 +20,19 @@ constexpr const char* kTags[] = {"composable_node", "composable_lifecycle_node"}
 
 namespace fs = std::filesystem;
 
+// The text of a file of parameters for all nodes, if it is on another machine.
+std::string text_of_scope_file(const std::string& path, const SourceRange& where, LaunchContext& context) {
+  MachineView* const machine = context.scope().machine.get();
+  if (machine == nullptr) {
+    return {};
+  }
+  try {
+    return machine->read_file(path) + "\n";
+  } catch (const std::runtime_error& error) {
+    throw LaunchError(error.what(), where, {}, Finding::kMissingParameterFile);
+  }
+}
+
 // The resource of the ament index that a container reads: a line PLUGIN;LIBRARY for each plugin.
 fs::path registrations_of(const std::string& prefix, const std::string& package) {
   return fs::path(prefix) / "share/ament_index/resource_index/rclcpp_components" / package;
@@ -28,7 +41,7 @@ fs::path registrations_of(const std::string& prefix, const std::string& package)
 // The package must exist, and one of its libraries must register the plugin.
 void find_missing_plugin(const ComposableNode& node, const Environment& environment, const SourceRange& package_where,
                          const SourceRange& plugin_where, LaunchContext& context) {
-  if (!context.exploration().is_on()) {
+  if (!context.exploration().is_on() || context.scope().machine != nullptr) {
     return;
   }
   PackageIndex& packages = *context.scope().packages;
@@ -151,9 +164,11 @@ ComposableNode ComposableNodes::evaluate(const Description& node, const Environm
   for (const GlobalParameter& parameter : scope.global_parameters) {
     if (const auto* const named = std::get_if<NamedParameter>(&parameter)) {
       result.parameters.push_back(*named);
-    } else {
+    } else if (scope.machine == nullptr || scope.machine->is_connected()) {
       const auto& file = std::get<ParameterFilePath>(parameter);
-      append_parameter_file({file.path, file.where, known, true}, context, result.parameters);
+      append_parameter_file(
+          {file.path, file.where, known, true, text_of_scope_file(file.path, file.where, context)}, context,
+          result.parameters);
     }
   }
   for (const Parameters& parameters : node.parameters) {

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "actions/parameters/parameter_file.hpp"
+#include "actions/process/machine_settings.hpp"
 #include "actions/values/quirks.hpp"
 #include "actions/values/ros_names.hpp"
 #include "base/text/names.hpp"
@@ -28,6 +29,11 @@ void append_global_parameters(ProcessSpec& spec, LaunchContext& context) {
       continue;
     }
     const auto& file = std::get<ParameterFilePath>(parameter);
+    if (scope.machine != nullptr) {
+      context.machines().expect_file(scope.machine, file.path, file.where);
+      spec.argv.insert(spec.argv.end(), {"--params-file", file.path});
+      continue;
+    }
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(file.path, ignored)) {
       throw LaunchError(fmt::format("parameter file path is not a file: {}", file.path), file.where,
@@ -97,7 +103,8 @@ std::vector<AttributeSpec> NodeProcess::attributes(bool named) {
        {"exec_name", AttributeType::kText, false, "base name of the program", "label of the process"},
        {"namespace", AttributeType::kText, named, "", "namespace of the node, below that of the scope"},
        {"args", AttributeType::kCommandLine, false, "", "more arguments, before --ros-args"},
-       {"ros_args", AttributeType::kCommandLine, false, "", "more ROS arguments, after --ros-args"}});
+       {"ros_args", AttributeType::kCommandLine, false, "", "more ROS arguments, after --ros-args"},
+       machine_attribute("the machine on which the process runs; local: this one")});
 }
 
 std::vector<ItemSpec> NodeProcess::items() {
@@ -195,6 +202,23 @@ std::string NodeProcess::request(LaunchContext& context) const {
   request_process(fields_, context, std::move(spec));
   context.requests().nodes.push_back(std::move(node));
   return full_name;
+}
+
+AssignableProcess NodeProcess::assignable(Scope& scope) const {
+  const auto text = [&](const char* name) {
+    return fields_.has(name) ? fields_.text(name).perform(scope) : std::string();
+  };
+  AssignableProcess process{text("pkg"), "", {}};
+  process.name_space =
+      resolve_namespace(fields_.optional_text("namespace"), scope, fields_.where()).value_or("/");
+  const std::string label = fields_.has("exec_name") ? text("exec_name")
+                                                     : std::filesystem::path(text("exec")).filename().string();
+  for (const std::string& name : {label, text("name")}) {
+    if (!name.empty()) {
+      process.names.push_back(name);
+    }
+  }
+  return process;
 }
 
 std::string NodeProcess::program(Scope& scope) const {

@@ -24,6 +24,9 @@ class NodeProcess {
   // chooses a part of the name.
   std::string request(LaunchContext& context) const;
 
+  // By which it may be assigned to a machine.
+  AssignableProcess assignable(Scope& scope) const;
+
  private:
   std::string program(Scope& scope) const;
   std::optional<std::string> node_name(Scope& scope) const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // <node>, <lifecycle_node> and <node_container> run ROS nodes, <load_composable_node> and <lifecycle_transition> ask
 // nodes that run.
+#include "actions/process/machine_settings.hpp"
 #include "actions/ros/composable_nodes.hpp"
 #include "actions/ros/node_process.hpp"
 #include "actions/row_action.hpp"
@@ -15,25 +16,29 @@ class Node : public Action {
  public:
   explicit Node(const Fields& fields)
       : Action(fields.where(), fields.condition()),
+        fields_(fields),
         node_(fields),
         components_(fields),
         autostart_(fields.boolean("autostart", false)) {}
 
  protected:
   void execute(LaunchContext& context) const override {
+    const AtMachine there(context, machine_of_process(fields_, context, [this](Scope& scope) { return node_.assignable(scope); }));
     const bool autostart = autostart_.perform(context.scope());
     const std::string name = node_.request(context);
     Requests& requests = context.requests();
+    const Environment environment = graph_environment(context.scope(), requests.processes.back().environment);
     if (autostart) {
       requests.transitions.push_back(
-          {name, {"configure", "activate"}, true, requests.processes.back().environment, where()});
+          {name, {"configure", "activate"}, true, environment, where()});
     }
     if (!components_.empty()) {
-      components_.request(context, name, requests.processes.back().environment, where());
+      components_.request(context, name, environment, where());
     }
   }
 
  private:
+  Fields fields_;
   NodeProcess node_;
   ComposableNodes components_;
   BooleanField autostart_;
@@ -57,7 +62,7 @@ class LoadComposableNodes : public Action {
  protected:
   void execute(LaunchContext& context) const override {
     Scope& scope = context.scope();
-    nodes_.request(context, target_.perform(scope), scope.environment, where());
+    nodes_.request(context, target_.perform(scope), graph_environment(scope, scope.environment), where());
   }
 
  private:
@@ -126,7 +131,7 @@ ActionType lifecycle_transition_action() {
                       "configure, activate, deactivate, cleanup, shutdown, separated by spaces"},
         .perform = perform_transitions}},
       [](const Fields& fields, LaunchContext& context, TransitionRequest& request) {
-        request.environment = context.scope().environment;
+        request.environment = graph_environment(context.scope(), context.scope().environment);
         request.origin = fields.where();
         context.requests().transitions.push_back(std::move(request));
       },

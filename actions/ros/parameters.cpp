@@ -114,14 +114,26 @@ void Parameters::find_useless_separators(const Tree& tree, LaunchContext& contex
   }
 }
 
+// The text of the file on the machine of the scope.
+std::string Parameters::text_there(const std::string& path, LaunchContext& context) const {
+  try {
+    return context.scope().machine->read_file(path);
+  } catch (const std::runtime_error& error) {
+    throw LaunchError(error.what(), file_->where(),
+                      "$(find-pkg-share PACKAGE)/… leads to the file of the package there",
+                      Finding::kMissingParameterFile);
+  }
+}
+
 std::string Parameters::performed_file(const std::string& path, LaunchContext& context) const {
   Scope& scope = context.scope();
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) {
+  if (scope.machine == nullptr && !std::filesystem::is_regular_file(path, ignored)) {
     throw LaunchError(fmt::format("parameter file path is not a file: {}", path), file_->where(),
                       help_for_missing_file(path), Finding::kMissingParameterFile);
   }
-  const auto file = read_source_file(path, file_->where());
+  const auto file = scope.machine == nullptr ? read_source_file(path, file_->where())
+                                             : std::make_shared<const SourceFile>(path, text_there(path, context));
   if (scope.note_performed_file) {
     scope.note_performed_file(file);
   }
@@ -151,9 +163,14 @@ void Parameters::append_to(std::vector<NamedParameter>& parameters, LaunchContex
     return;
   }
   const std::string path = file_->perform(scope);
-  append_parameter_file(
-      {path, file_->where(), node, false, allow_substitutions_ ? performed_file(path, context) : std::string()},
-      context, parameters);
+  if (scope.machine != nullptr && !scope.machine->is_connected()) {
+    return;  // a plan does not know what is in it
+  }
+  std::string text = allow_substitutions_ ? performed_file(path, context) : std::string();
+  if (scope.machine != nullptr && !allow_substitutions_) {
+    text = text_there(path, context) + "\n";
+  }
+  append_parameter_file({path, file_->where(), node, false, std::move(text)}, context, parameters);
 }
 
 void Parameters::append_to(ProcessSpec& spec, LaunchContext& context, const std::string& qualified_name,
@@ -176,7 +193,14 @@ void Parameters::append_to(ProcessSpec& spec, LaunchContext& context, const std:
     const std::string path = file_->perform(scope);
     if (!allow_substitutions_) {
       std::error_code ignored;
-      if (std::filesystem::is_regular_file(path, ignored)) {
+      if (scope.machine != nullptr) {
+        spec.argv.insert(spec.argv.end(), {"--params-file", path});
+        context.machines().expect_file(scope.machine, path, file_->where(), [this, path, &context, machine = scope.machine->name()] {
+          context.message(LogLevel::kWarning, "launch_ros.actions.node",
+                          fmt::format("{}: parameter file path is not a file on machine '{}': {}",
+                                      to_string(file_->where()), machine, path));
+        });
+      } else if (std::filesystem::is_regular_file(path, ignored)) {
         spec.argv.insert(spec.argv.end(), {"--params-file", path});
         find_faults_of_parameter_file({path, file_->where(), known_node_name(spec.argv)}, context);
       } else {

@@ -43,6 +43,7 @@ class Parameters {
   static Tree parse_tree(const Fields& fields);
   static void perform_tree(const Tree& tree, const std::string& prefix, Scope& scope,
                            std::vector<NamedParameter>& parameters);
+  std::string text_there(const std::string& path, LaunchContext& context) const;
   // The text of a file, with its substitutions performed.
   std::string performed_file(const std::string& path, LaunchContext& context) const;
   static void find_useless_separators(const Tree& tree, LaunchContext& context);

@@ -6,6 +6,7 @@
 
 #include <functional>
 
+#include "actions/process/machine_settings.hpp"
 #include "actions/process/process_settings.hpp"
 #include "actions/values/message_texts.hpp"
 #include "actions/values/ros_names.hpp"
@@ -61,7 +62,11 @@ class RosStep : public Action {
 
  protected:
   void execute(LaunchContext& context) const override {
+    // It asks nodes from here, wherever they run.
+    Environment graph = graph_environment(context.scope(), context.scope().environment);
+    const AtMachine here(context, nullptr);
     Scope& scope = context.scope();
+    scope.environment = std::move(graph);
     std::vector<std::string> words;
     for (const std::optional<Template>& word : words_) {
       words.push_back(word ? word->perform(scope) : "{}");

@@ -62,7 +62,7 @@ ActionType reset_env_action() {
   return action_of<NoValues>(
       {.tag = "reset_env", .help = "Restores the environment that the launcher was started with."}, {},
       [](const Fields&, LaunchContext& context, NoValues&) {
-        context.scope().environment = context.initial_environment();
+        context.scope().environment = context.initial_environment_there();
       });
 }
 

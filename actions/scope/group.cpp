@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "actions/process/control_group_settings.hpp"
+#include "actions/process/machine_settings.hpp"
 #include "actions/values/pair_items.hpp"
 #include "actions/values/ros_names.hpp"
 #include "launcher/language/fields.hpp"
@@ -33,7 +34,14 @@ class Group : public Action {
     }
     if (scoped && !fields_.boolean("forwarding", true).perform(inner)) {
       inner.clear_configurations();
-      inner.environment = context.initial_environment();
+      inner.environment = context.initial_environment_there();
+    }
+    if (fields_.has("machine")) {
+      if (!scoped) {
+        throw LaunchError("machine needs a scoped group: it ends with the group", fields_.text("machine").where(),
+                          "leave out scoped=\"false\"", Finding::kExclusive);
+      }
+      move_to_machine(inner, machine_of(fields_, context), context.initial_environment());
     }
     for (const auto& [name, value] : kept) {
       inner.configurations.insert_or_assign(name, value);
@@ -83,6 +91,7 @@ std::vector<AttributeSpec> group_attributes() {
       {"forwarding", AttributeType::kBoolean, false, "true",
        "false: start without configurations and with the launcher's own environment"},
       {"ns", AttributeType::kText, false, "", "namespace of every node in the group", true},
+      machine_attribute("the machine of every process in the group; local: this one"),
       {"name", AttributeType::kText, false, "",
        "name by which launch stop --group and others refer to the processes in the group", true}};
   for (AttributeSpec& limit : declared_attributes(control_group_settings())) {

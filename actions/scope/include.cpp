@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "actions/process/machine_settings.hpp"
 #include "actions/values/pair_items.hpp"
 #include "actions/values/quirks.hpp"
 #include "actions/values/ros_names.hpp"
@@ -36,6 +37,7 @@ class IncludeLaunchDescription : public Action {
   explicit IncludeLaunchDescription(const Fields& fields)
       : Action(fields.where(), fields.condition()),
         namespace_(fields.optional_text("ns")),
+        machine_(fields.optional_text("machine")),
         scoped_(fields.boolean("scoped", false)) {
     declaration_.file = fields.text("file");
     declaration_.where = fields.where();
@@ -55,7 +57,12 @@ class IncludeLaunchDescription : public Action {
       throw LaunchError(fmt::format("includes are nested more than {} deep", kMaximumDepth), where(),
                         "a file includes itself, directly or through others", Finding::kEndless);
     }
-    const std::string path = declaration_.file.perform(context.scope());
+    const std::shared_ptr<MachineView> machine = machine_ ? context.machines().find(machine_->perform(context.scope()), machine_->where())
+                                                          : context.scope().machine;
+    const std::string path = [&] {
+      const AtMachine here(context, nullptr);  // launch files are read here
+      return declaration_.file.perform(context.scope());
+    }();
     std::error_code ignored;
     if (path.ends_with(".py") && context.is_plan_only() && !std::filesystem::exists(path, ignored)) {
       note_missing_python(path, context);
@@ -84,10 +91,13 @@ class IncludeLaunchDescription : public Action {
     if (namespace_) {
       push_namespace(*namespace_, context.scope());
     }
+    const std::shared_ptr<MachineView> outer_machine = context.scope().machine;
+    move_to_machine(context.scope(), machine, context.initial_environment());
     const bool only_planned =
         std::exchange(context.scope().only_planned, context.scope().only_planned && !context.scope().planned_by_timer);
     context.visit(*included, [&] { set_arguments(context.scope()); });
     context.scope().only_planned = only_planned;
+    move_to_machine(context.scope(), outer_machine, context.initial_environment());
     if (namespace_) {
       restore_namespace(outer_namespace, context.scope());
     }
@@ -172,6 +182,7 @@ class IncludeLaunchDescription : public Action {
 
   IncludeDeclaration declaration_;
   std::optional<Template> namespace_;
+  std::optional<Template> machine_;
   BooleanField scoped_;
 };
 
@@ -185,6 +196,7 @@ ActionType include_action() {
                       "path of the launch file; relative to the launcher's working directory"},
                      {"ns", AttributeType::kText, false, "",
                       "namespace of every node of the file; ends with the file, unlike other settings", true},
+                     machine_attribute("the machine of every process of the file; the file itself is read here"),
                      {"scoped", AttributeType::kBoolean, false, "false",
                       "true: what the file sets ends with it, as in a group", true}},
       .items = {pair_item("arg", "an argument for the file", "name of the configuration"),

@@ -11,6 +11,7 @@
 #include "actions/trace/trace_settings.hpp"
 #include "base/diagnostics/diagnostic.hpp"
 #include "base/environment/test_run_variables.hpp"
+#include "launcher/visit/at_machine.hpp"
 #include "launcher/visit/launch_context.hpp"
 #include "tracing/model/chains/chain_definition.hpp"
 #include "tracing/record/plan/context_fields.hpp"
@@ -137,6 +138,13 @@ class Trace : public Action {
 
  protected:
   void execute(LaunchContext& context) const override {
+    if (!fields_.has("machine")) {
+      context.machines().require_only_this_machine(where());
+    } else if (const Template& machine = fields_.text("machine"); machine.perform(context.scope()) != kLocalMachine) {
+      throw LaunchError("a trace of another machine is not supported", machine.where(),
+                        "machine=\"local\" records this machine only", Finding::kExclusive);
+    }
+    const AtMachine here(context, nullptr);
     Scope& scope = context.scope();
     TraceRequest request;
     request.config.launch_events = true;
@@ -216,13 +224,21 @@ class Trace : public Action {
   Fields fields_;
 };
 
+// `launch trace` has all settings but this one.
+std::vector<AttributeSpec> trace_attributes() {
+  std::vector<AttributeSpec> attributes = declared_attributes(trace_settings());
+  attributes.push_back({"machine", AttributeType::kText, false, "none",
+                        "local: processes of other machines are not recorded; without it they are an error", true});
+  return attributes;
+}
+
 }  // namespace
 
 ActionType trace_action() {
   return {
       .tag = "trace",
       .help = "Records the run with LTTng, from before the first process starts until the last one has ended.",
-      .attributes = declared_attributes(trace_settings()),
+      .attributes = trace_attributes(),
       .items = {{.tag = "channel",
                  .help = "a further channel of one domain, whose events have buffers of their own",
                  .attributes = declared_attributes(channel_settings()),

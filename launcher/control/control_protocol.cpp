@@ -72,6 +72,9 @@ void put_end(Json& json, const ProcessExit& exit) {
   if (exit.out_of_memory) {
     json["out_of_memory"] = true;
   }
+  if (exit.lost) {
+    json["lost"] = true;
+  }
   json["ran_for"] = seconds(exit.ran_for);
 }
 
@@ -124,8 +127,15 @@ void append_process(std::string& text, const SteeredProcess& process, const Proc
   } else {
     const ProcessView view = supervisor.view(process.id);
     fmt::format_to(to, ",\"state\":\"{}\"", state_name(view.state));
+    const std::string& machine = view.spec.machine;
+    if (!machine.empty()) {
+      text += ",\"machine\":";
+      append_json_string(text, machine);
+    }
     if (view.pid >= 0) {
-      fmt::format_to(to, ",\"pid\":{},\"running_for\":{}", number_outside(view.pid), seconds(view.running_for));
+      // Who reads "pid" looks for the process here.
+      fmt::format_to(to, ",\"{}\":{},\"running_for\":{}", machine.empty() ? "pid" : "pid_there",
+                     machine.empty() ? number_outside(view.pid) : view.pid, seconds(view.running_for));
       if (view.health != Health::kUnwatched) {
         fmt::format_to(to, ",\"health\":\"{}\"", name_of(view.health));
         if (!view.health_reason.empty()) {
@@ -275,6 +285,9 @@ std::string follow_line(std::size_t log_size) {
 
 std::string event_line(const ProcessEvent& event) {
   Json json{{"time", now()}, {"event", ""}, {"process", event.label}};
+  if (!event.spec.machine.empty()) {
+    json["machine"] = event.spec.machine;
+  }
   std::visit(EventWriter{json}, event.what);
   return dump(json);
 }

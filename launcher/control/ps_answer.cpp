@@ -122,6 +122,8 @@ bool PsReader::string(std::string& value) {
         launch.processes.back().name = std::move(value);
       } else if (key_ == "state") {
         launch.processes.back().state = std::move(value);
+      } else if (key_ == "machine") {
+        launch.processes.back().machine = std::move(value);
       } else if (key_ == "health") {
         launch.processes.back().health = std::move(value);
       } else if (key_ == "status") {
@@ -160,6 +162,8 @@ bool PsReader::number(double value) {
     ListedProcess& process = launch.processes.back();
     if (key_ == "pid") {
       process.pid = static_cast<pid_t>(value);
+    } else if (key_ == "pid_there") {
+      process.pid_there = static_cast<pid_t>(value);
     } else if (key_ == "running_for") {
       process.running_for = value;
     } else if (key_ == "memory_share") {

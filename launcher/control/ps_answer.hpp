@@ -20,7 +20,9 @@ struct ListedProcess {
   std::string health;          // "starting", "healthy", "unhealthy"; "" if it is not watched
   std::string status;          // what it says of itself
   std::string end;             // of the last run: "exit code 1", "SIGSEGV"; "" if none has ended
-  pid_t pid = -1;              // -1: it does not run
+  std::string machine;         // on which it runs; "": this one
+  pid_t pid = -1;              // -1: it does not run here
+  pid_t pid_there = -1;        // its number on that machine; -1: it does not run there
   std::int64_t restarts = -1;  // -1: it has not been started
   double running_for = 0;      // seconds
   double memory_share = -1;    // of the memory_max that is nearest to being used up; negative: there is none

@@ -52,6 +52,9 @@ class Collector {
     for (const HealthWatch& watch : spec.watches) {
       leave_out(fmt::format("'{}' is healthy while {}", spec.name, describe(watch)), spec.origin);
     }
+    if (!spec.machine.empty()) {
+      leave_out(fmt::format("that '{}' runs on machine '{}'", spec.name, spec.machine), spec.origin);
+    }
     if (spec.tty || spec.terminal_input) {
       leave_out(fmt::format("the terminal of '{}'", spec.name), spec.origin);
     }

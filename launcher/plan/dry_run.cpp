@@ -42,10 +42,13 @@ Json or_null(const std::optional<Text>& text) {
 Json process_as_json(const ProcessSpec& spec, const Environment& launcher_environment) {
   Json process;
   process["name"] = spec.name;
+  if (!spec.machine.empty()) {
+    process["machine"] = spec.machine;
+  }
   process["argv"] = plain_argv(spec);
   process["cwd"] = spec.working_directory.empty() ? Json(nullptr) : Json(spec.working_directory);
   Json environment = Json::object();
-  for (const auto& [name, value] : environment_difference(spec.environment, launcher_environment)) {
+  for (const auto& [name, value] : shown_changes(spec, launcher_environment)) {
     environment[name] = or_null(value);
   }
   process["env"] = std::move(environment);
@@ -159,10 +162,13 @@ std::string process_as_text(const ProcessSpec& spec, const Environment& launcher
     command += (command.empty() ? "" : " ") + (spec.shell ? word : shell_quoted(word));
   }
   std::string text = fmt::format("{} ({})\n  {}\n", spec.name, to_string(spec.origin), command);
+  if (!spec.machine.empty()) {
+    text += fmt::format("  machine: {}\n", spec.machine);
+  }
   if (!spec.working_directory.empty()) {
     text += fmt::format("  cwd: {}\n", spec.working_directory);
   }
-  for (const auto& [name, value] : environment_difference(spec.environment, launcher_environment)) {
+  for (const auto& [name, value] : shown_changes(spec, launcher_environment)) {
     text +=
         value ? fmt::format("  env: {}={}\n", name, shell_quoted(*value)) : fmt::format("  env: {} removed\n", name);
   }

@@ -41,6 +41,10 @@ std::string plan_as_shell_script(const LaunchPlan& plan, const Environment& laun
 // The changes that turn `to` into `of`; nullopt: the variable is removed.
 std::map<std::string, std::optional<std::string>> environment_difference(const Environment& of, const Environment& to);
 
+// Those of the process. Of a process on another machine, whose environment is not known, what the launch file sets.
+std::map<std::string, std::optional<std::string>> shown_changes(const ProcessSpec& spec,
+                                                                const Environment& launcher_environment);
+
 // The actions as the launch file has them: a tree with a line per element. Includes are followed when their path can be
 // known without visiting.
 std::string print_description(const LaunchDescription& description, const Registry& registry, const Scope& scope);

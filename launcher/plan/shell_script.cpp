@@ -66,7 +66,12 @@ std::string plan_as_shell_script(const LaunchPlan& plan, const Environment& laun
                                               request.target, to_string(node.origin));
                   }
                 },
-                [&](const ProcessSpec& spec) { processes += process_as_script(spec, launcher_environment, files); },
+                [&](const ProcessSpec& spec) {
+                  processes += spec.machine.empty()
+                                   ? process_as_script(spec, launcher_environment, files)
+                                   : fmt::format("\n# not started: {} on machine {}, {}\n", spec.name, spec.machine,
+                                                 to_string(spec.origin));
+                },
                 PassOver<ProcessCommand, UnregisterRequest, TestRequest, TimerRequest, TransitionRequest,
                          CoroutineRequest, ShutdownRequest, NodeDescription, Dependency>(),
             });
@@ -97,6 +102,11 @@ std::map<std::string, std::optional<std::string>> environment_difference(const E
     }
   }
   return changes;
+}
+
+std::map<std::string, std::optional<std::string>> shown_changes(const ProcessSpec& spec,
+                                                                const Environment& launcher_environment) {
+  return environment_difference(spec.environment, spec.machine.empty() ? launcher_environment : Environment());
 }
 
 }  // namespace launch

@@ -209,7 +209,8 @@ void Supervision::report_exit(Supervised& process, ProcessExit exit, bool will_r
   end_tty(process);
   exit.ran_for = process.ran_for = loop.now() - process.started;
   // Where the process has no cgroup that counts it. Nobody else of the launch has sent the signal.
-  if (exit.code == -SIGKILL && !process.signalled && process.process.control_group.empty()) {
+  if (exit.code == -SIGKILL && !process.signalled && process.process.control_group.empty() &&
+      process.spec.machine.empty()) {
     exit.out_of_memory = runner.was_ended_by_kernel(process.process, process.started);
   }
   process.last_exit = exit;

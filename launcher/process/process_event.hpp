@@ -93,10 +93,16 @@ struct ProcessEvent {
       what;
 };
 
-// Whether the process has ended as it should not: by itself, or by a crash while it was being ended. Ends that its spec
-// allows are right.
+// The label of a process as its lines have it: "arm:talker-1" on machine arm, "talker-1" on this one.
+inline std::string shown_label_of(const std::string& label, const ProcessSpec& spec) {
+  return spec.machine.empty() ? label : spec.machine + ":" + label;
+}
+
+// Whether the process has ended as it should not: by itself, by a crash while it was being ended, or unseen because the
+// connection to its machine is lost. Ends that its spec allows are right.
 inline bool has_failed(const ProcessSpec& spec, const ProcessExited& exited) {
-  return (!exited.expected || tells_of_a_crash(-exited.exit.code)) && !spec.allowed_exits.contains(exited.exit.code);
+  return exited.exit.lost || ((!exited.expected || tells_of_a_crash(-exited.exit.code)) &&
+                              !spec.allowed_exits.contains(exited.exit.code));
 }
 
 using ProcessOutputObserver = std::function<void(const ProcessSpec& spec, ProcessId id, const std::string& label,

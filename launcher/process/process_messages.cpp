@@ -34,7 +34,7 @@ class Messages {
   Messages(OutputRouter& output, const ProcessEvent& event) : output_(output), event_(event) {}
 
   void operator()(const ProcessStarted& started) const {
-    say(LogLevel::kInfo, fmt::format("process started with pid [{}]", number_outside(started.pid)));
+    say(LogLevel::kInfo, fmt::format("process started with pid [{}]", shown(started.pid)));
     if (started.lacks_terminal) {
       say(LogLevel::kWarning,
           fmt::format("process has nothing to read, because standard input of the launch is no terminal{}",
@@ -48,14 +48,17 @@ class Messages {
   }
 
   void operator()(const ProcessExited& exited) const {
-    if (exited.exit.code == 0) {
-      say(LogLevel::kInfo, fmt::format("process has finished cleanly [pid {}]", number_outside(exited.pid)));
+    if (exited.exit.lost) {
+      say(LogLevel::kError, fmt::format("process is lost with machine '{}' [pid {}]{}", event_.spec.machine,
+                                        exited.pid, place(event_.spec)));
+    } else if (exited.exit.code == 0) {
+      say(LogLevel::kInfo, fmt::format("process has finished cleanly [pid {}]", shown(exited.pid)));
     } else if (event_.spec.allowed_exits.contains(exited.exit.code)) {
       say(LogLevel::kInfo, fmt::format("process has finished with exit code {}, which is allowed [pid {}]",
-                                       exited.exit.code, number_outside(exited.pid)));
+                                       exited.exit.code, shown(exited.pid)));
     } else {
       say(LogLevel::kError,
-          fmt::format("process has died [pid {}, exit code {}, cmd '{}'].{}", number_outside(exited.pid),
+          fmt::format("process has died [pid {}, exit code {}, cmd '{}'].{}", shown(exited.pid),
                       exited.exit.code, fmt::join(event_.spec.argv, " "), place(event_.spec)));
     }
   }
@@ -72,7 +75,7 @@ class Messages {
 
   void operator()(const ProcessLeft& left) const {
     say(LogLevel::kError,
-        fmt::format("process[{}] cannot be ended: pid {} {}{}", event_.label, number_outside(left.pid),
+        fmt::format("process[{}] cannot be ended: pid {} {}{}", event_.label, shown(left.pid),
                     left.foreign ? "belongs to another user" : "has not ended after SIGKILL", place(event_.spec)));
   }
 
@@ -118,7 +121,12 @@ class Messages {
     return sum.find_first_of(".e") == std::string::npos ? sum + ".0" : sum;
   }
 
-  void say(LogLevel level, const std::string& text) const { output_.message(level, event_.label, text); }
+  // A number of another machine is told as it is.
+  pid_t shown(pid_t pid) const { return event_.spec.machine.empty() ? number_outside(pid) : pid; }
+
+  void say(LogLevel level, const std::string& text) const {
+    output_.message(level, shown_label_of(event_.label, event_.spec), text);
+  }
 
   OutputRouter& output_;
   const ProcessEvent& event_;
@@ -164,6 +172,9 @@ std::string end_of(const ProcessExit& exit) {
 }
 
 std::string describe(const ProcessExit& exit) {
+  if (exit.lost) {
+    return fmt::format("lost with its machine after {:.2f} s", std::chrono::duration<double>(exit.ran_for).count());
+  }
   constexpr double kKibPerMib = 1024.0;
   return fmt::format("{} after {:.2f} s, with {:.2f} s of processor time and {:.1f} MiB", end_of(exit),
                      std::chrono::duration<double>(exit.ran_for).count(),

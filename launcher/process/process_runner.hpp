@@ -7,6 +7,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include "launcher/process/process_spec.hpp"
@@ -21,6 +23,18 @@ struct StoppedChild {
   int signal;
 };
 
+// The process can't be started, and another try would not help.
+class NeverStarts : public std::system_error {
+ public:
+  // `what` is the whole text.
+  NeverStarts(int error, std::string what)
+      : std::system_error(error, std::system_category()), what_(std::move(what)) {}
+  const char* what() const noexcept override { return what_.c_str(); }
+
+ private:
+  std::string what_;
+};
+
 class ProcessRunner {
  public:
   virtual ~ProcessRunner() = default;
@@ -29,6 +43,10 @@ class ProcessRunner {
   // that gets the terminal stays in the group of the launcher. One with a tty leads a session on it.
   // Throws std::system_error when it can't be started (no such program, no permission, no such directory).
   virtual Process spawn(const ProcessSpec& spec) = 0;
+
+  // Of a process that spawn() has returned with `starting`: its pidfd has become readable, so it is known whether it has
+  // started. Sets its pid; from now on the pidfd is readable when it has exited. Throws as spawn() does.
+  virtual void confirm(Process& process) { process.starting = false; }
 
   // Sends a signal to every process of the group of `process`. A group that is gone is not an error. False when each
   // process of the group belongs to another user, so that none got the signal.

@@ -83,6 +83,8 @@ struct GeneratedFile {
 // Configuration: plain data, all substitutions performed. `launch --dry-run` prints exactly this.
 struct ProcessSpec {
   std::string name;           // label without its number; the supervisor appends "-N"
+  std::string machine;        // on which it runs; empty: this one
+  std::string label;          // "talker-1"; the supervisor sets it
   std::string python_action;  // the name of the action of a Python launch file that asked for it; empty: another file
   std::vector<std::string> other_names;  // further names for it, such as the name of its ROS node
   std::vector<std::string> groups;       // names of the groups of the launch file around it, the outermost first
@@ -129,10 +131,17 @@ struct Process {
   UniqueFd in;                            // write end of standard input, kept open
   std::string control_group{};            // of its own; empty: none
   std::uint64_t out_of_memory_before{0};  // how many processes the kernel had ended there, when it started
+  // Of a process on another machine, whose pidfd and streams are stand-ins.
+  std::string machine{};
+  std::uint32_t run{0};   // its number there
+  bool starting = false;  // it is not known yet whether it starts (ProcessRunner::confirm())
 };
 
 // The exit code of a process that could not be started.
 constexpr int kExitCodeOfFailedStart = 127;
+
+// That of a process whose machine was lost, as of ssh(1): nobody knows how it has ended.
+constexpr int kExitCodeOfLost = 255;
 
 // Outcome.
 struct ProcessExit {
@@ -141,6 +150,7 @@ struct ProcessExit {
   rusage usage{};
   bool core_dumped = false;
   bool out_of_memory = false;  // the kernel has ended it, because there was no memory
+  bool lost = false;           // the connection to its machine is lost
 };
 
 }  // namespace launch

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <exception>
-#include <system_error>
 #include <utility>
 
 #include "launcher/process/guardian/guardian.hpp"
@@ -29,7 +28,7 @@ using Event = SupervisionEvent;
 // clang-format off
 const std::array<std::array<Supervision::Handler, Supervision::kEvents>, Supervision::kStates> Supervision::kTable{{
   //                   kStart                kExit                        kOutputClosed                  kTimeout                    kSignal                       kShutdown                        kTerminate                     kKill                       kStop                       kRestart                       kTerminalSignal                         kGroupEnded   kUnhealthy
-  /* kStarting     */ {&Supervision::spawn,  &Supervision::ignore,        &Supervision::ignore,          &Supervision::ignore,       &Supervision::ignore,         &Supervision::ignore,            &Supervision::ignore,          &Supervision::ignore,       &Supervision::ignore,       &Supervision::ignore, &Supervision::ignore, &Supervision::ignore, &Supervision::ignore},
+  /* kStarting     */ {&Supervision::spawn,  &Supervision::confirm,       &Supervision::ignore,          &Supervision::ignore,       &Supervision::defer,          &Supervision::defer,             &Supervision::defer,           &Supervision::defer,        &Supervision::defer,        &Supervision::defer,  &Supervision::ignore, &Supervision::ignore, &Supervision::ignore},
   /* kRunning      */ {&Supervision::ignore, &Supervision::end_unasked,   &Supervision::ignore,          &Supervision::ignore,       &Supervision::send_requested, &Supervision::interrupt,         &Supervision::terminate_now,   &Supervision::kill_now,     &Supervision::stop,         &Supervision::restart, &Supervision::note_signal_of_terminal, &Supervision::ignore, &Supervision::restart_unhealthy},
   /* kInterrupting */ {&Supervision::ignore, &Supervision::end_signalled, &Supervision::remains_ended,   &Supervision::terminate,    &Supervision::send_requested, &Supervision::ignore,            &Supervision::terminate_now,   &Supervision::kill_now,     &Supervision::stay_stopped, &Supervision::start_again, &Supervision::ignore, &Supervision::leave_remains, &Supervision::ignore},
   /* kTerminating  */ {&Supervision::ignore, &Supervision::end_signalled, &Supervision::remains_ended,   &Supervision::kill_at_last, &Supervision::send_requested, &Supervision::ignore,            &Supervision::ignore,          &Supervision::kill_now,     &Supervision::stay_stopped, &Supervision::start_again, &Supervision::ignore, &Supervision::leave_remains, &Supervision::ignore},
@@ -53,6 +52,7 @@ void Supervision::handle(Supervised& first, Event event, int signal) {
     const Pending next = pending.front();
     pending.pop_front();
     next.process->requested_signal = next.signal;
+    next.process->requested = next.event;
     const Handler handler = kTable[static_cast<std::size_t>(next.process->state)][static_cast<std::size_t>(next.event)];
     (this->*handler)(*next.process);
   }
@@ -64,61 +64,6 @@ void Supervision::notify(Supervised& process, decltype(ProcessEvent::what) what)
   for (std::size_t i = 0; i < observers.size(); ++i) {
     observers[i](event);
   }
-}
-
-void Supervision::spawn(Supervised& process) {
-  process.timer.reset();
-  process.exited = false;
-  process.signalled = false;
-  process.refused = false;
-  process.waits_for_foreground = false;
-  process.request = Request::kNone;
-  if (process.spec.start_limit.starts > 0) {
-    process.starts.push_back(loop.now());
-  }
-  const bool is_new = process.state == ProcessState::kStarting || process.next;
-  if (process.next) {
-    process.spec = process.next();
-    process.next = nullptr;
-  }
-  try {
-    if (is_new) {
-      files.write(process.spec, process.id);
-      process.spec.mark = guardian == nullptr ? "" : guardian->mark(process.label, process.spec);
-    }
-    process.process = runner.spawn(process.spec);
-  } catch (const std::system_error& error) {
-    notify(process, ProcessStartFailed{error.what(), respawns(process)});
-    if (wants_respawn(process)) {
-      start_later(process, std::max(process.respawn_delay.next(process.spec.respawn, Duration{0}),
-                                    ProcessSupervisor::kFailedStartDelay));
-    } else {
-      finish(process);
-    }
-    return;
-  }
-  if (guardian != nullptr) {
-    guardian->note(process.id, process.process.pid, process.label, process.spec);
-  }
-  process.state = ProcessState::kRunning;
-  process.unreaped = true;
-  process.started = loop.now();
-  ++process.runs;
-  process.health = process.spec.watches.empty() ? Health::kUnwatched : Health::kStarting;
-  process.health_reason.clear();
-  process.status.clear();
-  ChildOutput::Observer on_bytes;
-  if (process.spec.tty) {
-    if (!process.tty) {
-      process.tty = std::make_unique<ProcessTty>(loop);
-    }
-    process.tty->begin(process.process.in.get());
-    on_bytes = [tty = process.tty.get()](std::string_view bytes) { tty->add_output(bytes); };
-  }
-  process.output.follow(
-      process.process, [this, &process] { handle(process, Event::kOutputClosed); }, std::move(on_bytes));
-  process.exit_source = loop.on_exit(process.process.pidfd.get(), [this, &process] { handle(process, Event::kExit); });
-  notify(process, ProcessStarted{process.process.pid, process.spec.terminal_input && !process.process.has_terminal});
 }
 
 void Supervision::observe_lines() {
@@ -204,7 +149,7 @@ ProcessSupervisor::~ProcessSupervisor() {
       }
     }
     for (const auto& process : impl_->processes) {
-      if (process->unreaped) {
+      if (process->unreaped && process->spec.machine.empty()) {  // the agent of another machine ends its processes
         pollfd exited{process->process.pidfd.get(), POLLIN, 0};
         if (::poll(&exited, 1, kReapTimeoutMilliseconds) == 1) {
           impl_->runner.reap(process->process);

@@ -54,7 +54,7 @@ void Supervision::tell_of_stopped() {
     }
     for (std::size_t i = 0; i < processes.size(); ++i) {
       Supervised& process = *processes[i];
-      if (process.unreaped && process.process.pid == stopped.pid) {
+      if (process.unreaped && process.process.pid == stopped.pid && process.spec.machine.empty()) {
         process.waits_for_foreground = process.process.has_terminal;
         notify(process, ProcessWaitsForTerminal{stopped.pid, stopped.signal == SIGTTIN, process.process.has_terminal});
         break;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The private part of the supervisor: its state of each process, and the handlers of events. Only for
-// process_supervisor.cpp, which has the table of states and events, and for process_end.cpp, process_respawn.cpp and
-// process_terminal.cpp.
+// process_supervisor.cpp, which has the table of states and events, and for process_start.cpp, process_end.cpp,
+// process_respawn.cpp and process_terminal.cpp.
 #pragma once
 
 #include <array>
@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -69,16 +70,21 @@ struct Supervised {
   Supervised(EventLoop& loop, OutputRouter& router, ProcessId number, ProcessSpec given)
       : id(number),
         label(given.name + "-" + std::to_string(number)),
+        shown_label(shown_label_of(label, given)),
         spec(std::move(given)),
-        output(loop, router, {id, label, spec.output}) {}
+        output(loop, router, {id, shown_label, spec.output}) {}
 
   const ProcessId id;
   const std::string label;
+  const std::string shown_label;  // in front of its lines
   ProcessSpec spec;
   std::function<ProcessSpec()> next;  // the spec from the next start on; null: the same
   ProcessState state = ProcessState::kStarting;
   std::int64_t retries = 0;
   int requested_signal = 0;  // of the kSignal event being handled
+  SupervisionEvent requested = SupervisionEvent::kStart;  // the event being handled
+  // What was asked for before it was known whether the process starts.
+  std::vector<std::pair<SupervisionEvent, int>> deferred;
   SupervisionRequest request = SupervisionRequest::kNone;
   RespawnDelay respawn_delay;
   std::deque<Duration> starts;  // that count for the limit, as far as they are recent
@@ -149,6 +155,8 @@ struct Supervision {
   // Handlers: each handles one event of a process in one state. First those of its start and of what follows a run.
   void ignore(Supervised&) {}
   void spawn(Supervised& process);
+  void confirm(Supervised& process);
+  void defer(Supervised& process);
   void finish(Supervised& process);
   void stop(Supervised& process);
   void stay_stopped(Supervised& process);
@@ -185,6 +193,8 @@ struct Supervision {
   void conclude(Supervised& process);
   void wait_for_respawn(Supervised& process, Duration delay);
   void start_timer(Supervised& process, Duration delay);
+  void begin_run(Supervised& process);
+  void fail_to_start(Supervised& process, const std::system_error& error);
   void end_tty(Supervised& process);
   void report_exit(Supervised& process, ProcessExit exit, bool will_respawn);
   void send(Supervised& process, int signal, int escalated_from, Duration waited);

@@ -8,6 +8,7 @@
 
 #include "launcher/python/interpreter/python_module.hpp"
 #include "launcher/python/python_file.hpp"
+#include "launcher/substitution/machine_view.hpp"
 
 namespace launch {
 
@@ -30,8 +31,10 @@ std::map<Key, Loaded>& loaded_files() {
 std::shared_ptr<const LaunchDescription> run(std::shared_ptr<const SourceFile> file, const Registry& registry,
                                              const Scope& outer) {
   Scope scope;
-  scope.environment = outer.environment;
-  scope.packages = outer.packages;
+  // Launch files are read here, also those whose processes run on another machine.
+  const Environment before_file = home_environment(outer);
+  scope.environment = before_file;
+  scope.packages = home_packages(outer);
   scope.log_directory = outer.log_directory;
   scope.warn = outer.warn;
   scope.unrun_commands = outer.unrun_commands;
@@ -52,12 +55,12 @@ std::shared_ptr<const LaunchDescription> run(std::shared_ptr<const SourceFile> f
     python_file->places().fail(error);
   }
   for (const auto& [name, value] : scope.environment) {
-    const auto before = outer.environment.find(name);
-    if (before == outer.environment.end() || before->second != value) {
+    const auto before = before_file.find(name);
+    if (before == before_file.end() || before->second != value) {
       description->environment_changes.emplace(name, value);
     }
   }
-  for (const auto& [name, value] : outer.environment) {
+  for (const auto& [name, value] : before_file) {
     if (!scope.environment.contains(name)) {
       description->environment_changes.emplace(name, std::nullopt);
     }

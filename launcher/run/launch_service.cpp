@@ -108,6 +108,10 @@ int LaunchService::run(const LaunchDescription& description) {
     const Duration before = loop_.now();
     traverse({description.file, 0, 0}, Asker::kFile, [&] {
       context_.visit(description);
+      for (const MachineAssignment* const assignment : context_.machines().unused_assignments()) {
+        context_.message(LogLevel::kWarning, "launch",
+                         fmt::format("{}: no process of the launch fits this", to_string(assignment->where)));
+      }
       timing_.push_back({"visit", loop_.now() - before});
     });
   });
@@ -207,7 +211,9 @@ void LaunchService::traverse(const SourceRange& where, Asker asker, const std::f
   const std::int64_t begin = monotonic_time();
   try {
     traversal();
+    context_.machines().check_files();
   } catch (const LaunchError& error) {
+    context_.machines().forget_files();
     context_.take_requests();
     fail(error);
     return;
@@ -314,9 +320,11 @@ void LaunchService::observe_output() {
 
 void LaunchService::prepare(ProcessSpec& spec, ProcessId id) {
   health_.monitor.prepare(spec, id);
-  limits_.prepare(spec, id);
-  scopes_.prepare(spec);
-  test_.prepare(spec, id);
+  if (spec.machine.empty()) {  // what these add to a process is on this machine
+    limits_.prepare(spec, id);
+    scopes_.prepare(spec);
+    test_.prepare(spec, id);
+  }
   ros_tasks_.name_process(id, spec.other_names);
   record({.kind = LaunchRecord::Kind::kSpawn, .name = spec.name, .where = spec.origin, .time = monotonic_time()});
 }

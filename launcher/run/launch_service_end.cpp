@@ -38,11 +38,13 @@ void LaunchService::shutdown(const std::string& reason) {
 Requests LaunchService::visit_farewell(const Invocation& invocation) {
   try {
     context_.visit(invocation);
+    context_.machines().check_files();
     Requests requests = context_.take_requests();
     check_farewell(requests, invocation.handler->live);
     processes_.check(requests.commands);
     return requests;
   } catch (const LaunchError& error) {
+    context_.machines().forget_files();
     context_.take_requests();
     fail(error);
     return {};

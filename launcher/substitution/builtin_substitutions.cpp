@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "launcher/substitution/machine_view.hpp"
 #include "launcher/substitution/substitution_call.hpp"
 #include "launcher/substitution/template_parser.hpp"
 
@@ -38,6 +39,9 @@ std::string env(const SubstitutionCall& call) {
   if (const auto found = environment.find(name); found != environment.end()) {
     return found->second;
   }
+  if (const MachineView* const machine = call.scope().machine.get(); machine != nullptr && !machine->is_connected()) {
+    return unknown_there(name, *machine);
+  }
   if (call.has(1)) {
     return call.text(1);
   }
@@ -70,7 +74,7 @@ std::string find_pkg_share(const SubstitutionCall& call) {
   std::string path = call.look_up_package(
       [&](PackageIndex& index) { return index.share(package, call.scope().environment); }, package);
   std::error_code ignored;
-  if (call.scope().warn && !std::filesystem::is_directory(path, ignored)) {
+  if (call.scope().warn && call.scope().machine == nullptr && !std::filesystem::is_directory(path, ignored)) {
     call.scope().warn(call.where(),
                       fmt::format("package '{}' has no share directory: '{}' does not exist", package, path));
   }
@@ -90,7 +94,12 @@ std::string exec_in_pkg(const SubstitutionCall& call) {
 
 std::string find_exec(const SubstitutionCall& call) {
   const std::string name = call.text(0);
-  std::string path = PackageIndex::find_on_path(name, call.scope().environment);
+  std::string path;
+  try {
+    path = call.scope().packages->find_program(name, call.scope().environment);
+  } catch (const std::runtime_error& error) {
+    call.fail(error.what(), {}, Finding::kMissingProgram);  // of another machine
+  }
   if (path.empty()) {
     call.fail(fmt::format("executable '{}' not found on the PATH", name), "install it, or extend the PATH",
               Finding::kMissingProgram);

@@ -12,6 +12,8 @@
 #include "launcher/python/interpreter/python_guest.hpp"
 #include "launcher/python/interpreter/python_module.hpp"
 #include "launcher/substitution/command_output.hpp"
+#include "launcher/substitution/machine_view.hpp"
+#include "launcher/substitution/package_index.hpp"
 #include "launcher/substitution/substitution_call.hpp"
 #include "launcher/substitution/template_parser.hpp"
 #include "launcher/substitution/unrun_commands.hpp"
@@ -59,7 +61,16 @@ std::string command(const SubstitutionCall& call) {
   if (words.empty()) {
     throw LaunchError("the command is empty", call.where(0));
   }
-  const std::string program = PackageIndex::find_on_path(words.front(), call.scope().environment);
+  MachineView* const machine = call.scope().machine.get();
+  if (machine != nullptr && !machine->is_connected()) {
+    return unknown_there("output of " + words.front(), *machine);
+  }
+  std::string program;
+  try {
+    program = call.scope().packages->find_program(words.front(), call.scope().environment);
+  } catch (const std::runtime_error& error) {
+    call.fail(error.what(), {}, Finding::kExpression);  // of another machine
+  }
   if (program.empty()) {
     call.fail(fmt::format("executing command '{}' failed: '{}' was not found", line, words.front()),
               words.front().find(' ') != std::string::npos ? "one quoted word is one program name; quote less"
@@ -72,8 +83,10 @@ std::string command(const SubstitutionCall& call) {
   }
   CommandOutput output;
   try {
-    output = capture_command(program, words, call.scope().environment,
-                             {.merge_error = on_stderr == "capture", .limit = command_limit()});
+    output = machine != nullptr
+                 ? machine->run(program, words, call.scope().environment, on_stderr == "capture")
+                 : capture_command(program, words, call.scope().environment,
+                                   {.merge_error = on_stderr == "capture", .limit = command_limit()});
   } catch (const std::runtime_error& error) {
     call.fail(fmt::format("executing command '{}' failed: {}", line, error.what()), {}, Finding::kExpression);
   }
@@ -123,6 +136,13 @@ std::string eval(const SubstitutionCall& call) {
 
 std::string file_content(const SubstitutionCall& call) {
   const std::string path = call.text(0);
+  if (MachineView* const machine = call.scope().machine.get()) {
+    try {
+      return machine->read_file(path);
+    } catch (const std::runtime_error& error) {
+      call.fail(error.what(), {}, Finding::kMissingFile);
+    }
+  }
   std::ifstream file(path, std::ios::binary);
   std::ostringstream content;
   if (!file || !(content << file.rdbuf())) {

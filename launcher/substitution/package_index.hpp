@@ -19,21 +19,26 @@ class PackageIndex {
  public:
   // `own_prefix` is searched after AMENT_PREFIX_PATH; empty for none.
   explicit PackageIndex(std::string own_prefix = {});
+  virtual ~PackageIndex() = default;
 
-  std::string prefix(const std::string& package, const Environment& environment);
+  virtual std::string prefix(const std::string& package, const Environment& environment);
   // PREFIX/share/PACKAGE.
   std::string share(const std::string& package, const Environment& environment);
   // Path of program `executable` in PREFIX/lib/PACKAGE.
-  std::string executable(const std::string& executable, const std::string& package, const Environment& environment);
+  virtual std::string executable(const std::string& executable, const std::string& package, const Environment& environment);
 
   // Names of all packages that can be found, for suggestions.
-  std::vector<std::string> packages(const Environment& environment) const;
+  virtual std::vector<std::string> packages(const Environment& environment) const;
   // What to do about a package that is not found: its right name, or where packages are searched.
-  std::string help_for_missing(const std::string& package, const Environment& environment) const;
+  virtual std::string help_for_missing(const std::string& package, const Environment& environment) const;
   // Names of all programs of a package, for suggestions. Throws as prefix() does.
-  std::vector<std::string> executables(const std::string& package, const Environment& environment);
+  virtual std::vector<std::string> executables(const std::string& package, const Environment& environment);
 
   // The path of a program on PATH of the environment. A name with a slash is taken as a path. Empty when there is none.
+  virtual std::string find_program(const std::string& name, const Environment& environment) {
+    return find_on_path(name, environment);
+  }
+  // The same on this machine.
   static std::string find_on_path(const std::string& name, const Environment& environment);
 
  private:

@@ -16,7 +16,9 @@
 
 namespace launch {
 
+class MachineView;
 class PackageIndex;
+struct HomeMachine;
 struct ControlGroup;
 struct UnrunCommands;
 
@@ -47,6 +49,9 @@ struct Scope {
   std::string log_directory;
   // Finds packages by AMENT_PREFIX_PATH of `environment`, never null while visiting.
   std::shared_ptr<PackageIndex> packages;
+  // Where processes run, and `environment` and `packages` are (machine_view.hpp). Null: here, and then there is no home.
+  std::shared_ptr<MachineView> machine;
+  std::shared_ptr<const HomeMachine> home;
   // May be null.
   std::shared_ptr<AnonymousNames> anonymous_names;
   // Tells the user what is suspicious but no error, with its place. May be empty.

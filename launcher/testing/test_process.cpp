@@ -132,6 +132,7 @@ void run_launch(const TestRun& run, Guardian& guardian, TestResult& result) {
                         [&output](LogLevel level, std::string_view logger, std::string_view text) {
                           output.message(level, logger, text);
                         });
+  context.machines().refuse("launch test can't reach other machines");
   context.scope().log_directory = log_directory.path;
   for (const auto& [name, value] : run.arguments) {
     context.scope().configurations.insert_or_assign(name, value);

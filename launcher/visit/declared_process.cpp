@@ -218,6 +218,9 @@ std::vector<DeclaredProcess> declared_processes(const Requests& requests) {
       }
     }
     declared.name = declared.node.empty() ? spec.name : spec.name + " " + declared.node;
+    if (!spec.machine.empty()) {
+      declared.name += " on " + spec.machine;  // a process does not move: on another machine it is another one
+    }
     if (nodes[i] != nullptr) {
       declared.parameters = nodes[i]->parameters;
     }

@@ -178,11 +178,13 @@ LaunchContext::State LaunchContext::begin_again(MessageSink messages) {
                std::move(nodes_),
                std::move(pushed_environments_),
                std::move(pushed_configurations_),
-               std::move(messages_)};
+               std::move(messages_),
+               machines_.take_assignments()};
   scope_ = *beginning_;
   scope_.packages = std::make_shared<PackageIndex>(own_prefix_);
   scope_.anonymous_names->used.clear();
   requests_ = Requests{};
+  machines_.forget_trace();
   nodes_.clear();
   pushed_environments_.clear();
   pushed_configurations_.clear();
@@ -197,6 +199,7 @@ void LaunchContext::put_back(State state) {
   pushed_environments_ = std::move(state.pushed_environments);
   pushed_configurations_ = std::move(state.pushed_configurations);
   messages_ = std::move(state.messages);
+  machines_.put_assignments(std::move(state.assignments));
 }
 
 Requests LaunchContext::take_requests() {

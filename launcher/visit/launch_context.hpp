@@ -22,6 +22,7 @@
 #include "launcher/process/output/output_router.hpp"
 #include "launcher/substitution/scope.hpp"
 #include "launcher/visit/exploration.hpp"
+#include "launcher/visit/machines.hpp"
 #include "launcher/visit/requests.hpp"
 #include "launcher/visit/test_visits.hpp"
 
@@ -41,6 +42,10 @@ class LaunchContext {
   const Registry& registry() const { return registry_; }
   // The environment that the launcher was started with.
   const Environment& initial_environment() const { return initial_environment_; }
+  // That of the machine of the scope, before a launch file changes it.
+  const Environment& initial_environment_there() const {
+    return scope_.machine == nullptr ? initial_environment_ : scope_.machine->environment();
+  }
   const std::string& own_prefix() const { return own_prefix_; }
 
   // What the command line asks of the whole launch. It is not in the environment, because processes and the launches
@@ -61,13 +66,19 @@ class LaunchContext {
   const std::vector<NodeLogLevel>& log_levels() const { return log_levels_; }
 
   // From now on no request will be carried out.
-  void plan_only() { plan_only_ = true; }
+  void plan_only() {
+    plan_only_ = true;
+    machines_.plan_only();
+  }
   bool is_plan_only() const { return plan_only_; }
 
   // Which tests the visit requests.
   TestVisits& tests() { return tests_; }
   // Whether the visit goes on after errors, and whom it tells of them.
   Exploration& exploration() { return exploration_; }
+
+  // Those that launch files have declared.
+  Machines& machines() { return machines_; }
 
   // The client that answers requests of actions to the ROS graph. It must outlive the context. Null while nothing is
   // carried out.
@@ -95,6 +106,7 @@ class LaunchContext {
     std::vector<Scope> pushed_environments;
     std::vector<Scope> pushed_configurations;
     MessageSink messages;
+    std::vector<MachineAssignment> assignments;
   };
   // begin_again() comes back to what is now.
   void keep_beginning() { beginning_ = scope_; }
@@ -144,6 +156,7 @@ class LaunchContext {
   std::unordered_map<std::string, int> nodes_;
   std::optional<Scope> beginning_;
   std::set<std::string> files_;
+  Machines machines_;
 };
 
 }  // namespace launch

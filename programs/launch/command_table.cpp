@@ -293,6 +293,7 @@ const std::vector<Command>& command_table() {
        .run = unit_command,
        .complete = unit_words,
        .exit_status = kInHelpOfVerbs},
+      {.name = "agent", .program = "launch-agent", .hidden = true},
       {.name = "complete", .run = complete_command, .hidden = true},
       {.name = "remote-side", .run = remote_side_command, .hidden = true},
       {.name = "list-commands", .run = list_commands, .hidden = true},

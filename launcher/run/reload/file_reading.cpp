@@ -51,7 +51,9 @@ FileReading::FileReading(LaunchContext& context, const Load& load, Duration elap
       })) {
   try {
     visit(load, elapsed, handled);
+    context_.machines().check_files();
   } catch (...) {
+    context_.machines().forget_files();
     context_.put_back(std::move(before_));
     throw;
   }

@@ -17,6 +17,9 @@ void Recording::record(const LaunchRecord& record) {
 
 void Recording::record(const ProcessEvent& event) {
   using Kind = LaunchRecord::Kind;
+  if (!event.spec.machine.empty()) {
+    return;  // its number is one of another machine
+  }
   LaunchRecord what{.name = event.label, .where = event.spec.origin, .time = monotonic_time()};
   if (const auto* const started = std::get_if<ProcessStarted>(&event.what)) {
     what.kind = Kind::kExec;

@@ -26,7 +26,7 @@ void find_missing_program(const ProcessSpec& spec, bool left_out, const Report& 
   std::error_code ignored;
   const bool is_known = spec.argv.front().find(kUnknownOutput) == std::string::npos &&
                         spec.working_directory.find(kUnknownOutput) == std::string::npos;
-  if (spec.shell || !is_known ||
+  if (spec.shell || !is_known || !spec.machine.empty() ||
       (!spec.working_directory.empty() && !fs::is_directory(spec.working_directory, ignored))) {
     return;
   }
@@ -47,6 +47,9 @@ void find_missing_program(const ProcessSpec& spec, bool left_out, const Report& 
 
 // Those that stand in the arguments; the others are found where they stand in the launch file.
 void find_missing_parameter_files(const ProcessSpec& spec, const Report& report) {
+  if (!spec.machine.empty()) {
+    return;  // they are there
+  }
   for (std::size_t i = 1; i < spec.argv.size(); ++i) {
     const bool generated = std::any_of(spec.files.begin(), spec.files.end(),
                                        [&](const GeneratedFile& file) { return file.argument == i; });

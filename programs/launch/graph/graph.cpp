@@ -131,6 +131,11 @@ class GraphBuilder {
         lines.push_back(fmt::format("after {} s", std::chrono::duration<double>(delays[process]).count()));
       }
     };
+    const auto remark_machine = [](const ProcessSpec& spec, std::vector<std::string>& lines) {
+      if (!spec.machine.empty()) {
+        lines.push_back("on machine " + spec.machine);
+      }
+    };
     std::vector<std::string> ids(processes.size());
     for (const NodeDescription& node : nodes) {
       const ProcessSpec& spec = processes[node.process];
@@ -139,6 +144,7 @@ class GraphBuilder {
       if (!node.name) {
         lines.emplace_back("named by the program");
       }
+      remark_machine(spec, lines);
       remark_delay(node.process, lines);
       ids[node.process] = add_node(node.name.value_or(spec.name), node.name_space.value_or("/"), lines, spec.origin,
                                    remaps_of(spec.argv));
@@ -147,6 +153,7 @@ class GraphBuilder {
       if (ids[i].empty()) {
         ids[i] = fmt::format("process {}", graph_.processes.size());
         std::vector<std::string> lines = {processes[i].name};
+        remark_machine(processes[i], lines);
         remark_delay(i, lines);
         remark_left_out(lines);
         graph_.processes.push_back({ids[i], std::move(lines), left_out_});

@@ -48,6 +48,7 @@ std::variant<CommandLine, ExitNow> parse_command_line(const std::vector<std::str
   bool print = false;
   bool noninteractive = false;
   std::vector<std::string> log_levels;
+  std::vector<std::string> machines;
 
   CLI::App app(kDescription, "launch");
   app.footer(list_of_commands() + kExamples);
@@ -109,6 +110,19 @@ std::variant<CommandLine, ExitNow> parse_command_line(const std::vector<std::str
       ->type_name("DIR");
   add_python_limits(app, command.python);
   app.add_flag("-n,--noninteractive", noninteractive, "accepted for compatibility; signals are always passed on");
+  app.add_option("--machine", machines,
+                 "the command that leads to a machine, in place of its `connect` in the launch file; NAME=local: this "
+                 "machine")
+      ->type_name("NAME=COMMAND")
+      ->take_all()
+      ->expected(1)
+      ->allow_extra_args(false);
+  app.add_option("--machines", command.machine_files,
+                 "a launch file with `machine` and `assign_machine`, which is visited before the others")
+      ->type_name("FILE")
+      ->take_all()
+      ->expected(1)
+      ->allow_extra_args(false);
   app.add_option("--launch-prefix", command.launch_prefix, "command line put in front of every process, such as gdb");
   app.add_option("--launch-prefix-filter", command.launch_prefix_filter,
                  "regular expression; only programs whose name it matches get the prefix");
@@ -133,6 +147,13 @@ std::variant<CommandLine, ExitNow> parse_command_line(const std::vector<std::str
           fmt::format("--log-level {} is unknown, expected {} or NODE:=LEVEL", wish, fmt::join(kLevels, ", ")));
     }
     command.log_levels.emplace_back(separator == std::string::npos ? "" : wish.substr(0, separator), level);
+  }
+  for (const std::string& given : machines) {
+    const std::size_t equals = given.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == given.size()) {
+      return wrong_use(fmt::format("--machine {} is no machine, expected NAME=COMMAND, such as 'arm=ssh robot2'", given));
+    }
+    command.machines.insert_or_assign(given.substr(0, equals), given.substr(equals + 1));
   }
   for (const std::string& word : words) {
     const std::size_t separator = word.find(":=");

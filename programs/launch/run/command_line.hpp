@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <utility>
 #include <variant>
@@ -37,6 +38,8 @@ struct CommandLine {
   std::string keep_logs;                             // of earlier launches (old_logs.hpp)
   int log_files = 5;
   std::vector<std::pair<std::string, std::string>> log_levels;  // of nodes: name or "", level
+  std::vector<std::string> machine_files;                       // visited before the others, by --machines
+  std::map<std::string, std::string> machines;                  // the command that leads to each, by --machine
   std::string crash_directory;
   std::string launch_prefix;
   std::string launch_prefix_filter;

@@ -28,6 +28,8 @@
 #include "launcher/invocation/argument_check.hpp"
 #include "launcher/invocation/find_launch_file.hpp"
 #include "launcher/language/introspection.hpp"
+#include "launcher/machines/machine_connections.hpp"
+#include "launcher/machines/machine_runner.hpp"
 #include "launcher/plan/dry_run.hpp"
 #include "launcher/process/guardian/containment.hpp"
 #include "launcher/process/guardian/guardian.hpp"
@@ -47,6 +49,7 @@
 #include "programs/command_line/subcommand.hpp"
 #include "programs/launch/commands.hpp"
 #include "programs/launch/run/guarded_process.hpp"
+#include "programs/launch/run/launch_facts.hpp"
 #include "programs/launch/run/log_cleaner.hpp"
 #include "programs/launch/run/output_options.hpp"
 #include "programs/launch/run/service_status.hpp"
@@ -62,6 +65,11 @@ void set_arguments(const CommandLine& command, LaunchContext& context) {
     levels.push_back({node, level});
   }
   context.set_log_levels(std::move(levels));
+  context.machines().set_commands(command.machines);
+  if (command.contain || command.isolate) {
+    context.machines().refuse(
+        fmt::format("a launch with {} can't reach other machines", command.contain ? "--contain" : "--isolate"));
+  }
   context.set_wishes({.process_output = command.show_all_output ? "both" : "", .report = command.report});
   Scope& scope = context.scope();
   for (const auto& [name, value] : command.arguments) {
@@ -102,37 +110,6 @@ void print_timing(const std::vector<TimedStep>& steps) {
   }
 }
 
-LaunchFacts launch_facts(const CommandLine& command, const std::vector<std::string>& files, const Guardian& guardian,
-                         const Isolation& isolation, const std::string& log_directory, const std::string& log) {
-  std::error_code unknown;
-  std::vector<std::string> paths;
-  for (const std::string& file : files) {
-    paths.push_back(file == "-" ? file : std::filesystem::absolute(file, unknown).string());
-  }
-  return {.pid = guardian.pid(),
-          .command = command.words,
-          .files = std::move(paths),
-          .directory = std::filesystem::current_path(unknown).string(),
-          .log_directory = log_directory,
-          .log_file = log,
-          .started = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count(),
-          .isolation = isolation.domain       ? fmt::format("ROS_DOMAIN_ID={}", isolation.domain->id())
-                       : isolation.namespaces ? "namespaces"
-                                              : ""};
-}
-
-void tell_isolation(const Isolation& isolation, OutputRouter& output) {
-  if (isolation.domain) {
-    output.message(
-        LogLevel::kWarning, "launch",
-        fmt::format("namespaces are not allowed here ({}): the launch is isolated by ROS_DOMAIN_ID={}, which "
-                    "it has leased",
-                    isolation.refused, isolation.domain->id()));
-  } else if (isolation.namespaces) {
-    output.message(LogLevel::kInfo, "launch", "the launch has a network and a /dev/shm of its own");
-  }
-}
-
 // Makes everything that a run needs. The order is that of destruction, backwards.
 int run(const CommandLine& command, const Registry& registry, const Environment& environment,
         const std::shared_ptr<const LaunchDescription>& description, const std::vector<std::string>& files,
@@ -158,14 +135,14 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
     output.message(LogLevel::kWarning, "launch", log_directory.warning);
   }
 
-  if (command.contain) {
-    output.message(LogLevel::kInfo, "launch",
-                   "the launch has process numbers of its own; nothing in its process namespace can survive it");
-  }
-  tell_isolation(isolation, output);
+  tell_isolation(command, isolation, output);
 
   const Namespaces* const namespaces = isolation.namespaces ? &*isolation.namespaces : nullptr;
-  const std::unique_ptr<ProcessRunner> runner = make_posix_process_runner(default_exec_program(), namespaces);
+  const std::unique_ptr<ProcessRunner> runner_here = make_posix_process_runner(default_exec_program(), namespaces);
+  MachineConnections machines(*loop, LAUNCH_VERSION, [&output](LogLevel level, const std::string& text) {
+    output.message(level, "launch", text);
+  });
+  const std::unique_ptr<ProcessRunner> runner = make_machine_runner(*runner_here, machines);
   guardian.set_log(log);
   ProcessSupervisor supervisor(*loop, *runner, output);
   supervisor.use_guardian(guardian);
@@ -184,6 +161,7 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
                         });
   context.scope().log_directory = log_directory.path;
   set_arguments(command, context);
+  context.machines().use_connector(machines);
 
   LaunchTracepoints tracepoints(own_prefix());
   LaunchService service(context, *loop, supervisor, [&output](const LaunchError& error) {
@@ -239,8 +217,13 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
         service_status->show(line);
       }
     });
-    service.observe_suspension([&status](bool stops) { status->suspend(stops); });
   }
+  service.observe_suspension([&status, &machines](bool stops) {
+    if (status) {
+      status->suspend(stops);
+    }
+    machines.suspend(stops);
+  });
   LogCleaner cleaner(*loop, log_directory, limits_of_logs, output);
   guardian.wait_until_ready();
   const int exit_code = service.run(*description);
@@ -334,6 +317,7 @@ int run_command(const CommandLine& command, Environment environment,
     std::vector<std::string> files;
     if (description == nullptr) {
       files = find_launch_files(command.target, context.scope(), listed_command_names());
+      files.insert(files.begin(), command.machine_files.begin(), command.machine_files.end());
       description = load_launch_files(files, registry, context.scope());
     }
     if (!command.arguments.empty()) {

@@ -37,12 +37,14 @@ std::string cpu_text(const ProcessUsage& usage, double running_for) {
 }
 
 ProcessRow row_of(const ListedLaunch& launch, const ListedProcess& process, const std::optional<ProcessUsage>& usage) {
-  const bool runs = process.pid >= 0;
+  const pid_t pid = process.machine.empty() ? process.pid : process.pid_there;
+  const bool runs = pid >= 0;
   return {process.name,
           usage && usage->stopped && process.state == "running"
               ? "stopped"
-              : state_text(process.state, process.end, process.health, process.status),
-          runs ? std::to_string(process.pid) : "-",
+              : state_text(process.state, process.end, process.health, process.status) +
+                    (process.machine.empty() ? "" : " on " + process.machine),
+          runs ? std::to_string(pid) : "-",
           process.restarts < 0 ? "-" : std::to_string(process.restarts),
           usage ? cpu_text(*usage, process.running_for) : "-",
           usage ? memory_text(usage->memory) + share_text(process.memory_share) : "-",

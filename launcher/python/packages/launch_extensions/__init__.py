@@ -26,6 +26,38 @@ class WaitFor(Action):
                        entities(self._actions, self._place()))]
 
 
+class Machine(Action):
+    """
+    Declares another machine, on which the actions with `machine=name` run; <machine> in XML.
+
+    `connect` is the command that leads there, such as 'ssh robot'. `keepalive` and `connect_timeout` are seconds.
+    """
+
+    def __init__(self, name, connect, *, launch=None, setup=None, keepalive=None, connect_timeout=None, **kwargs):
+        super().__init__(**kwargs)
+        self._attributes = [('name', text(name, 'name')), ('connect', text(connect, 'connect'))]
+        self._attributes += [(given, text(value, given)) for given, value in (('launch', launch), ('setup', setup))
+                             if value is not None]
+        self._attributes += [(given, number(value, given)) for given, value in
+                             (('keepalive', keepalive), ('connect_timeout', connect_timeout)) if value is not None]
+
+    def _tags(self):
+        return [entity('machine', self._place(), self._with_places([*self._attributes, *self._when()]))]
+
+
+class AssignMachine(Action):
+    """Puts processes on a machine that launch files after it start; <assign_machine> in XML. The others are patterns."""
+
+    def __init__(self, machine, *, package=None, namespace=None, process=None, **kwargs):
+        super().__init__(**kwargs)
+        self._attributes = [('machine', text(machine, 'machine'))]
+        self._attributes += [(name, text(value, name)) for name, value in
+                             (('package', package), ('namespace', namespace), ('process', process)) if value is not None]
+
+    def _tags(self):
+        return [entity('assign_machine', self._place(), self._with_places([*self._attributes, *self._when()]))]
+
+
 class RestartProcess(Action):
     """Ends the process of an action, or the process with a name, and starts it again; <restart> in XML."""
 
@@ -79,4 +111,4 @@ class OnStartLimit(_OfProcess):
     _TAG = 'on_start_limit'
 
 
-__all__ = ['OnHealthChange', 'OnStartLimit', 'RestartProcess', 'WaitFor']
+__all__ = ['AssignMachine', 'Machine', 'OnHealthChange', 'OnStartLimit', 'RestartProcess', 'WaitFor']

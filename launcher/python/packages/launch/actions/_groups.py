@@ -14,7 +14,8 @@ from launch.substitutions import parts_of
 
 class GroupAction(Action):
     # Arguments that only this launcher has, named as in XML.
-    _EXTENSIONS = ('name', 'ns', 'memory_max', 'memory_high', 'cpu_quota', 'cpu_weight', 'io_weight', 'pids_max')
+    _EXTENSIONS = ('name', 'ns', 'machine', 'memory_max', 'memory_high', 'cpu_quota', 'cpu_weight', 'io_weight',
+                   'pids_max')
 
     def __init__(self, actions, *, scoped=True, forwarding=True, launch_configurations=None, condition=None, **extensions):
         reject(type(self), [each for each in extensions if each not in self._EXTENSIONS],
@@ -39,8 +40,9 @@ class GroupAction(Action):
 
 class IncludeLaunchDescription(Action):
 
-    def __init__(self, launch_description_source, *, launch_arguments=None, scoped=None, **kwargs):
+    def __init__(self, launch_description_source, *, launch_arguments=None, scoped=None, machine=None, **kwargs):
         super().__init__(**kwargs)
+        self._machine = [] if machine is None else [('machine', text(machine, 'machine'))]  # of this launcher, too
         self._scoped = None if scoped is None else boolean(scoped, 'scoped')  # an extension of this launcher
         if not isinstance(launch_description_source, LaunchDescriptionSource):
             launch_description_source = AnyLaunchDescriptionSource(launch_description_source)
@@ -65,11 +67,14 @@ class IncludeLaunchDescription(Action):
         place = self._place()
         if self._source._description is not None:
             arguments = [entity('let', place, [('name', name), ('value', value)]) for name, value in self._arguments]
-            return [entity('group', place, [('scoped', self._scoped or 'false'), *self._when()],
+            # The machine ends with the file.
+            scoped = self._scoped or ('true' if self._machine else 'false')
+            return [entity('group', place, [('scoped', scoped), *self._machine, *self._when()],
                            arguments + entities(self._source._description))]
         arguments = [entity('arg', place, [('name', name), ('value', value)]) for name, value in self._arguments]
         scoped = [] if self._scoped is None else [('scoped', self._scoped)]
-        return [entity('include', place, self._with_places([('file', self._source._path), *scoped, *self._when()]),
+        return [entity('include', place, self._with_places([('file', self._source._path), *scoped, *self._machine,
+                                                           *self._when()]),
                        arguments)]
 
 

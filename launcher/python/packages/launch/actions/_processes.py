@@ -139,7 +139,7 @@ class _Process(Action):
                    'allowed_exit_codes', 'crash_dir', 'stdin', 'start_limit', 'start_limit_interval',
                    'start_limit_cool_down', 'on_start_limit', 'sched_runtime', 'sched_deadline', 'sched_period',
                    'timer_slack', 'locked_memory_limit', 'oom_score_adj', 'memory_max', 'memory_high', 'cpu_quota',
-                   'cpu_weight', 'io_weight', 'pids_max', 'scalable', 'tty')
+                   'cpu_weight', 'io_weight', 'pids_max', 'scalable', 'tty', 'machine')
 
     _DASHED = ('leave_running', 'allowed_exit_codes', 'crash_dir')
 

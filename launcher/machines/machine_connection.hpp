@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// The connection to the agent on one machine: it begins, answers questions, starts processes, and tells when it is lost.
+//
+// A launch file is visited without the loop, so what a visit asks is waited for here. Everything else goes through the
+// loop. What the agent sends is not trusted: bytes that are no message of the protocol end the connection.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "launcher/machines/connecting_command.hpp"
+#include "launcher/machines/protocol/agent_protocol.hpp"
+#include "launcher/machines/protocol/outgoing.hpp"
+#include "launcher/machines/remote_runs.hpp"
+#include "launcher/process/event_loop.hpp"
+#include "launcher/process/output/output_router.hpp"
+
+namespace launch {
+
+// A connection that was not made, or is lost, in one line; and what to do about it.
+class MachineError : public std::runtime_error {
+ public:
+  MachineError(const std::string& what, std::string help_text) : std::runtime_error(what), help(std::move(help_text)) {}
+  std::string help;
+};
+
+class MachineConnection {
+ public:
+  struct Settings {
+    std::string name;                // of the machine
+    std::string connect;             // as it was written, for messages
+    std::vector<std::string> words;  // of the command, those of the agent at the end
+    std::string setup;
+    Duration keepalive{0};        // a connection that is silent for so long is lost
+    Duration connect_timeout{0};  // until the agent must have told of its machine
+    std::string launch_version;
+  };
+  using Tell = std::function<void(LogLevel level, const std::string& text)>;
+
+  // Starts the command; a command that can't be started is told by await_hello(). The loop must outlive the connection.
+  MachineConnection(EventLoop& loop, Settings settings, Tell tell);
+  // Asks the agent to end what is left there, and waits until it has.
+  ~MachineConnection();
+  MachineConnection(const MachineConnection&) = delete;
+  MachineConnection& operator=(const MachineConnection&) = delete;
+
+  // Waits until the agent has told of its machine; at once if it has. Throws MachineError.
+  const AgentHello& await_hello();
+  // Waits for an answer. Throws MachineError if the connection is lost, and std::runtime_error with the agent's words
+  // when the answer is that it did not work.
+  std::string ask(AgentQuestion what, const WireWriter& content);
+
+  const std::string& name() const { return settings_.name; }
+  bool is_lost() const { return lost_.has_value(); }
+  // "the connection to machine 'arm' is lost: …"
+  const std::string& why_lost() const { return *lost_; }
+
+  // For the process runner (machine_runner.cpp). What is sent to a lost connection is dropped.
+  RemoteRuns& runs() { return runs_; }
+  void send(ToAgent kind, const WireWriter& content = {});
+
+  // The launcher is stopped from now on, or goes on.
+  void suspend(bool stops);
+  // By another thread: tells the agent that the launcher is there.
+  void ping();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  // Waits until `done` says so, no longer than `limit` from `begin` on. Throws MachineError; `what` says what is missing.
+  void wait_until(const std::function<bool()>& done, Clock::time_point begin, Duration limit, const std::string& what);
+  void receive();
+  void take_greeting();
+  void dispatch(const Frame& frame);
+  void watch_output();
+  void watch_silence();
+  // The connection is no more. `reason` says why, if it is known better than by the end of the command.
+  void lose(const std::string& reason, std::string help = {});
+  std::string last_words() const;
+  [[noreturn]] void throw_lost() const;
+
+  EventLoop& loop_;
+  Settings settings_;
+  Tell tell_;
+  std::unique_ptr<ConnectingCommand> command_;
+  std::unique_ptr<Outgoing> outgoing_;
+  RemoteRuns runs_;
+
+  std::string before_greeting_;
+  bool greeted_ = false;
+  std::optional<AgentHello> hello_;
+  Frames frames_;
+  std::optional<std::string> lost_;
+  std::string help_;
+  Clock::time_point begun_ = Clock::now();
+  Clock::time_point last_heard_ = Clock::now();
+  bool suspended_ = false;
+  std::atomic<bool> expects_pings_ = false;
+
+  struct Answer {
+    bool well;
+    std::string text;
+  };
+  std::uint32_t questions_ = 0;
+  std::map<std::uint32_t, std::optional<Answer>> answers_;
+
+  EventLoop::SourcePtr output_source_;
+  EventLoop::SourcePtr error_source_;
+  EventLoop::SourcePtr write_source_;
+  EventLoop::SourcePtr silence_timer_;
+};
+
+}  // namespace launch

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a launcher and its agent on another machine say to each other, through the standard input and output of the
+// command that connects them (docs/machines.md describes it for others).
+//
+// The agent begins with a line of text, so that whatever a login prints before can be passed over:
+//
+//   launch-agent 1 1.0.0         the version of this protocol, and that of launch there
+//
+// Behind it stand frames, both ways: a byte for the kind, four for the length, the highest first, and the content.
+// The number of a run is chosen by the launcher, a new one for each start of a process.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "launcher/machines/protocol/wire.hpp"
+#include "launcher/process/process_spec.hpp"
+
+namespace launch {
+
+inline constexpr std::string_view kAgentGreeting = "launch-agent ";
+inline constexpr int kAgentProtocol = 1;
+
+// To the agent.
+enum class ToAgent : std::uint8_t {
+  kSetup = 1,    // first and once: AgentSetup
+  kStart = 2,    // u32 run, the spec (spec_wire.hpp): start it
+  kSignal = 3,   // u32 run, i32 signal: for its group
+  kCredit = 4,   // u32 run, u8 stream, u32 bytes: so many more may be sent
+  kRelease = 5,  // u32 run: it is reaped, and what it has left in its group is no longer of interest
+  kGroups = 6,   // a list of u32 runs that have exited: do their groups still live?
+  kAsk = 7,      // u32 question, u8 what, texts
+  kPing = 8,     // u64: anything
+  kSuspend = 9,  // flag: the launcher is stopped from now on, and says nothing; or it goes on
+  kEnd = 10      // nothing follows: end what is left
+};
+
+// From the agent.
+enum class FromAgent : std::uint8_t {
+  kHello = 1,    // after kSetup: AgentHello
+  kStarted = 2,  // u32 run, i32 pid
+  kFailed = 3,   // u32 run, i32 errno, text: it could not be started
+  kOutput = 4,   // u32 run, u8 stream, bytes
+  kClosed = 5,   // u32 run, u8 stream: nothing more comes
+  kExited = 6,   // u32 run, AgentExit
+  kGroups = 7,   // a list of u32 run and flag
+  kAnswer = 8,   // u32 question, flag whether it went well, text: the answer, or what is wrong
+  kPong = 9,     // u64: as in the ping
+  kRefused = 10  // text: why the agent can't do its work; the connection ends
+};
+
+// The longest content of a frame. Specs with parameters and the list of packages are the long ones.
+inline constexpr std::size_t kLongestFrame = std::size_t{8} * 1024 * 1024;
+
+// So many bytes of a stream may be on their way before the launcher has passed on the first of them.
+inline constexpr std::uint32_t kStreamWindow = 256 * 1024;
+
+// What can be asked about files and programs there.
+enum class AgentQuestion : std::uint8_t {
+  kFileContent = 1,  // path: its text
+  kAreFiles = 2,     // paths: a "1" or "0" for each
+  kFindProgram = 3,  // name, value of PATH: its path, or nothing
+  kPackage = 4,      // name, value of AMENT_PREFIX_PATH: "PREFIX", or nothing
+  kProgram = 5,      // path: "1" if it is a program
+  kRun = 6           // a command: flag whether standard error is captured, path, words, variables of its environment
+};
+
+struct AgentSetup {
+  std::string setup;                       // the file that is sourced before anything else; empty: none
+  std::uint32_t silence_milliseconds = 0;  // a launcher that has said nothing for so long has gone
+  std::string name;                        // of the machine, for messages of the guardian
+};
+
+// A package there, with its programs.
+struct AgentPackage {
+  std::string name;
+  std::string prefix;
+  std::vector<std::string> programs;
+};
+
+// What the agent tells of its machine.
+struct AgentHello {
+  std::string host;
+  std::string architecture;
+  std::string directory;  // in which it has been started
+  Environment::Variables environment;
+  std::vector<AgentPackage> packages;  // those of AMENT_PREFIX_PATH of this environment, and of the install prefix
+  std::string own_prefix;
+};
+
+struct Frame {
+  std::uint8_t kind = 0;
+  std::string content;
+};
+
+// "launch-agent 1 1.0.0", with the end of the line.
+std::string agent_greeting(std::string_view launch_version);
+struct AgentVersion {
+  int protocol = 0;
+  std::string launch_version;
+};
+// Nothing for another line. The line has no end, but may have a carriage return.
+std::optional<AgentVersion> parse_agent_greeting(std::string_view line);
+
+// Throws WireError if the content is longer than kLongestFrame.
+std::string encode_frame(std::uint8_t kind, std::string_view content);
+inline std::string encode(ToAgent kind, const WireWriter& content = {}) {
+  return encode_frame(static_cast<std::uint8_t>(kind), content.bytes());
+}
+inline std::string encode(FromAgent kind, const WireWriter& content = {}) {
+  return encode_frame(static_cast<std::uint8_t>(kind), content.bytes());
+}
+
+// Takes bytes as they come, and gives the frames in them.
+class Frames {
+ public:
+  void add(std::string_view bytes) { buffer_ += bytes; }
+  // Nothing until a frame is complete. Throws WireError for one that is too long: what comes is no frame.
+  std::optional<Frame> take();
+  std::size_t held() const { return buffer_.size() - begin_; }
+
+ private:
+  std::string buffer_;
+  std::size_t begin_ = 0;  // of what has not been taken
+};
+
+std::string to_wire(const AgentSetup& setup);
+AgentSetup parse_agent_setup(std::string_view bytes);
+std::string to_wire(const AgentHello& hello);
+AgentHello parse_agent_hello(std::string_view bytes);
+
+void put(WireWriter& writer, const ProcessExit& exit);
+ProcessExit get_exit(WireReader& reader);
+
+}  // namespace launch

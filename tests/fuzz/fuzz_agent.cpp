@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an agent of another machine sends, and what a launcher sends to an agent: any bytes are read or refused.
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "launcher/machines/protocol/agent_protocol.hpp"
+#include "launcher/machines/protocol/spec_wire.hpp"
+#include "launcher/machines/remote_runs.hpp"
+#include "launcher/process/fake/fake_event_loop.hpp"
+
+namespace {
+
+using namespace launch;
+
+template <typename Read>
+void attempt(Read read) {
+  try {
+    read();
+  } catch (const WireError&) {
+    // refused
+  }
+}
+
+void read_as_launcher(std::string_view bytes) {
+  FakeEventLoop loop;
+  RemoteRuns runs(loop, [](ToAgent, const WireWriter&) {});
+  ProcessSpec spec;
+  spec.name = "talker";
+  spec.machine = "arm";
+  spec.argv = {"/bin/talker"};
+  std::vector<Process> processes;
+  processes.push_back(runs.start(spec));
+  processes.push_back(runs.start(spec));
+  Frames frames;
+  frames.add(bytes);
+  attempt([&] {
+    while (const auto frame = frames.take()) {
+      WireReader reader(frame->content);
+      if (static_cast<FromAgent>(frame->kind) == FromAgent::kHello) {
+        parse_agent_hello(frame->content);
+      } else {
+        runs.receive(static_cast<FromAgent>(frame->kind), reader);
+      }
+      loop.run_until_idle();
+    }
+  });
+}
+
+void read_as_agent(std::string_view bytes) {
+  Frames frames;
+  frames.add(bytes);
+  attempt([&] {
+    while (const auto frame = frames.take()) {
+      WireReader reader(frame->content);
+      if (static_cast<ToAgent>(frame->kind) == ToAgent::kSetup) {
+        parse_agent_setup(frame->content);
+      } else if (static_cast<ToAgent>(frame->kind) == ToAgent::kStart) {
+        reader.u32();
+        get_spec(reader);
+      }
+    }
+  });
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+  parse_agent_greeting(bytes);
+  read_as_launcher(bytes);
+  read_as_agent(bytes);
+  return 0;
+}

@@ -1,0 +1,20 @@
+from launch import LaunchDescription
+from launch.actions import ExecuteProcess, GroupAction
+from launch.conditions import IfCondition
+from launch_extensions import AssignMachine, Machine
+from launch_ros.actions import Node
+from launch_ros.substitutions import FindPackageShare
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        Machine('arm', 'ssh -o BatchMode=yes arm.local', launch='/opt/launch/bin/launch',
+                setup='/opt/ros/jazzy/setup.bash', keepalive=2, connect_timeout=10),
+        Machine('base', 'podman exec -i base', condition=IfCondition('true')),
+        AssignMachine('base', package='demo*', namespace='/wheels', process='left_*'),
+        Node(package='demo', executable='driver', machine='arm', arguments=[FindPackageShare('demo')]),
+        GroupAction([
+            ExecuteProcess(cmd=['true']),
+            ExecuteProcess(cmd=['false'], machine='local'),
+        ], machine='base', ns='base'),
+    ])
