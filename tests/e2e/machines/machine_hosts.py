@@ -11,6 +11,7 @@ import shutil
 import signal
 import subprocess
 import tempfile
+import time
 import unittest
 import uuid
 from pathlib import Path
@@ -112,6 +113,13 @@ class MachinesTest(unittest.TestCase):
                 except OSError:
                     continue
         return found
+
+    def assert_nothing_left(self, what):
+        end = time.monotonic() + PATIENCE
+        while left := self.marked():
+            if time.monotonic() > end:
+                self.fail(f'{what}: left behind: {left}')
+            time.sleep(0.05)  # nothing tells of the end of a process of another machine
 
     def end_marked(self):
         for pid in self.marked():

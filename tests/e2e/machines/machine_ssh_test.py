@@ -20,22 +20,24 @@ class MachinesBySsh(MachinesTest):
             self.skipTest('skipped, because there is no sshd or no ssh: the package openssh-server or openssh-client is not installed')
         for name in ('host', 'user'):
             subprocess.run(['ssh-keygen', '-q', '-t', 'ed25519', '-N', '', '-f', self.folder / name], check=True, timeout=PATIENCE)
-        shutil.copy(self.folder / 'user.pub', self.folder / 'authorized')
         self.arm = self.ssh_host('arm')
 
     def ssh_host(self, name):
         """A host whose sshd serves each connection as inetd would let it."""
         host = self.host(name)
-        config = self.folder / f'{name}_sshd'
-        options = {'HostKey': self.folder / 'host', 'AuthorizedKeysFile': self.folder / 'authorized', 'StrictModes': 'no', 'UsePAM': 'no',
+        there = host.folder / 'tmp'  # /tmp of the host
+        shutil.copy(self.folder / 'host', there / 'host')
+        shutil.copy(self.folder / 'user.pub', there / 'authorized')
+        config = there / 'sshd'
+        options = {'HostKey': '/tmp/host', 'AuthorizedKeysFile': '/tmp/authorized', 'StrictModes': 'no', 'UsePAM': 'no',
                    'PidFile': 'none', 'PermitRootLogin': 'prohibit-password', 'PasswordAuthentication': 'no'}
         config.write_text(''.join(f'{key} {value}\n' for key, value in options.items()))
         known = self.folder / f'{name}_known'
         known.write_text(f'{name} {(self.folder / "host.pub").read_text()}')
-        server = f'{self.sshd} -i -f {config}'
+        server = f'{self.sshd} -i -f /tmp/sshd'
         if os.geteuid() == 0:
             server = f'sh -c "mount -t tmpfs tmpfs /run && mkdir /run/sshd && exec {server}"'
-        enter = host.connect().replace('nsenter', 'nsenter', 1)
+        enter = host.connect()
         proxy = enter.replace(' -- ', ' -- unshare --mount ', 1) + ' ' + server if os.geteuid() == 0 else enter + ' ' + server
         client = self.folder / f'{name}_ssh'
         client.write_text(f'Host {name}\n HostName {name}\n IdentityFile {self.folder}/user\n IdentitiesOnly yes\n'
@@ -64,7 +66,7 @@ class MachinesBySsh(MachinesTest):
         self.assertIn('[arm:host-2] two  words; *\n', done.stdout)
 
     def test_a_key_that_is_not_known_is_told(self):
-        (self.folder / 'authorized').write_text('')
+        (self.arm.folder / 'tmp/authorized').write_text('')
         done = self.launch(self.file(self.machine() + '<executable cmd="true" machine="arm"/>'))
         self.assertEqual(done.returncode, 1)
         self.assertIn("error: no connection to machine 'arm': ", done.stdout)
@@ -86,6 +88,8 @@ class MachinesBySsh(MachinesTest):
                     </executable>'''))
                 launch.lines.wait_for('[arm:tree-1] ready')
                 self.assertGreater(len(self.marked()), 2)
+                killed = []
+                wanted = {'launcher': ('launch', 'launch-guardian'), 'ssh': ('ssh',), 'all': ('launch', 'launch-guardian', 'ssh')}[victim]
                 for entry in Path('/proc').iterdir():
                     if not entry.name.isdigit():
                         continue
@@ -95,13 +99,12 @@ class MachinesBySsh(MachinesTest):
                     except OSError:
                         continue
                     ours = str(self.folder).encode() in words or b'system.launch.xml' in words and program.startswith('launch')
-                    wanted = {'launcher': ('launch', 'launch-guardian'), 'ssh': ('ssh',), 'all': ('launch', 'launch-guardian', 'ssh')}[victim]
                     if ours and program in wanted and (entry / 'cwd').exists() and os.readlink(entry / 'cwd') == str(self.folder):
                         os.kill(int(entry.name), signal.SIGKILL)
-                launch.lines.seen.clear()
+                        killed.append(program)
+                self.assertEqual(sorted(set(killed)), sorted(wanted), killed)
                 launch.wait(PATIENCE)
-                while self.marked():
-                    pass
+                self.assert_nothing_left(victim)
 
 
 if __name__ == '__main__':
