@@ -22,7 +22,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr seconds kPatienceAtEnd{30};       // for the guardian there, which ends what processes have left
+constexpr seconds kPatienceAtEnd{30};            // for the guardian there, which ends what processes have left
 constexpr milliseconds kPatienceAfterLoss{300};  // for the command to say why
 constexpr seconds kLongestAnswer{30};
 constexpr std::size_t kLongestBanner = 64 * 1024;
@@ -33,9 +33,8 @@ constexpr int kNoConnectionOfSsh = 255;
 // Signals wait while a launch file is visited. One that asks for the end must not wait for a machine that hangs.
 bool is_interrupted() {
   sigset_t waiting;
-  return ::sigpending(&waiting) == 0 &&
-         (sigismember(&waiting, SIGINT) == 1 || sigismember(&waiting, SIGTERM) == 1 ||
-          sigismember(&waiting, SIGHUP) == 1 || sigismember(&waiting, SIGQUIT) == 1);
+  return ::sigpending(&waiting) == 0 && (sigismember(&waiting, SIGINT) == 1 || sigismember(&waiting, SIGTERM) == 1 ||
+                                         sigismember(&waiting, SIGHUP) == 1 || sigismember(&waiting, SIGQUIT) == 1);
 }
 
 }  // namespace
@@ -249,8 +248,8 @@ void MachineConnection::take_greeting() {
     setup.setup = settings_.setup;
     setup.name = settings_.name;
     // This side tells its user first that the connection is lost.
-    setup.silence_milliseconds = static_cast<std::uint32_t>(
-        2 * std::chrono::duration_cast<milliseconds>(settings_.keepalive).count());
+    setup.silence_milliseconds =
+        static_cast<std::uint32_t>(2 * std::chrono::duration_cast<milliseconds>(settings_.keepalive).count());
     send(ToAgent::kSetup, WireWriter().rest(to_wire(setup)));
     return;
   }
@@ -268,6 +267,9 @@ void MachineConnection::dispatch(const Frame& frame) {
       }
       hello_ = parse_agent_hello(frame.content);
       expects_pings_ = true;
+      tell_(LogLevel::kInfo, fmt::format("machine '{}' is {} ({}), with {} packages", settings_.name,
+                                         without_control_characters(hello_->host),
+                                         without_control_characters(hello_->architecture), hello_->packages.size()));
       watch_silence();
       return;
     case FromAgent::kRefused: {
@@ -311,8 +313,7 @@ void MachineConnection::watch_silence() {
       last_heard_ = Clock::now();
     }
     if (Clock::now() - last_heard_ > settings_.keepalive) {
-      lose(fmt::format("nothing has come for {} s",
-                       std::chrono::duration<double>(settings_.keepalive).count()));
+      lose(fmt::format("nothing has come for {} s", std::chrono::duration<double>(settings_.keepalive).count()));
     } else if (!lost_) {
       watch_silence();
     }

@@ -33,6 +33,10 @@ MachineConnections::~MachineConnections() {
   if (pings_.joinable()) {
     pings_.join();
   }
+  // All at once, before each is waited for.
+  for (const auto& [name, machine] : machines_) {
+    machine->connection.send(ToAgent::kEnd);
+  }
 }
 
 void MachineConnections::connect(const MachineDeclaration& machine) {

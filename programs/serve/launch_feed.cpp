@@ -95,8 +95,15 @@ void LaunchFeed::add_event(const Json& event) {
 
 void LaunchFeed::add_past_lines(const std::string& log, std::size_t size) {
   const LogRange range{size > kMostOfLog ? size - kMostOfLog : 0, size};
-  const std::string label = fmt::format("[{}] ", process_);
-  for (const std::string& line : past_lines(log, range, {process_}, kPastLines)) {
+  std::string shown = process_;  // what stands in front of its lines
+  const Json answer = launch_.ask("ps");
+  for (const Json& process : answer["processes"]) {
+    if (process.value("name", "") == process_ && process.contains("machine")) {
+      shown = process["machine"].get<std::string>() + ":" + process_;
+    }
+  }
+  const std::string label = fmt::format("[{}] ", shown);
+  for (const std::string& line : past_lines(log, range, {shown}, kPastLines)) {
     add("output", {{"event", "output"},
                    {"process", process_},
                    {"line", line.starts_with(label) ? line.substr(label.size()) : line},

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <set>
 
 #include "base/environment/own_environment.hpp"
@@ -70,8 +71,11 @@ int logs_command(const std::vector<std::string>& words) {
   ControlClient launch = choose_launch(own_environment(), wanted);
   const Json asked = launch.ask({{"do", "ps"}, {"processes", names}});
   std::set<std::string, std::less<>> labels;
+  std::map<std::string, std::string> shown;  // by the names of the processes: what stands in front of their lines
   for (const Json& process : asked["processes"]) {
-    labels.insert(process["name"].get<std::string>());
+    const auto name = process["name"].get<std::string>();
+    const std::string machine = process.value("machine", "");
+    labels.insert(shown[name] = machine.empty() ? name : machine + ":" + name);
   }
   const std::string log = asked["launch"]["log_file"].get<std::string>();
   std::size_t size = static_cast<std::size_t>(-1);
@@ -91,7 +95,8 @@ int logs_command(const std::vector<std::string>& words) {
       fmt::print(stderr, "launch logs: warning: {} lines came too fast, launch.log has them\n",
                  event->value("lines", 0));
     } else {
-      fmt::print("[{}] {}\n", event->value("process", ""), event->value("line", ""));
+      const std::string name = event->value("process", "");
+      fmt::print("[{}] {}\n", shown.contains(name) ? shown.at(name) : name, event->value("line", ""));
     }
   }
   return 0;

@@ -91,7 +91,7 @@ class MachinesTest(unittest.TestCase):
     def start(self, *words):
         """Runs; its `lines` are those of its output."""
         process = subprocess.Popen([LAUNCH, *map(str, words)], cwd=self.folder, env=self.environment, stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True)
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, process_group=0)
         process.lines = Lines(process.stdout)
         self.addCleanup(self.end, process)
         return process
