@@ -16,6 +16,7 @@
 
 #include "base/diagnostics/diagnostic.hpp"
 #include "base/files/unique_fd.hpp"
+#include "base/text/names.hpp"
 
 namespace launch {
 
@@ -39,23 +40,37 @@ const std::string* unsaved_text(const std::string& path) {
   return found == unsaved_texts().end() ? nullptr : &found->second;
 }
 
-// What an included file that does not exist may be meant to be: another one in its folder.
+// What an included file that does not exist may be meant to be: another one in its folder. Endings make names alike, so
+// they are compared apart.
 std::string help_for_missing_include(const std::string& path) {
   constexpr int kMost = 10'000;
   const std::filesystem::path wanted(path);
-  std::vector<std::string> names;
+  const std::string name = wanted.filename().string();
+  const std::string beginning = name.substr(0, name.find('.'));
+  const std::string ending = name.substr(beginning.size());
+  std::vector<std::string> beginnings;
+  std::vector<std::string> endings;
   std::error_code unreadable;
   const std::filesystem::path folder = wanted.has_parent_path() ? wanted.parent_path() : std::filesystem::path(".");
   int count = 0;
   for (std::filesystem::directory_iterator entry(folder, unreadable), end;
        entry != end && !unreadable && ++count < kMost; entry.increment(unreadable)) {
-    names.push_back(entry->path().filename().string());
+    const std::string other = entry->path().filename().string();
+    if (!ending.empty() && other.ends_with(ending)) {
+      beginnings.push_back(other.substr(0, other.size() - ending.size()));
+    }
+    if (other.starts_with(beginning + ".")) {
+      endings.push_back(other.substr(beginning.size()));
+    }
   }
-  std::string help = did_you_mean(wanted.filename().string(), names);
-  if (help.empty() && !path.starts_with('/')) {
-    help = "a relative path is relative to the launcher's working directory; use $(dirname)/…";
+  if (const std::string nearest = nearest_name(beginning, beginnings); !nearest.empty()) {
+    return fmt::format("did you mean '{}{}'?", nearest, ending);
   }
-  return help;
+  if (const std::string nearest = nearest_name(ending, endings); !nearest.empty()) {
+    return fmt::format("did you mean '{}{}'?", beginning, nearest);
+  }
+  return path.starts_with('/') ? ""
+                               : "a relative path is relative to the launcher's working directory; use $(dirname)/…";
 }
 
 }  // namespace

@@ -147,6 +147,12 @@ class Client:
 
     def _call(self, request):
         name = self.srv_name if self.srv_name.startswith('/') else '/' + self.srv_name
+        if self.kind is ChangeState:
+            # The subscription of this launch is a program that starts; rclpy has its own at once.
+            topic = name.replace('/change_state', '/transition_event')
+            for _ in range(20):
+                if re.search('Subscription count: [1-9]', ask('topic', 'info', topic).stdout):
+                    break
         answer = ask('service', 'call', name, self.kind.NAME, yaml.safe_dump(plain(request), default_flow_style=True, width=1e9)).stdout
         text = dict(re.findall(r"(\w+)='([^']*)'", answer))
         return Message(success='success=True' in answer, error_message=text.get('error_message', ''),
