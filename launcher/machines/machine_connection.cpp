@@ -75,22 +75,22 @@ MachineConnection::~MachineConnection() {
     // The guardian there ends what is left, and the command ends when it has.
     outgoing_->add(encode(ToAgent::kEnd));
     const Clock::time_point end = Clock::now() + kPatienceAtEnd;
+    const auto tell_line = [this](std::string_view line) {
+      tell_(LogLevel::kInfo, fmt::format("machine '{}': {}", settings_.name, line));
+    };
+    constexpr int kOften = 100;  // milliseconds
     std::array<char, 4096> bytes{};
-    while (Clock::now() < end && !command_->ends_by_itself(milliseconds(0))) {
-      std::array<pollfd, 3> waits{{{command_->output(), POLLIN, 0},
+    bool agent_is_there = true;  // its guardian may still be at work
+    while (Clock::now() < end && !command_->ends_by_itself(milliseconds(agent_is_there ? 0 : 20))) {
+      std::array<pollfd, 3> waits{{{agent_is_there ? command_->output() : -1, POLLIN, 0},
                                    {command_->error(), POLLIN, 0},
                                    {outgoing_->waiting() > 0 ? outgoing_->fd() : -1, POLLOUT, 0}}};
-      ::poll(waits.data(), waits.size(), 100);
-      const ssize_t count = ::read(command_->output(), bytes.data(), bytes.size());
-      command_->read_error([this](std::string_view line) {
-        tell_(LogLevel::kInfo, fmt::format("machine '{}': {}", settings_.name, line));
-      });
-      if (!outgoing_->flush() || count == 0) {
-        // What waits for it there may still be ended by the guardian.
-        command_->ends_by_itself(std::chrono::duration_cast<milliseconds>(end - Clock::now()));
-        break;
-      }
+      ::poll(waits.data(), waits.size(), kOften);
+      agent_is_there = agent_is_there && ::read(command_->output(), bytes.data(), bytes.size()) != 0;
+      command_->read_error(tell_line);
+      outgoing_->flush();
     }
+    command_->read_error(tell_line);
   }
   outgoing_->close();
   command_->end(greeted_ && !lost_ ? milliseconds(500) : milliseconds(0));

@@ -5,7 +5,7 @@ import re
 import signal
 import unittest
 
-from machine_hosts import MachinesTest
+from machine_hosts import MARK, MachinesTest
 
 ANNOUNCE = r'''sh -c 'echo I am `hostname`; echo trouble &gt;&amp;2' '''
 
@@ -95,6 +95,15 @@ class Machines(MachinesTest):
         launch.lines.wait_for("escalating to 'SIGKILL'")
         launch.lines.wait_for('[arm:stubborn-1]: process has died')
         launch.wait(60)
+
+    def test_what_a_process_leaves_running_there_is_ended_and_told(self):
+        done = self.run_file(f'''
+            <executable name="daemon" machine="arm" sigterm_timeout="0.5" cmd="sh -c 'setsid sleep 1000 &amp;'">
+              <env name="{MARK}" value="{self.mark}"/>
+            </executable>''')
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertRegex(done.stdout, r"machine 'arm': \[WARNING\] \[launch\]: daemon-1 left 1 process running: sleep \(\d+\); ending it")
+        self.assertEqual(self.marked(), {})
 
     def test_a_flood_arrives_whole_and_holds_up_nobody(self):
         done = self.run_file('''
