@@ -52,8 +52,7 @@ ActionType executable_action() {
                       "the command line; split into words, not run by a shell"}},
        {.attribute = {"name", AttributeType::kText, false, "base name of the program", "label of the process"}},
        {.attribute = machine_attribute("the machine on which the process runs; local: this one")}},
-      [](const Fields& fields, LaunchContext& context, NoValues&) { request_command(fields, context); },
-      check_process);
+      [](const Fields& fields, LaunchContext& context, NoValues&) { request_command(fields, context); }, check_process);
 }
 
 }  // namespace launch

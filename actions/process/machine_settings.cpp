@@ -10,9 +10,9 @@ namespace launch {
 namespace {
 
 [[noreturn]] void refuse(const std::string& what, const SourceRange& where, const MachineView& machine) {
-  throw LaunchError(fmt::format("{} works on this machine only, and the process runs on machine '{}'", what,
-                                machine.name()),
-                    where, {}, Finding::kExclusive);
+  throw LaunchError(
+      fmt::format("{} works on this machine only, and the process runs on machine '{}'", what, machine.name()), where,
+      {}, Finding::kExclusive);
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ std::shared_ptr<MachineView> machine_of(const Fields& fields, LaunchContext& con
 std::shared_ptr<MachineView> machine_of_process(const Fields& fields, LaunchContext& context,
                                                 const std::function<AssignableProcess(Scope&)>& describe);
 
-// Notes in the spec that it runs on the machine of the scope. Throws LaunchError for what it asks for that works on this
-// machine alone.
+// Notes in the spec that it runs on the machine of the scope. Throws LaunchError for what it asks for that works on
+// this machine alone.
 void put_on_machine(const Fields& fields, LaunchContext& context, ProcessSpec& spec);
 
 }  // namespace launch

@@ -166,9 +166,8 @@ ComposableNode ComposableNodes::evaluate(const Description& node, const Environm
       result.parameters.push_back(*named);
     } else if (scope.machine == nullptr || scope.machine->is_connected()) {
       const auto& file = std::get<ParameterFilePath>(parameter);
-      append_parameter_file(
-          {file.path, file.where, known, true, text_of_scope_file(file.path, file.where, context)}, context,
-          result.parameters);
+      append_parameter_file({file.path, file.where, known, true, text_of_scope_file(file.path, file.where, context)},
+                            context, result.parameters);
     }
   }
   for (const Parameters& parameters : node.parameters) {

@@ -209,10 +209,9 @@ AssignableProcess NodeProcess::assignable(Scope& scope) const {
     return fields_.has(name) ? fields_.text(name).perform(scope) : std::string();
   };
   AssignableProcess process{text("pkg"), "", {}};
-  process.name_space =
-      resolve_namespace(fields_.optional_text("namespace"), scope, fields_.where()).value_or("/");
-  const std::string label = fields_.has("exec_name") ? text("exec_name")
-                                                     : std::filesystem::path(text("exec")).filename().string();
+  process.name_space = resolve_namespace(fields_.optional_text("namespace"), scope, fields_.where()).value_or("/");
+  const std::string label =
+      fields_.has("exec_name") ? text("exec_name") : std::filesystem::path(text("exec")).filename().string();
   for (const std::string& name : {label, text("name")}) {
     if (!name.empty()) {
       process.names.push_back(name);

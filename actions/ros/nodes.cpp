@@ -23,14 +23,14 @@ class Node : public Action {
 
  protected:
   void execute(LaunchContext& context) const override {
-    const AtMachine there(context, machine_of_process(fields_, context, [this](Scope& scope) { return node_.assignable(scope); }));
+    const AtMachine there(
+        context, machine_of_process(fields_, context, [this](Scope& scope) { return node_.assignable(scope); }));
     const bool autostart = autostart_.perform(context.scope());
     const std::string name = node_.request(context);
     Requests& requests = context.requests();
     const Environment environment = graph_environment(context.scope(), requests.processes.back().environment);
     if (autostart) {
-      requests.transitions.push_back(
-          {name, {"configure", "activate"}, true, environment, where()});
+      requests.transitions.push_back({name, {"configure", "activate"}, true, environment, where()});
     }
     if (!components_.empty()) {
       components_.request(context, name, environment, where());

@@ -195,11 +195,12 @@ void Parameters::append_to(ProcessSpec& spec, LaunchContext& context, const std:
       std::error_code ignored;
       if (scope.machine != nullptr) {
         spec.argv.insert(spec.argv.end(), {"--params-file", path});
-        context.machines().expect_file(scope.machine, path, file_->where(), [this, path, &context, machine = scope.machine->name()] {
-          context.message(LogLevel::kWarning, "launch_ros.actions.node",
-                          fmt::format("{}: parameter file path is not a file on machine '{}': {}",
-                                      to_string(file_->where()), machine, path));
-        });
+        context.machines().expect_file(
+            scope.machine, path, file_->where(), [this, path, &context, machine = scope.machine->name()] {
+              context.message(LogLevel::kWarning, "launch_ros.actions.node",
+                              fmt::format("{}: parameter file path is not a file on machine '{}': {}",
+                                          to_string(file_->where()), machine, path));
+            });
       } else if (std::filesystem::is_regular_file(path, ignored)) {
         spec.argv.insert(spec.argv.end(), {"--params-file", path});
         find_faults_of_parameter_file({path, file_->where(), known_node_name(spec.argv)}, context);

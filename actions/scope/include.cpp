@@ -57,8 +57,9 @@ class IncludeLaunchDescription : public Action {
       throw LaunchError(fmt::format("includes are nested more than {} deep", kMaximumDepth), where(),
                         "a file includes itself, directly or through others", Finding::kEndless);
     }
-    const std::shared_ptr<MachineView> machine = machine_ ? context.machines().find(machine_->perform(context.scope()), machine_->where())
-                                                          : context.scope().machine;
+    const std::shared_ptr<MachineView> machine =
+        machine_ ? context.machines().find(machine_->perform(context.scope()), machine_->where())
+                 : context.scope().machine;
     const std::string path = [&] {
       const AtMachine here(context, nullptr);  // launch files are read here
       return declaration_.file.perform(context.scope());

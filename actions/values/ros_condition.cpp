@@ -138,7 +138,8 @@ void check_ros_condition(const Fields& fields, const std::string& subject) {
 std::shared_ptr<ReadinessCondition> perform_ros_condition(const Fields& fields, const std::string& subject,
                                                           LaunchContext& context) {
   Scope& scope = context.scope();
-  return std::make_shared<RosReadiness>(context.ros_client(), request_of(fields, subject, scope), graph_environment(scope, scope.environment));
+  return std::make_shared<RosReadiness>(context.ros_client(), request_of(fields, subject, scope),
+                                        graph_environment(scope, scope.environment));
 }
 
 }  // namespace launch

@@ -71,9 +71,10 @@ class PackagesThere final : public PackageIndex {
 
   std::string help_for_missing(const std::string& package, const Environment& environment) const override {
     const std::string help = did_you_mean(package, packages(environment));
-    return help.empty() ? fmt::format("install it on machine '{}', or name the setup file that has it: "
-                                      "setup=\"…/setup.bash\" of the <machine>",
-                                      connection_.name())
+    return help.empty() ? fmt::format(
+                              "install it on machine '{}', or name the setup file that has it: "
+                              "setup=\"…/setup.bash\" of the <machine>",
+                              connection_.name())
                         : help;
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The connection to the agent on one machine: it begins, answers questions, starts processes, and tells when it is lost.
+// The connection to the agent on one machine: it begins, answers questions, starts processes, and tells when it is
+// lost.
 //
 // A launch file is visited without the loop, so what a visit asks is waited for here. Everything else goes through the
 // loop. What the agent sends is not trusted: bytes that are no message of the protocol end the connection.
@@ -76,7 +77,8 @@ class MachineConnection {
  private:
   using Clock = std::chrono::steady_clock;
 
-  // Waits until `done` says so, no longer than `limit` from `begin` on. Throws MachineError; `what` says what is missing.
+  // Waits until `done` says so, no longer than `limit` from `begin` on. Throws MachineError; `what` says what is
+  // missing.
   void wait_until(const std::function<bool()>& done, Clock::time_point begin, Duration limit, const std::string& what);
   void receive();
   void take_greeting();

@@ -14,8 +14,8 @@
 
 namespace launch {
 
-// A thread of its own tells the agents that the launcher is there, because a visit may keep the loop busy: a function of
-// a Python launch file takes as long as it wants.
+// A thread of its own tells the agents that the launcher is there, because a visit may keep the loop busy: a function
+// of a Python launch file takes as long as it wants.
 class MachineConnections : public MachineConnector {
  public:
   // The loop must outlive the connections. `tell` gets what is to be told of machines while the launch runs.

@@ -70,7 +70,8 @@ Process RemoteRuns::start(const ProcessSpec& spec) {
   process.run = number;
   process.starting = true;
   process.pidfd = copy_of(run->event);
-  for (const auto& [stream, end] : {std::pair{&run->streams[0], &process.out}, std::pair{&run->streams[1], &process.err}}) {
+  for (const auto& [stream, end] :
+       {std::pair{&run->streams[0], &process.out}, std::pair{&run->streams[1], &process.err}}) {
     Pipe pipe = make_pipe();
     let_not_block(pipe.read);
     let_not_block(pipe.write);

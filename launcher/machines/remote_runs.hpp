@@ -52,11 +52,11 @@ class RemoteRuns {
 
  private:
   struct Stream {
-    UniqueFd pipe;            // to the supervisor
-    std::string waiting;      // for the pipe
-    std::uint32_t taken = 0;  // bytes for which no credit has gone back yet
+    UniqueFd pipe;                         // to the supervisor
+    std::string waiting;                   // for the pipe
+    std::uint32_t taken = 0;               // bytes for which no credit has gone back yet
     std::uint32_t credit = kStreamWindow;  // bytes that the agent may still send
-    bool ends = false;        // no more comes
+    bool ends = false;                     // no more comes
     EventLoop::SourcePtr source;
   };
   struct Run {

@@ -162,9 +162,7 @@ std::string process_as_text(const ProcessSpec& spec, const Environment& launcher
     command += (command.empty() ? "" : " ") + (spec.shell ? word : shell_quoted(word));
   }
   std::string text = fmt::format("{} ({})\n  {}\n", spec.name, to_string(spec.origin), command);
-  if (!spec.machine.empty()) {
-    text += fmt::format("  machine: {}\n", spec.machine);
-  }
+  text += spec.machine.empty() ? std::string() : fmt::format("  machine: {}\n", spec.machine);
   if (!spec.working_directory.empty()) {
     text += fmt::format("  cwd: {}\n", spec.working_directory);
   }

@@ -67,10 +67,9 @@ std::string plan_as_shell_script(const LaunchPlan& plan, const Environment& laun
                   }
                 },
                 [&](const ProcessSpec& spec) {
-                  processes += spec.machine.empty()
-                                   ? process_as_script(spec, launcher_environment, files)
-                                   : fmt::format("\n# not started: {} on machine {}, {}\n", spec.name, spec.machine,
-                                                 to_string(spec.origin));
+                  processes += spec.machine.empty() ? process_as_script(spec, launcher_environment, files)
+                                                    : fmt::format("\n# not started: {} on machine {}, {}\n", spec.name,
+                                                                  spec.machine, to_string(spec.origin));
                 },
                 PassOver<ProcessCommand, UnregisterRequest, TestRequest, TimerRequest, TransitionRequest,
                          CoroutineRequest, ShutdownRequest, NodeDescription, Dependency>(),

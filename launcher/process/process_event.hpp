@@ -101,8 +101,8 @@ inline std::string shown_label_of(const std::string& label, const ProcessSpec& s
 // Whether the process has ended as it should not: by itself, by a crash while it was being ended, or unseen because the
 // connection to its machine is lost. Ends that its spec allows are right.
 inline bool has_failed(const ProcessSpec& spec, const ProcessExited& exited) {
-  return exited.exit.lost || ((!exited.expected || tells_of_a_crash(-exited.exit.code)) &&
-                              !spec.allowed_exits.contains(exited.exit.code));
+  return exited.exit.lost ||
+         ((!exited.expected || tells_of_a_crash(-exited.exit.code)) && !spec.allowed_exits.contains(exited.exit.code));
 }
 
 using ProcessOutputObserver = std::function<void(const ProcessSpec& spec, ProcessId id, const std::string& label,

@@ -49,17 +49,16 @@ class Messages {
 
   void operator()(const ProcessExited& exited) const {
     if (exited.exit.lost) {
-      say(LogLevel::kError, fmt::format("process is lost with machine '{}' [pid {}]{}", event_.spec.machine,
-                                        exited.pid, place(event_.spec)));
+      say(LogLevel::kError, fmt::format("process is lost with machine '{}' [pid {}]{}", event_.spec.machine, exited.pid,
+                                        place(event_.spec)));
     } else if (exited.exit.code == 0) {
       say(LogLevel::kInfo, fmt::format("process has finished cleanly [pid {}]", shown(exited.pid)));
     } else if (event_.spec.allowed_exits.contains(exited.exit.code)) {
       say(LogLevel::kInfo, fmt::format("process has finished with exit code {}, which is allowed [pid {}]",
                                        exited.exit.code, shown(exited.pid)));
     } else {
-      say(LogLevel::kError,
-          fmt::format("process has died [pid {}, exit code {}, cmd '{}'].{}", shown(exited.pid),
-                      exited.exit.code, fmt::join(event_.spec.argv, " "), place(event_.spec)));
+      say(LogLevel::kError, fmt::format("process has died [pid {}, exit code {}, cmd '{}'].{}", shown(exited.pid),
+                                        exited.exit.code, fmt::join(event_.spec.argv, " "), place(event_.spec)));
     }
   }
 

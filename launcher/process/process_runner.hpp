@@ -27,8 +27,7 @@ struct StoppedChild {
 class NeverStarts : public std::system_error {
  public:
   // `what` is the whole text.
-  NeverStarts(int error, std::string what)
-      : std::system_error(error, std::system_category()), what_(std::move(what)) {}
+  NeverStarts(int error, std::string what) : std::system_error(error, std::system_category()), what_(std::move(what)) {}
   const char* what() const noexcept override { return what_.c_str(); }
 
  private:
@@ -44,8 +43,8 @@ class ProcessRunner {
   // Throws std::system_error when it can't be started (no such program, no permission, no such directory).
   virtual Process spawn(const ProcessSpec& spec) = 0;
 
-  // Of a process that spawn() has returned with `starting`: its pidfd has become readable, so it is known whether it has
-  // started. Sets its pid; from now on the pidfd is readable when it has exited. Throws as spawn() does.
+  // Of a process that spawn() has returned with `starting`: its pidfd has become readable, so it is known whether it
+  // has started. Sets its pid; from now on the pidfd is readable when it has exited. Throws as spawn() does.
   virtual void confirm(Process& process) { process.starting = false; }
 
   // Sends a signal to every process of the group of `process`. A group that is gone is not an error. False when each

@@ -108,7 +108,8 @@ void Supervision::begin_run(Supervised& process) {
   }
   process.output.follow(
       process.process, [this, &process] { handle(process, SupervisionEvent::kOutputClosed); }, std::move(on_bytes));
-  process.exit_source = loop.on_exit(process.process.pidfd.get(), [this, &process] { handle(process, SupervisionEvent::kExit); });
+  process.exit_source =
+      loop.on_exit(process.process.pidfd.get(), [this, &process] { handle(process, SupervisionEvent::kExit); });
   notify(process, ProcessStarted{process.process.pid, process.spec.terminal_input && !process.process.has_terminal});
 }
 

@@ -81,7 +81,7 @@ struct Supervised {
   std::function<ProcessSpec()> next;  // the spec from the next start on; null: the same
   ProcessState state = ProcessState::kStarting;
   std::int64_t retries = 0;
-  int requested_signal = 0;  // of the kSignal event being handled
+  int requested_signal = 0;                               // of the kSignal event being handled
   SupervisionEvent requested = SupervisionEvent::kStart;  // the event being handled
   // What was asked for before it was known whether the process starts.
   std::vector<std::pair<SupervisionEvent, int>> deferred;

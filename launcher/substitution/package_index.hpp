@@ -25,7 +25,8 @@ class PackageIndex {
   // PREFIX/share/PACKAGE.
   std::string share(const std::string& package, const Environment& environment);
   // Path of program `executable` in PREFIX/lib/PACKAGE.
-  virtual std::string executable(const std::string& executable, const std::string& package, const Environment& environment);
+  virtual std::string executable(const std::string& executable, const std::string& package,
+                                 const Environment& environment);
 
   // Names of all packages that can be found, for suggestions.
   virtual std::vector<std::string> packages(const Environment& environment) const;

@@ -49,7 +49,8 @@ struct Scope {
   std::string log_directory;
   // Finds packages by AMENT_PREFIX_PATH of `environment`, never null while visiting.
   std::shared_ptr<PackageIndex> packages;
-  // Where processes run, and `environment` and `packages` are (machine_view.hpp). Null: here, and then there is no home.
+  // Where processes run, and `environment` and `packages` are (machine_view.hpp). Null: here, and then there is no
+  // home.
   std::shared_ptr<MachineView> machine;
   std::shared_ptr<const HomeMachine> home;
   // May be null.

@@ -8,8 +8,8 @@
 
 namespace launch {
 
-// While it lives, the scope of the context is that of a machine: its environment, with what the launch file has changed,
-// and its packages. Null: of this machine.
+// While it lives, the scope of the context is that of a machine: its environment, with what the launch file has
+// changed, and its packages. Null: of this machine.
 class AtMachine {
  public:
   AtMachine(LaunchContext& context, const std::shared_ptr<MachineView>& machine);

@@ -72,9 +72,8 @@ bool is_machine_name(const std::string& name) {
   const auto is_word = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
   };
-  return !name.empty() && is_word(name.front()) && std::all_of(name.begin(), name.end(), [&](char c) {
-    return is_word(c) || c == '_' || c == '-' || c == '.';
-  });
+  return !name.empty() && is_word(name.front()) &&
+         std::all_of(name.begin(), name.end(), [&](char c) { return is_word(c) || c == '_' || c == '-' || c == '.'; });
 }
 
 }  // namespace
@@ -110,9 +109,9 @@ void Machines::declare(MachineDeclaration machine) {
   }
   const auto known = declared_.find(machine.name);
   if (known != declared_.end() && known->second.where && !known->second.same_as(machine)) {
-    throw LaunchError(fmt::format("machine '{}' is declared differently in {}", machine.name,
-                                  to_string(known->second.where)),
-                      machine.where, "one launch has one machine of a name", Finding::kExclusive);
+    throw LaunchError(
+        fmt::format("machine '{}' is declared differently in {}", machine.name, to_string(known->second.where)),
+        machine.where, "one launch has one machine of a name", Finding::kExclusive);
   }
   const MachineDeclaration& declared = declared_.insert_or_assign(machine.name, std::move(machine)).first->second;
   if (!declared.is_local() && connector_ != nullptr && !plan_only_ && refusal_.empty()) {
@@ -131,10 +130,10 @@ std::shared_ptr<MachineView> Machines::find(const std::string& name, const Sourc
       names.push_back(known);
     }
     const std::string help = did_you_mean(name, names);
-    throw LaunchError(fmt::format("there is no machine '{}'", name), where,
-                      help.empty() ? fmt::format("declare it before: <machine name=\"{}\" connect=\"ssh …\"/>", name)
-                                   : help,
-                      Finding::kUndefined);
+    throw LaunchError(
+        fmt::format("there is no machine '{}'", name), where,
+        help.empty() ? fmt::format("declare it before: <machine name=\"{}\" connect=\"ssh …\"/>", name) : help,
+        Finding::kUndefined);
   }
   const MachineDeclaration& machine = found->second;
   if (machine.is_local()) {
@@ -217,10 +216,9 @@ void Machines::check_files() {
         files[i].warn();
         continue;
       }
-      throw LaunchError(
-          fmt::format("parameter file path is not a file on machine '{}': {}", machine->name(), paths[i]),
-          files[i].where, "$(find-pkg-share PACKAGE)/… leads to the file of the package there",
-          Finding::kMissingParameterFile);
+      throw LaunchError(fmt::format("parameter file path is not a file on machine '{}': {}", machine->name(), paths[i]),
+                        files[i].where, "$(find-pkg-share PACKAGE)/… leads to the file of the package there",
+                        Finding::kMissingParameterFile);
     }
   }
 }
@@ -248,9 +246,8 @@ void move_to_machine(Scope& scope, const std::shared_ptr<MachineView>& machine, 
   if (scope.machine == machine) {
     return;
   }
-  auto home = scope.machine != nullptr
-                  ? scope.home
-                  : std::make_shared<const HomeMachine>(HomeMachine{initial, scope.packages});
+  auto home =
+      scope.machine != nullptr ? scope.home : std::make_shared<const HomeMachine>(HomeMachine{initial, scope.packages});
   const Environment& before = scope.machine != nullptr ? scope.machine->environment() : home->environment;
   const Environment& onto = machine != nullptr ? machine->environment() : home->environment;
   scope.environment = carry_changes(before, scope.environment, onto);

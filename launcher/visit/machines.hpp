@@ -21,10 +21,10 @@ inline constexpr const char* kLocalMachine = "local";
 // What a <machine> says.
 struct MachineDeclaration {
   std::string name;
-  std::string connect;            // the command that leads there; kLocalMachine: it is this machine
-  std::string launch = "launch";  // the program there
-  std::string setup;              // a file that is sourced there before anything else
-  Duration keepalive = std::chrono::seconds(5);         // a connection that is silent for so long is lost
+  std::string connect;                           // the command that leads there; kLocalMachine: it is this machine
+  std::string launch = "launch";                 // the program there
+  std::string setup;                             // a file that is sourced there before anything else
+  Duration keepalive = std::chrono::seconds(5);  // a connection that is silent for so long is lost
   Duration connect_timeout = std::chrono::seconds(30);  // until launch must have answered there
   SourceRange where;                                    // none: the command line
   SourceRange connect_where;
@@ -34,7 +34,8 @@ struct MachineDeclaration {
   bool same_as(const MachineDeclaration& other) const;
 };
 
-// What an <assign_machine> says: processes that fit all its patterns run on the machine, whatever their launch file says.
+// What an <assign_machine> says: processes that fit all its patterns run on the machine, whatever their launch file
+// says.
 struct MachineAssignment {
   std::string machine;
   // Patterns of the shell; empty: any. Namespaces below one that fits, fit too.

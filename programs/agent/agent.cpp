@@ -30,7 +30,9 @@ Agent::Agent(EventLoop& loop, ProcessRunner& runner, Guardian& guardian, UniqueF
   ::fcntl(in_.get(), F_SETFL, ::fcntl(in_.get(), F_GETFL) | O_NONBLOCK);
   auto number = std::make_shared<std::int32_t>(0);
   files_.announce_to(
-      [this, number](const std::string& path) { *number = guardian_.add_clean_up({"/bin/rm", "-rf", "--", path}); },
+      [this, number](const std::string& path) {
+        *number = guardian_.add_clean_up({"/bin/rm", "-rf", "--", path});
+      },
       [this, number] { guardian_.remove_clean_up(*number); });
   in_source_ = loop_.on_readable(in_.get(), [this] { receive(); });
   signal_source_ = loop_.on_signal({SIGINT, SIGTERM, SIGHUP, SIGQUIT}, [this](EventLoop::Signal) { end(1); });

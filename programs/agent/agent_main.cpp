@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// launch-agent: `launch agent` on another machine (agent.hpp). It is a program of its own, so that nothing of the launch
-// engine is loaded there.
+// launch-agent: `launch agent` on another machine (agent.hpp). It is a program of its own, so that nothing of the
+// launch engine is loaded there.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>

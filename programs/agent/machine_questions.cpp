@@ -64,7 +64,8 @@ Environment environment_after(const std::string& given) {
     return environment;
   }
   const auto home = environment.find("HOME");
-  const std::string setup = given.starts_with("~/") && home != environment.end() ? home->second + given.substr(1) : given;
+  const std::string setup =
+      given.starts_with("~/") && home != environment.end() ? home->second + given.substr(1) : given;
   if (!is_file(setup)) {
     throw std::runtime_error(fmt::format("the setup file '{}' does not exist there", setup));
   }
@@ -198,8 +199,8 @@ void MachineQuestions::run(WireReader& reader, Done done) {
   sigset_t before;
   sigfillset(&all);
   ::pthread_sigmask(SIG_BLOCK, &all, &before);
-  std::thread([this, merge_error, program, words = std::move(words),
-               environment = Environment(std::move(variables)), done = std::move(done)] {
+  std::thread([this, merge_error, program, words = std::move(words), environment = Environment(std::move(variables)),
+               done = std::move(done)] {
     std::string text;
     bool well = true;
     try {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an agent tells of its machine: its environment and packages, and answers to what the visit of a launch file asks.
+// What an agent tells of its machine: its environment and packages, and answers to what the visit of a launch file
+// asks.
 #pragma once
 
 #include <functional>
@@ -12,8 +13,8 @@
 
 namespace launch {
 
-// The environment of this process, after the file has been sourced by the shell that its name tells (.bash, .zsh; sh for
-// another one). What the file prints goes to standard error. Throws std::runtime_error.
+// The environment of this process, after the file has been sourced by the shell that its name tells (.bash, .zsh; sh
+// for another one). What the file prints goes to standard error. Throws std::runtime_error.
 Environment environment_after(const std::string& setup);
 
 AgentHello describe_machine(const Environment& environment);

@@ -151,7 +151,8 @@ std::variant<CommandLine, ExitNow> parse_command_line(const std::vector<std::str
   for (const std::string& given : machines) {
     const std::size_t equals = given.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == given.size()) {
-      return wrong_use(fmt::format("--machine {} is no machine, expected NAME=COMMAND, such as 'arm=ssh robot2'", given));
+      return wrong_use(
+          fmt::format("--machine {} is no machine, expected NAME=COMMAND, such as 'arm=ssh robot2'", given));
     }
     command.machines.insert_or_assign(given.substr(0, equals), given.substr(equals + 1));
   }

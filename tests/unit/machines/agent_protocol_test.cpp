@@ -201,8 +201,7 @@ TEST(AgentProtocol, VariablesWithoutAProperNameAreRefused) {
 TEST(AgentProtocol, AProcessWithoutAProgramIsRefused) {
   ProcessSpec spec = full_spec();
   spec.files.clear();
-  for (const std::vector<std::string>& argv :
-       {std::vector<std::string>{}, {""}, {std::string("a\0b", 3)}}) {
+  for (const std::vector<std::string>& argv : {std::vector<std::string>{}, {""}, {std::string("a\0b", 3)}}) {
     spec.argv = argv;
     WireWriter writer;
     put(writer, spec);

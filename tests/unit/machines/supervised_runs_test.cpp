@@ -55,8 +55,7 @@ class SupervisedRuns : public testing::Test {
                             [&](const SignalSent& signalled) {
                               events.push_back(event.label + " got " + std::to_string(signalled.signal));
                             },
-                            [&](const ProcessDone&) { events.push_back(event.label + " done"); },
-                            [](const auto&) {}},
+                            [&](const ProcessDone&) { events.push_back(event.label + " done"); }, [](const auto&) {}},
                  event.what);
     });
   }
@@ -156,8 +155,9 @@ TEST_F(SupervisedRuns, ALostMachineIsTheEndOfItsProcesses) {
   runs.lose("the connection to machine 'arm' is lost: gone");
   loop.run_until_idle();
   loop.advance(std::chrono::seconds(10));
-  EXPECT_THAT(events, ElementsAre("one-1 started", "two-2 failed: the connection to machine 'arm' is lost: gone",
-                                  "two-2 done", "one-1 lost", "one-1 failed: the connection to machine 'arm' is lost: gone", "one-1 done"));
+  EXPECT_THAT(events,
+              ElementsAre("one-1 started", "two-2 failed: the connection to machine 'arm' is lost: gone", "two-2 done",
+                          "one-1 lost", "one-1 failed: the connection to machine 'arm' is lost: gone", "one-1 done"));
   EXPECT_EQ(supervisor.active(), 0U);
 }
 
