@@ -31,6 +31,10 @@ void Supervision::spawn(Supervised& process) {
       process.spec.label = process.label;
       if (process.spec.machine.empty()) {
         files.write(process.spec, process.id);
+      } else {
+        for (const GeneratedFile& file : process.spec.files) {  // they are written there, so the paths are not known
+          process.spec.argv.at(file.argument) = "<" + file.name + " on " + process.spec.machine + ">";
+        }
       }
       process.spec.mark = guardian == nullptr ? "" : guardian->mark(process.label, process.spec);
     }

@@ -45,6 +45,11 @@ class MachineLookups(MachinesTest):
         self.assertIn('[arm:talker-1]     colour: "red"', done.stdout)
         self.assertEqual(list((self.arm.folder / 'tmp').glob('launch-*')), [])
 
+    def test_a_death_is_told_with_the_command_line(self):
+        done = self.run_file('''
+            <node pkg="demo" exec="talker" machine="arm" launch-prefix="false"><param name="colour" value="red"/></node>''')
+        self.assertIn("cmd 'false /tmp/ws/lib/demo/talker --ros-args --params-file <launch_params.yaml on arm>'", done.stdout)
+
     def test_commands_and_files(self):
         done = self.run_file('''
             <group machine="arm">
