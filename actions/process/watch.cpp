@@ -60,13 +60,14 @@ void perform_time(const Fields& fields, const char* name, Scope& scope, HealthWa
 
 const std::vector<Setting<HealthWatch>>& watch_settings() {
   static const std::vector<Setting<HealthWatch>> settings = {
-      {.attribute = {"kind", Type::kLiteral, true, "",
-                     "what is watched: executor (the executors of the process go on), output (lines are printed), "
-                     "blocked (the process is stopped, or hangs in the kernel), command (it ends with exit code 0), "
-                     "topic (messages come), service (it is there and answers), lifecycle (a node is in its state), "
-                     "port (a port or a socket accepts), notify (what sd_notify(3) tells), memory or load (the process uses "
-                     "no more than that)",
-                     true}},
+      {.attribute =
+           {"kind", Type::kLiteral, true, "",
+            "what is watched: executor (the executors of the process go on), output (lines are printed), "
+            "blocked (the process is stopped, or hangs in the kernel), command (it ends with exit code 0), "
+            "topic (messages come), service (it is there and answers), lifecycle (a node is in its state), "
+            "port (a port or a socket accepts), notify (what sd_notify(3) tells), memory or load (the process uses "
+            "no more than that)",
+            true}},
       {.attribute = {"timeout", Type::kFloat, false, "5",
                      "seconds after which what does not go on, or does not answer, counts as a failure", true},
        .perform = [](const Fields& fields, Scope& scope,

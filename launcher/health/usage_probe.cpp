@@ -36,11 +36,11 @@ Look MemoryProbe::look(Duration, Duration passed) {
   if (above_ < timeout_) {
     return {Look::Result::kGood};
   }
-  const std::string what = is_large
-                               ? fmt::format("it has had more than {} of memory", size_text(*limits_.most))
-                               : fmt::format("its memory has been more than {} above {}",
-                                             size_text(*limits_.most_growth), size_text(*first_));
-  return {Look::Result::kBad, fmt::format("{} for {:.1f} s, now {}", what, seconds_of(above_), size_text(usage->memory))};
+  const std::string what = is_large ? fmt::format("it has had more than {} of memory", size_text(*limits_.most))
+                                    : fmt::format("its memory has been more than {} above {}",
+                                                  size_text(*limits_.most_growth), size_text(*first_));
+  return {Look::Result::kBad,
+          fmt::format("{} for {:.1f} s, now {}", what, seconds_of(above_), size_text(usage->memory))};
 }
 
 Look LoadProbe::look(Duration, Duration passed) {

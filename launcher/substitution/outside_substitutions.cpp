@@ -83,10 +83,9 @@ std::string command(const SubstitutionCall& call) {
   }
   CommandOutput output;
   try {
-    output = machine != nullptr
-                 ? machine->run(program, words, call.scope().environment, on_stderr == "capture")
-                 : capture_command(program, words, call.scope().environment,
-                                   {.merge_error = on_stderr == "capture", .limit = command_limit()});
+    output = machine != nullptr ? machine->run(program, words, call.scope().environment, on_stderr == "capture")
+                                : capture_command(program, words, call.scope().environment,
+                                                  {.merge_error = on_stderr == "capture", .limit = command_limit()});
   } catch (const std::runtime_error& error) {
     call.fail(fmt::format("executing command '{}' failed: {}", line, error.what()), {}, Finding::kExpression);
   }

@@ -205,15 +205,17 @@ TEST_F(Watches, FindsAProcessWithTooMuchMemory) {
   const CommandResult result =
       launch(script("import time\nheld = b'x' * 150000000\ntime.sleep(1000)\n",
                     R"xml(<watch kind="memory" max_memory="100M" timeout="0.5" on_unhealthy="shutdown"/>)xml"));
-  EXPECT_THAT(result.err + result.out,
-              ContainsRegex("process is unhealthy: it has had more than 100.0 MiB of memory for [0-9.]+ s, now 1[0-9.]+ MiB"));
+  EXPECT_THAT(
+      result.err + result.out,
+      ContainsRegex("process is unhealthy: it has had more than 100.0 MiB of memory for [0-9.]+ s, now 1[0-9.]+ MiB"));
   EXPECT_EQ(result.exit_code, 3) << result.out << result.err;
 }
 
 TEST_F(Watches, FindsAProcessThatNeverRests) {
   const CommandResult result = launch(
       script("while True: pass\n", R"xml(<watch kind="load" max_load="5%" timeout="1" on_unhealthy="shutdown"/>)xml"));
-  EXPECT_THAT(result.err + result.out, ContainsRegex("process is unhealthy: it has used [0-9]+ % of a processor for [0-9.]+ s"));
+  EXPECT_THAT(result.err + result.out,
+              ContainsRegex("process is unhealthy: it has used [0-9]+ % of a processor for [0-9.]+ s"));
   EXPECT_EQ(result.exit_code, 3) << result.out << result.err;
 }
 

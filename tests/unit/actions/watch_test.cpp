@@ -108,7 +108,8 @@ TEST(Watch, OfMemoryAndLoadIsRead) {
       watches(R"(<watch kind="memory" max_memory="500M" max_growth="64K"/><watch kind="memory" max_growth="1G"/>
                  <watch kind="load" max_load="150%" timeout="10"/>)");
   ASSERT_THAT(found, SizeIs(3));
-  EXPECT_EQ(describe(found[0]), "it does not have more than 500.0 MiB of memory and does not grow by more than 0.1 MiB for 5 s");
+  EXPECT_EQ(describe(found[0]),
+            "it does not have more than 500.0 MiB of memory and does not grow by more than 0.1 MiB for 5 s");
   EXPECT_EQ(describe(found[1]), "it does not grow by more than 1024.0 MiB for 5 s");
   EXPECT_EQ(describe(found[2]), "it uses at most 150 % of a processor, over 10 s");
   EXPECT_EQ(found[2].interval, 1s);

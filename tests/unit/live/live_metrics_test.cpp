@@ -26,13 +26,13 @@ TEST(LiveMetricsOfTheExample, CountFromZeroOn) {
   const std::string text = metrics_of_the_example();
   EXPECT_THAT(text, HasSubstr("\nlaunch_messages_dropped_total{topic=\"/points\",node=\"/display\"} 1\n"
                               "launch_messages_dropped_total{topic=\"/scan\",node=\"/filter\"} 0\n"));
-  EXPECT_THAT(text,
-              HasSubstr("\nlaunch_timer_missed_periods_total{node=\"/sensor\",callback=\"timer 10 ms\"} 0\n"));
+  EXPECT_THAT(text, HasSubstr("\nlaunch_timer_missed_periods_total{node=\"/sensor\",callback=\"timer 10 ms\"} 0\n"));
 }
 
 TEST(LiveMetricsOfTheExample, HaveHistogramsOfCallbacksAndMessages) {
   const std::string text = metrics_of_the_example();
-  EXPECT_THAT(text, HasSubstr("\nlaunch_callback_duration_seconds_count{node=\"/sensor\",callback=\"timer 10 ms\"} 100\n"));
+  EXPECT_THAT(text,
+              HasSubstr("\nlaunch_callback_duration_seconds_count{node=\"/sensor\",callback=\"timer 10 ms\"} 100\n"));
   EXPECT_THAT(text, HasSubstr("\nlaunch_message_latency_seconds_count{topic=\"/scan\",node=\"/filter\"} 100\n"));
 }
 

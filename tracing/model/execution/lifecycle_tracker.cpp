@@ -5,7 +5,9 @@ namespace tracing {
 
 void LifecycleTracker::enter(LifecycleRecord& current, ProcessId process, ObjectId node, std::string_view state,
                              std::int64_t time_ns) {
-  current = {node, std::string(state), time_ns, 0, false, allocations_.of_node(node), allocations_.of_process(process), process};
+  current = {
+      node,   std::string(state), time_ns, 0, false, allocations_.of_node(node), allocations_.of_process(process),
+      process};
 }
 
 void LifecycleTracker::leave(LifecycleRecord& current, ProcessId process, std::int64_t time_ns, bool ended) {

@@ -76,9 +76,9 @@ void ObjectModel::on(const Origin& origin, const ros2::RmwPublisherInit& event) 
 }
 
 void ObjectModel::on(const Origin& origin, const ros2::RclPublisherInit& event) {
-  const EndpointObject endpoint{find(node_index_, origin.process, event.node_handle), topic(event.topic_name),
-                                event.queue_depth,
-                                qos_of(rmw_publisher_index_, {origin.process, event.rmw_publisher_handle}), origin.process};
+  const EndpointObject endpoint{
+      find(node_index_, origin.process, event.node_handle), topic(event.topic_name), event.queue_depth,
+      qos_of(rmw_publisher_index_, {origin.process, event.rmw_publisher_handle}), origin.process};
   if (is_endpoint(publisher_index_, publishers_, origin.process, event.publisher_handle,
                   rmw_publisher(origin.process, event.rmw_publisher_handle), endpoint)) {
     return;
@@ -94,9 +94,9 @@ void ObjectModel::on(const Origin& origin, const ros2::RmwSubscriptionInit& even
 }
 
 void ObjectModel::on(const Origin& origin, const ros2::RclSubscriptionInit& event) {
-  const EndpointObject endpoint{find(node_index_, origin.process, event.node_handle), topic(event.topic_name),
-                                event.queue_depth,
-                                qos_of(rmw_subscription_index_, {origin.process, event.rmw_subscription_handle}), origin.process};
+  const EndpointObject endpoint{
+      find(node_index_, origin.process, event.node_handle), topic(event.topic_name), event.queue_depth,
+      qos_of(rmw_subscription_index_, {origin.process, event.rmw_subscription_handle}), origin.process};
   if (is_endpoint(subscription_index_, subscriptions_, origin.process, event.subscription_handle,
                   rmw_subscription(origin.process, event.rmw_subscription_handle), endpoint)) {
     return;

@@ -82,7 +82,8 @@ void add_object_tables(const TracedSystem& system, std::vector<Table>& tables) {
         },
         "1: a buffer that the process may have used lost events, or a part of the trace is missing"}}));
   tables.push_back(table_of<timeline::Thread>(
-      "threads", "those that ran callbacks, published, took messages of the trace or waited for work", system, timeline.threads,
+      "threads", "those that ran callbacks, published, took messages of the trace or waited for work", system,
+      timeline.threads,
       {{"process", kInteger, [](System, const auto& thread) { return reference(thread.process); }, "in `processes`"},
        {"vtid", kInteger, [](System, const auto& thread) { return number(thread.vtid); }}}));
   tables.push_back(table_of<timeline::Node>(

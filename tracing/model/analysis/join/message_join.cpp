@@ -72,8 +72,7 @@ void MessageJoin::on(const Origin& origin, ThreadState& thread, const ros2::RmwP
   // Some middleware does not tell of the endpoints that it makes for itself, and yet publishes and takes with them.
   const bool is_whole = begun_.contains(origin.process);
   const bool is_unasked = event.rmw_publisher_handle != 0 && tells_publishers_ && thread.rcl_message != event.message;
-  if (publisher.kind == RmwHandle::kInternal ||
-      (publisher.kind == RmwHandle::kUnknown && is_whole && is_unasked)) {
+  if (publisher.kind == RmwHandle::kInternal || (publisher.kind == RmwHandle::kUnknown && is_whole && is_unasked)) {
     ++counts_.internal;
   } else if (publisher.kind == RmwHandle::kUnknown) {
     if (event.rmw_publisher_handle == 0 && thread.rcl_message != event.message) {

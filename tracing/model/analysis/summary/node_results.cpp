@@ -41,8 +41,8 @@ std::vector<LifecycleResult> lifecycle_results(const Subjects& subjects, const L
   const ObjectModel& model = subjects.model();
   std::vector<LifecycleResult> results;
   for (const LifecycleRecord& record : lifecycle.records()) {
-    LifecycleResult result{subjects.place_of(record.process), "", record.state, record.begin_ns, record.end_ns,
-                           record.ended};
+    LifecycleResult result{
+        subjects.place_of(record.process), "", record.state, record.begin_ns, record.end_ns, record.ended};
     if (record.node != kNoObject) {
       result.node = model.nodes()[record.node].name;
     }
