@@ -5,6 +5,7 @@ The language server on Python launch files, which it does not run, and its quick
 
 import os
 import pathlib
+import subprocess
 import tempfile
 import unittest
 
@@ -188,6 +189,26 @@ class PythonInTheServer(InADirectory):
         editor.open('a.launch.py', f"open('{self.directory}/ran', 'w').close()\n{PYTHON}")
         editor.diagnostics('a.launch.py')
         self.assertFalse((self.directory / 'ran').exists())
+
+
+class RecordedNames(InADirectory):
+    def test_nodes_and_topics_of_a_recorded_run_are_completed(self):
+        trace = self.directory / 'trace'
+        subprocess.run([os.environ['WRITE_EXAMPLE_TRACE'], trace, '10'], check=True)
+        text = '<launch>\n<executable cmd="a"><watch kind="topic" topic=""/><watch kind="node" node=""/></executable>\n<node pkg="p" exec="e"><remap from="" to="x"/></node>\n</launch>'
+        for words, options in ((['--from-trace', str(trace)], None), ([], {'fromTrace': str(trace)})):
+            with self.subTest(words=words):
+                editor = self.editor(*words, options=options)
+                editor.open('t.launch.xml', text)
+                self.assertIn('/scan', editor.labels('t.launch.xml', 1, column(text, 1, 'topic=""', 7)))
+                self.assertIn('/filter', editor.labels('t.launch.xml', 1, column(text, 1, 'node=""', 6)))
+                self.assertIn('/points', editor.labels('t.launch.xml', 2, column(text, 2, 'from=""', 6)))
+                self.assertEqual(editor.end(), 0)
+
+    def test_what_is_no_trace_is_told(self):
+        editor = self.editor('--from-trace', str(self.directory / 'nothing'))
+        editor.open('t.launch.xml', '<launch/>')
+        self.assertEqual(editor.diagnostics('t.launch.xml'), [])
 
 
 class QuickFixes(InADirectory):
