@@ -263,7 +263,7 @@ void check_watch_subject(const Fields& fields, const std::string& kind) {
   } else if (kind == "memory" && is_literal_or_missing("max_memory") && is_literal_or_missing("max_growth")) {
     perform_memory(fields, nothing);
   } else if (kind == "load") {
-    require(fields, kind, "max_load", "load");
+    require(fields, kind, "max_load", "limit");
     if (is_literal_or_missing("max_load")) {
       perform_load(fields, nothing);
     }

@@ -75,7 +75,7 @@ Environment environment_after(const std::string& given) {
     throw std::runtime_error(fmt::format("there is no {} for the setup file '{}'", shell, setup));
   }
   const CommandOutput output =
-      capture_command(program, {shell, "-c", ". \"$1\" >&2 && exec env -0", shell, setup}, environment, false);
+      capture_command(program, {shell, "-c", ". \"$1\" >&2 && exec env -0", shell, setup}, environment, {});
   std::fputs(output.error.c_str(), stderr);
   if (output.status != 0) {
     throw std::runtime_error(
@@ -204,7 +204,11 @@ void MachineQuestions::run(WireReader& reader, Done done) {
     std::string text;
     bool well = true;
     try {
-      const CommandOutput output = capture_command(program, words, environment, merge_error);
+      const CommandOutput output =
+          capture_command(program, words, environment, {.merge_error = merge_error, .limit = std::nullopt});
+      if (output.given_up != CommandOutput::GivenUp::kNot) {
+        throw std::runtime_error(fmt::format("it wrote more than {} MiB, and was ended", kLargestCommandOutput >> 20U));
+      }
       WireWriter answer;
       answer.i32(output.status).text(output.text).text(output.error);
       text = answer.bytes();
