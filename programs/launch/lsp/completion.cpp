@@ -9,6 +9,7 @@
 
 #include "launcher/invocation/find_launch_file.hpp"
 #include "launcher/substitution/template_parser.hpp"
+#include "programs/launch/lsp/completion_kinds.hpp"
 #include "programs/launch/lsp/features.hpp"
 #include "programs/launch/lsp/language.hpp"
 
@@ -18,15 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// CompletionItemKind
-constexpr int kVariableItem = 6;
-constexpr int kClassItem = 7;
-constexpr int kModuleItem = 9;
-constexpr int kPropertyItem = 10;
-constexpr int kValueItem = 12;
-constexpr int kFileItem = 17;
-constexpr int kFunctionItem = 3;
-constexpr int kFolderItem = 19;
 constexpr int kSnippet = 2;  // InsertTextFormat
 
 class Completion {

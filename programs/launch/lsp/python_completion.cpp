@@ -7,6 +7,7 @@
 #include <set>
 
 #include "launcher/invocation/find_launch_file.hpp"
+#include "programs/launch/lsp/completion_kinds.hpp"
 #include "programs/launch/lsp/language.hpp"
 #include "programs/launch/lsp/python_features.hpp"
 #include "programs/launch/lsp/python_names.hpp"
@@ -16,15 +17,6 @@ namespace launch::lsp {
 namespace {
 
 namespace fs = std::filesystem;
-
-// CompletionItemKind
-constexpr int kFunctionOfPython = 3;
-constexpr int kVariableOfPython = 6;
-constexpr int kClassOfPython = 7;
-constexpr int kModuleOfPython = 9;
-constexpr int kArgumentOfPython = 10;
-constexpr int kValueOfPython = 12;
-constexpr int kFileOfPython = 17;
 
 class PythonCompletion {
  public:
@@ -63,7 +55,7 @@ class PythonCompletion {
   }
 
   static int kind_of(const PythonName& name) {
-    return name.kind == "class" ? kClassOfPython : name.kind == "function" ? kFunctionOfPython : kVariableOfPython;
+    return name.kind == "class" ? kClassItem : name.kind == "function" ? kFunctionItem : kVariableItem;
   }
 
   // Its own help, or that of the tag which means the same.
@@ -112,7 +104,7 @@ class PythonCompletion {
 
   void modules() {
     for (const auto& [module, names] : PythonNames::of_installation().modules()) {
-      add(module, kModuleOfPython, word_begin(true));
+      add(module, kModuleItem, word_begin(true));
     }
   }
 
@@ -154,7 +146,7 @@ class PythonCompletion {
     for (const PythonNameArgument& argument : known->arguments) {
       const PythonArgument* const given = call->find(argument.name);
       if (given == nullptr || given->whole.holds(offset_)) {
-        Json& item = add(argument.name + "=", kArgumentOfPython, begin, argument_help(known->tag, argument.name));
+        Json& item = add(argument.name + "=", kPropertyItem, begin, argument_help(known->tag, argument.name));
         item["sortText"] = (argument.required ? "0" : "1") + argument.name;
       }
     }
@@ -182,13 +174,13 @@ class PythonCompletion {
     for (const PythonImport& import : source_.imports) {
       if (!import.as.empty() && seen.insert(import.as).second) {
         const PythonName* const known = table.find(import.module + "." + import.name);
-        add(import.as, known == nullptr ? kModuleOfPython : kind_of(*known), begin,
+        add(import.as, known == nullptr ? kModuleItem : kind_of(*known), begin,
             known == nullptr ? "" : help_of(*known));
       }
     }
     for (const auto& [name, span] : source_.definitions) {
       if (!span.holds(offset_) && seen.insert(name).second) {
-        add(name, kVariableOfPython, begin);
+        add(name, kVariableItem, begin);
       }
     }
     if (begin == offset_) {
@@ -201,7 +193,7 @@ class PythonCompletion {
         if (homes.empty() || homes.front() != module || !seen.insert(name).second) {
           continue;
         }
-        Json& item = add(name, kClassOfPython, begin, help_of(known));
+        Json& item = add(name, kClassItem, begin, help_of(known));
         item["detail"] = "from " + module;
         item["sortText"] = "2" + name;
         item["additionalTextEdits"] = Json::array({import_edit(module, name)});
@@ -252,19 +244,19 @@ class PythonCompletion {
                                name == "get_package_prefix";
     if (argument->keyword == "package" || (finds_package && is("package", 0)) ||
         (name == "ExecutableInPackage" && argument - around.arguments.begin() == 1)) {
-      add_all(workspace_.packages(), kModuleOfPython);
+      add_all(workspace_.packages(), kModuleItem);
     } else if (argument->keyword == "executable") {
-      add_all(workspace_.executables(file_.value(around.find("package")).value_or("")), kFileOfPython);
+      add_all(workspace_.executables(file_.value(around.find("package")).value_or("")), kFileItem);
     } else if (argument->keyword == "plugin") {
-      add_all(workspace_.components(), kClassOfPython);
+      add_all(workspace_.components(), kClassItem);
     } else if (argument->keyword == "output") {
-      add_all({"screen", "log", "both", "own_log", "full"}, kValueOfPython);
+      add_all({"screen", "log", "both", "own_log", "full"}, kValueItem);
     } else if (name == "LaunchConfiguration" || name == "LaunchConfigurationEquals" ||
                name == "LaunchConfigurationNotEquals") {
       configurations(begin);
     } else if (name == "EnvironmentVariable" && is("name", 0)) {
       for (const auto& [variable, content] : workspace_.environment()) {
-        add(variable, kVariableOfPython, begin);
+        add(variable, kVariableItem, begin);
       }
     } else if (!arguments_of_include(number, *argument, token)) {
       part_of_path(around, *argument, token);
@@ -279,7 +271,7 @@ class PythonCompletion {
       }
     }
     for (const std::string& name : names) {
-      add(name, kVariableOfPython, begin);
+      add(name, kVariableItem, begin);
     }
   }
 
@@ -303,11 +295,11 @@ class PythonCompletion {
           std::string_view(text_).substr(key.content.begin, key.content.end - key.content.begin);
       for (const DeclaredArgument& known : workspace_.arguments_of(file_.included(call))) {
         if (key.span.begin == token.span.begin) {
-          Json& item = add(known.name, kVariableOfPython, token.content.begin, known.description);
+          Json& item = add(known.name, kVariableItem, token.content.begin, known.description);
           item["detail"] = known.default_value ? "default: " + *known.default_value : "required";
         } else if (known.name == name) {
           for (const std::string& choice : known.choices) {
-            add(choice, kValueOfPython, token.content.begin);
+            add(choice, kValueItem, token.content.begin);
           }
         }
       }
@@ -337,7 +329,7 @@ class PythonCompletion {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder + "/" + inner, unreadable)) {
       const std::string name = entry.path().filename().string();
       if (!name.starts_with('.')) {
-        add(name, entry.is_directory(unreadable) ? kModuleOfPython : kFileOfPython,
+        add(name, entry.is_directory(unreadable) ? kModuleItem : kFileItem,
             token.content.begin + (slash == std::string_view::npos ? 0 : slash + 1));
       }
     }

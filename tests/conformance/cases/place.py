@@ -17,6 +17,7 @@ import time
 from pathlib import Path
 
 PATIENCE = 120.0  # seconds
+OF_COMPILERS = 600.0  # beside others, on a machine that has just begun
 INSIDE = 'CASES_INSIDE'
 # A source of a test that is compiled with all of rclcpp: programs of the cases are compiled as it is.
 MODEL = 'rclcpp_application_test'
@@ -116,12 +117,12 @@ class Place:
         for running in self._running:
             running.end(signal.SIGKILL)
 
-    def run(self, *words, code=0, **environment):
+    def run(self, *words, code=0, patience=PATIENCE, **environment):
         """Runs a command to its end; both of its outputs. `code` None: any exit code."""
         words = [str(word) for word in words]
         try:
             done = subprocess.run(words, cwd=self.folder, env={**self.environment, **environment}, text=True, errors='replace',
-                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=PATIENCE)
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=patience)
         except subprocess.TimeoutExpired as error:
             raise Wrong(f'{shlex.join(words)} does not end: {(error.stdout or b"")[-1500:]}') from None
         if code is not None and done.returncode != code:
@@ -170,7 +171,7 @@ class Place:
         libraries = ('rclcpp', 'std_msgs', 'std_srvs', 'rcl_interfaces', 'rcl', 'rmw', 'rcutils')
         self.run(words[0], *options, '-w', self.folder / source, '-o', program, f'-L{self.prefix / "lib"}',
                  f'-Wl,-rpath,{self.prefix / "lib"},-rpath-link,{self.prefix / "lib"}', *(f'-l{name}' for name in libraries),
-                 '-pthread')
+                 '-pthread', patience=OF_COMPILERS)
         return program
 
 
