@@ -19,7 +19,8 @@ SOURCE = Path(os.environ['SOURCE_DIRECTORY'])
 FILES = SOURCE / 'programs/serve/monitoring'
 DASHBOARD, ALERTS = FILES / 'launch_dashboard.json', FILES / 'launch_alerts.yml'
 NAME = re.compile(r'\blaunch_[a-z_]+')
-PLACES = {'$__rate_interval': '10s', '$instance': '.*', '$launch': '.*', '$node': '.*'}
+# There may be launches of other tests.
+PLACES = {'$__rate_interval': '10s', '$instance': '.*', '$launch': 'monitored.*', '$node': '.*'}
 # What only limited processes have.
 OF_LIMITS = 'launch_control_group_'
 
@@ -96,7 +97,7 @@ class Answers(Served):
             <watch kind="command" cmd="true" interval="0.2"/></executable>
           <executable name="loser" cmd="false"/>
           <node pkg="demo_nodes" exec="talker" name="speaker"/>
-          <node pkg="demo_nodes" exec="listener"/>''')
+          <node pkg="demo_nodes" exec="listener"/>''', name='monitored.launch.xml')
         self.serve('--open-metrics', '--nodes')
         self.prometheus()
         for title, expression in expressions():
@@ -107,7 +108,7 @@ class Answers(Served):
                 self.wait_for(expression, lambda: self.query(expression))
         [failed] = [expression for title, expression in expressions() if title == 'Failed']
         self.wait_for('the process that has failed', lambda: self.query(failed)[0]['value'][1] == '1')
-        alerts = self.wait_for('an alert', lambda: self.query('ALERTS{alertname="LaunchProcessFailed"}'))
+        alerts = self.wait_for('an alert', lambda: self.query('ALERTS{alertname="LaunchProcessFailed", launch=~"monitored.*"}'))
         self.assertEqual([alert['metric']['process'] for alert in alerts], ['loser-2'])
 
 

@@ -52,9 +52,10 @@ class Metrics(Served):
         self.serve()
         families = {family.name: family for family in text_string_to_metric_families(self.metrics(Accept=OPEN_METRICS).text)}
         self.assertEqual(families['launch_process_cpu_seconds'].unit, 'seconds')
-        [info] = families['launch_info'].samples
-        self.assertEqual(info.labels['pid'], str(launch.pid))
-        self.assertEqual({sample.labels['process'] for sample in families['launch_process_up'].samples}, {'talker-1', 'sleeper-2'})
+        # There may be launches of other tests.
+        [info] = [sample for sample in families['launch_info'].samples if sample.labels['pid'] == str(launch.pid)]
+        self.assertEqual({sample.labels['process'] for sample in families['launch_process_up'].samples
+                          if sample.labels['launch'] == info.labels['launch']}, {'talker-1', 'sleeper-2'})
 
     @unittest.skipUnless(shutil.which('promtool'), 'because promtool is not installed')
     def test_promtool_finds_nothing_wrong(self):

@@ -21,6 +21,9 @@ constexpr Thread kIdle{0, 0, "swapper/0"};
 
 class Scheduler : public ::testing::Test {
  protected:
+  void goes_to_processor(unsigned cpu, std::int64_t time, const Thread& thread) {
+    scheduler_.switches(cpu, kTraceBegin + time, kIdle, 0, thread);
+  }
   // `state`: 0 when the previous thread could go on.
   void switches(std::int64_t time, const Thread& previous, std::int64_t state, const Thread& next) {
     scheduler_.switches(0, kTraceBegin + time, previous, state, next);
@@ -43,9 +46,11 @@ class Scheduler : public ::testing::Test {
     void on_thread_state(const ThreadInterval& interval) override {
       if (interval.thread.vtid == kSleeper.vtid) {
         states.push_back(interval.state);
+        others.emplace_back(interval.other_name);
       }
     }
     std::vector<ThreadInterval::State> states;
+    std::vector<std::string> others;
   };
   Intervals sink_;
 
@@ -54,6 +59,16 @@ class Scheduler : public ::testing::Test {
   TraceWriter writer_{directory_.path()};
   testing::SchedulerWriter scheduler_{writer_};
 };
+
+TEST_F(Scheduler, NamesWhoHasNotBeenSwitchedOffYet) {
+  switches(100, kSleeper, 0, kStress);
+  goes_to_processor(1, 5'100, kSleeper);
+  writes(6'000, ros2::CallbackStart{0xcb, false});
+  writes(7'000, ros2::CallbackEnd{0xcb});
+  result();
+  ASSERT_FALSE(sink_.others.empty());
+  EXPECT_EQ(sink_.others[0], "stress");
+}
 
 TEST_F(Scheduler, DividesTheTimeOfACallback) {
   switches(100, kSleeper, 1, kIdle);

@@ -29,11 +29,18 @@ SchedulerTracker::Plan SchedulerTracker::plan_of(const EventClass& event_class) 
     if (!previous_tid || !previous_state || !previous_name || !next_tid) {
       return plan;
     }
-    plan = {Kind::kSwitch, *previous_tid, *previous_state, *previous_name, *next_tid, 0, {}};
+    plan = {Kind::kSwitch,
+            *previous_tid,
+            *previous_state,
+            *previous_name,
+            *next_tid,
+            0,
+            {},
+            event_class.index_of("next_comm")};
   } else if (event_class.name == "sched_wakeup" || event_class.name == "sched_waking" ||
              event_class.name == "sched_wakeup_new") {
     if (const auto tid = event_class.index_of("tid")) {
-      plan = {Kind::kWakeup, 0, 0, 0, 0, *tid, event_class.index_of("target_cpu")};
+      plan = {Kind::kWakeup, 0, 0, 0, 0, *tid, event_class.index_of("target_cpu"), {}};
     }
   }
   return plan;
@@ -96,6 +103,13 @@ void SchedulerTracker::change(KernelThread& thread, ThreadInterval::State state,
   thread.since_ns = time_ns;
 }
 
+void SchedulerTracker::set_name(std::int64_t tid, std::string_view name) {
+  std::string& known = names_[tid];
+  if (known != name) {
+    known = name;
+  }
+}
+
 void SchedulerTracker::on_switch(const Event& event, const Plan& plan, ProcessId process) {
   using State = ThreadInterval::State;
   const std::int64_t previous_tid = number(event, plan.previous_tid);
@@ -103,11 +117,7 @@ void SchedulerTracker::on_switch(const Event& event, const Plan& plan, ProcessId
   const std::int64_t cpu = event.cpu_id.value_or(0);
   end_turn(cpu, event.timestamp_ns, previous_tid, next_tid);
   if (previous_tid != 0) {  // the idle thread of each processor has number 0
-    std::string& name = names_[previous_tid];
-    const std::string_view name_now = event.field(plan.previous_name).string().value_or("");
-    if (name != name_now) {
-      name = name_now;
-    }
+    set_name(previous_tid, event.field(plan.previous_name).string().value_or(""));
     KernelThread& previous = thread(previous_tid);
     if (!previous.id) {
       previous.id = ThreadId{process, event.vtid.value_or(previous_tid)};
@@ -118,6 +128,9 @@ void SchedulerTracker::on_switch(const Event& event, const Plan& plan, ProcessId
            {});
   }
   if (next_tid != 0) {
+    if (plan.next_name) {
+      set_name(next_tid, event.field(*plan.next_name).string().value_or(""));  // it may not have been switched off yet
+    }
     KernelThread& next = thread(next_tid);
     // It waited for the processor on which it was, or was woken to run, and may have been moved to another one.
     Other other;

@@ -36,6 +36,7 @@ class SchedulerTracker {
     std::size_t next_tid = 0;
     std::size_t tid = 0;
     std::optional<std::size_t> target_cpu{};
+    std::optional<std::size_t> next_name{};
   };
   struct KernelThread {
     std::optional<ThreadId> id;  // nullopt until it was switched off once
@@ -66,6 +67,7 @@ class SchedulerTracker {
   // Who had the processor longest in this time.
   Other longest_on(std::int64_t cpu, std::int64_t begin_ns, std::int64_t end_ns) const;
   void on_switch(const Event& event, const Plan& plan, ProcessId process);
+  void set_name(std::int64_t tid, std::string_view name);
 
   Tell tell_;
   std::vector<std::optional<Plan>> plans_;                  // by EventClass::id
