@@ -35,7 +35,7 @@ class Scheduler:
                 if before:
                     self.change(now, before, 'runnable' if state in CAN_GO_ON else 'blocked', time, cpu)
                 if after:
-                    self.change(now, after, 'running', time, cpu)
+                    self.change(now, after, 'running', time, cpu, comes=True)
             elif match := WAKING.match(line):
                 seconds, nanoseconds, thread, cpu = map(int, match.groups())
                 if now.get(thread, ('', 0, 0))[0] == 'blocked':
@@ -51,13 +51,14 @@ class Scheduler:
             turns.pop()  # some kernels pass over switches; until when it had the processor is not known
         turns.append([after, time, None])
 
-    def change(self, now, thread, state, time, cpu):
+    def change(self, now, thread, state, time, cpu, comes=False):
+        """`comes`: it gets the processor. If a kernel passes over that, who had it meanwhile is not known."""
         if thread in now:
             was, since, on = now[thread]
             if time > since:
                 # A thread stays where it was until it is woken for another processor.
                 place = cpu if was == 'running' else on
-                self.states[thread].append((thread, was, since, time, place, self.instead(was, place, since, time)))
+                self.states[thread].append((thread, was, since, time, place, self.instead(was, place, since, time) if comes else None))
         now[thread] = state, time, cpu
 
     def instead(self, state, cpu, begin, end):
