@@ -33,13 +33,13 @@ class Scheduler:
                 time = seconds * 10**9 + nanoseconds
                 self.turn(cpu, before, after, time)
                 if before:
-                    self.change(now, before, 'runnable' if state in CAN_GO_ON else 'blocked', time, cpu)
+                    self.change(now, before, 'runnable' if state in CAN_GO_ON else 'blocked', time, cpu, 'goes')
                 if after:
-                    self.change(now, after, 'running', time, cpu, comes=True)
+                    self.change(now, after, 'running', time, cpu, 'comes')
             elif match := WAKING.match(line):
                 seconds, nanoseconds, thread, cpu = map(int, match.groups())
                 if now.get(thread, ('', 0, 0))[0] == 'blocked':
-                    self.change(now, thread, 'runnable', seconds * 10**9 + nanoseconds, cpu)
+                    self.change(now, thread, 'runnable', seconds * 10**9 + nanoseconds, cpu, 'is woken')
             elif match := ACTIVE.match(line):
                 self.first_activity.setdefault(int(match[3]), int(match[1]) * 10**9 + int(match[2]))
 
@@ -51,14 +51,14 @@ class Scheduler:
             turns.pop()  # some kernels pass over switches; until when it had the processor is not known
         turns.append([after, time, None])
 
-    def change(self, now, thread, state, time, cpu, comes=False):
-        """`comes`: it gets the processor. If a kernel passes over that, who had it meanwhile is not known."""
+    def change(self, now, thread, state, time, cpu, how):
+        """If a kernel passes over it that a thread comes, it was last where it goes, and who had that meanwhile is not known."""
         if thread in now:
             was, since, on = now[thread]
             if time > since:
                 # A thread stays where it was until it is woken for another processor.
-                place = cpu if was == 'running' else on
-                self.states[thread].append((thread, was, since, time, place, self.instead(was, place, since, time) if comes else None))
+                place = cpu if how == 'goes' else on
+                self.states[thread].append((thread, was, since, time, place, self.instead(was, place, since, time) if how == 'comes' else None))
         now[thread] = state, time, cpu
 
     def instead(self, state, cpu, begin, end):
@@ -79,9 +79,13 @@ class Scheduler:
         return [row for row in self.states[thread] if since is not None and row[3] > since]
 
     def parts(self, thread, begin, end):
-        """How long the thread was running, runnable and blocked in this time."""
+        """
+        How long the thread was running, runnable and blocked in this time, at whose end it certainly ran: if it seems to have
+        waited then, the kernel has passed over a switch.
+        """
         took = collections.Counter()
         for _, state, since, until, *_ in self.states[thread]:
-            took[state] += max(0, min(end, until) - max(begin, since))
+            if until <= end:
+                took[state] += max(0, until - max(begin, since))
         took['running'] = end - begin - took['runnable'] - took['blocked']
         return took
