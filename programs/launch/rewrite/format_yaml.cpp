@@ -53,7 +53,7 @@ std::string tidy_flow(std::string_view text) {
       continue;
     }
     result += c;
-    if (c == ',' && i + 1 < text.size() && text[i + 1] != ' ') {
+    if (c == ',' && i + 1 < text.size() && std::string_view(" ,]}").find(text[i + 1]) == std::string_view::npos) {
       result += ' ';
     }
   }

@@ -54,6 +54,12 @@ TEST(Format, KeepsLineEndsWithinValuesAndOfTheFile) {
             "<launch>\r\n  <executable cmd=\"a\r\n   b\"/>\r\n</launch>\r\n");
 }
 
+TEST(Format, WritesCommasAtTheEndOfAListOfYamlInOneWay) {
+  const std::string once = format("launch:\n- arg: {name: x,}\n- let: {name: a, value: b, }\n");
+  EXPECT_NE(once.find("{name: x,}"), std::string::npos) << once;
+  EXPECT_NE(once.find("{name: a, value: b,}"), std::string::npos) << once;
+}
+
 TEST(Format, WritesYamlAsTheDocumentationDoes) {
   EXPECT_EQ(format("# the file\n"
                    "launch:\n"
