@@ -73,10 +73,11 @@ class XmlConverter {
   }
 
   void element(const Entity& entity, const DeclaredElement& declared) {
-    result_.text += "<" + entity.type_name;
+    const std::string name = name_in_xml(entity.type_name, entity.where);
+    result_.text += "<" + name;
     for (const Attribute& attribute : entity.attributes) {
       const std::string text = text_of(attribute, declared, entity.type_name);
-      result_.text += fmt::format(" {}=\"{}\"", attribute.name, escaped(text));
+      result_.text += fmt::format(" {}=\"{}\"", name_in_xml(attribute.name, attribute.value.where), escaped(text));
     }
     if (entity.children.empty()) {
       result_.text += "/>\n";
@@ -87,7 +88,26 @@ class XmlConverter {
       comment(comments_.take_before(child.where.begin));
       element(child, declared_in(declared, child.type_name, registry_));
     }
-    result_.text += fmt::format("</{}>\n", entity.type_name);
+    result_.text += fmt::format("</{}>\n", name);
+  }
+
+  // A key of YAML is any text.
+  std::string name_in_xml(const std::string& name, const SourceRange& where) {
+    constexpr std::string_view kBegin = "_:abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+    const auto fits = [kBegin](char c, bool is_first) {
+      return static_cast<unsigned char>(c) >= 0x80 || kBegin.find(c) != std::string_view::npos ||
+             (!is_first && std::string_view("-.0123456789").find(c) != std::string_view::npos);
+    };
+    bool is_name = !name.empty();
+    for (std::size_t i = 0; i < name.size(); ++i) {
+      is_name = is_name && fits(name[i], i == 0);
+    }
+    if (!is_name) {
+      result_.errors.push_back({Severity::kError, fmt::format("'{}' is no name of XML", name), where,
+                                "write it with letters, digits, '-', '_' and '.'"});
+      return "unnamed";
+    }
+    return name;
   }
 
   std::string text_of(const Attribute& attribute, const DeclaredElement& declared, std::string_view tag) {

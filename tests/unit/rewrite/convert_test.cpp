@@ -56,6 +56,13 @@ constexpr const char* kYaml =
     "    children:\n"
     "    - let: {name: y, value: \"a: b\"}\n";
 
+TEST(Convert, SaysWhichNamesOfYamlXmlCannotHave) {
+  const Converted made = convert(convert_to_xml, "launch:\n- ex/cutable: {cmd: a}\n- executable: {'c md': a}\n");
+  ASSERT_EQ(made.errors.size(), 2u);
+  EXPECT_EQ(made.errors[0].message, "'ex/cutable' is no name of XML");
+  EXPECT_EQ(made.errors[1].message, "'c md' is no name of XML");
+}
+
 TEST(Convert, WritesYamlFromXml) {
   const Converted made = convert(convert_to_yaml, kXml);
   EXPECT_TRUE(made.errors.empty());
