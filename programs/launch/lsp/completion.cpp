@@ -9,7 +9,7 @@
 
 #include "launcher/invocation/find_launch_file.hpp"
 #include "launcher/substitution/template_parser.hpp"
-#include "programs/launch/lsp/completion_kinds.hpp"
+#include "programs/launch/lsp/completion_item.hpp"
 #include "programs/launch/lsp/features.hpp"
 #include "programs/launch/lsp/language.hpp"
 
@@ -82,14 +82,7 @@ class Completion {
 
   Json& add(const std::string& label, int kind, std::size_t begin, const std::string& documentation = {},
             const std::string& insert = {}) {
-    Json item = {{"label", label},
-                 {"kind", kind},
-                 {"textEdit",
-                  {{"range", reading_.document.range(begin, offset_)}, {"newText", insert.empty() ? label : insert}}}};
-    if (!documentation.empty()) {
-      item["documentation"] = documentation;
-    }
-    items_.push_back(std::move(item));
+    items_.push_back(completion_item(reading_, {begin, offset_}, label, kind, documentation, insert));
     return items_.back();
   }
 

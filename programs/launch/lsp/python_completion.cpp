@@ -7,7 +7,7 @@
 #include <set>
 
 #include "launcher/invocation/find_launch_file.hpp"
-#include "programs/launch/lsp/completion_kinds.hpp"
+#include "programs/launch/lsp/completion_item.hpp"
 #include "programs/launch/lsp/language.hpp"
 #include "programs/launch/lsp/python_features.hpp"
 #include "programs/launch/lsp/python_names.hpp"
@@ -43,14 +43,7 @@ class PythonCompletion {
  private:
   Json& add(const std::string& label, int kind, std::size_t begin, const std::string& documentation = {},
             const std::string& insert = {}) {
-    Json item = {{"label", label},
-                 {"kind", kind},
-                 {"textEdit",
-                  {{"range", reading_.document.range(begin, offset_)}, {"newText", insert.empty() ? label : insert}}}};
-    if (!documentation.empty()) {
-      item["documentation"] = documentation;
-    }
-    items_.push_back(std::move(item));
+    items_.push_back(completion_item(reading_, {begin, offset_}, label, kind, documentation, insert));
     return items_.back();
   }
 
