@@ -3,12 +3,15 @@
 
 #include <dirent.h>
 #include <fcntl.h>
+#include <sched.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <optional>
@@ -33,6 +36,22 @@ std::string_view next_part(std::string_view& text) {
 std::int64_t timeout(std::string_view text) {
   constexpr std::int64_t kYear = 365LL * 24 * 3600 * 1000;
   return std::clamp<std::int64_t>(std::atoll(std::string(text).c_str()), 0, kYear);
+}
+
+// In the middle of an exec a process seems to have neither arguments nor an environment. Nothing tells when it has them.
+std::string read_environment(const FoundProcess& process) {
+  constexpr std::chrono::milliseconds kLongestExec{20};
+  const auto end = std::chrono::steady_clock::now() + kLongestExec;
+  while (true) {
+    std::string environment = read_whole_file(proc_directory(process) + "/environ");
+    std::array<char, 1> path{};
+    const bool has_program = ::readlink((proc_directory(process) + "/exe").c_str(), path.data(), path.size()) > 0;
+    if (!environment.empty() || !has_program || !read_proc_file(process.pid, "cmdline").empty() ||
+        std::chrono::steady_clock::now() > end) {
+      return environment;
+    }
+    ::sched_yield();
+  }
 }
 
 void read_mark_value(std::string_view value, const std::string& launch_id, ProcessMark& mark) {
@@ -179,7 +198,7 @@ std::vector<FoundProcess> descendants(const std::vector<FoundProcess>& all, cons
 
 ProcessMark read_mark(const FoundProcess& process, const std::string& launch_id) {
   ProcessMark mark;
-  const std::string environment = read_whole_file(proc_directory(process) + "/environ");
+  const std::string environment = read_environment(process);
   const std::string mark_name = std::string(kMarkVariable) + "=";
   const std::string leave_name = std::string(kLeaveRunningVariable) + "=";
   for (std::string_view rest = environment; !rest.empty();) {

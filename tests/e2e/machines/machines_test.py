@@ -98,7 +98,8 @@ class Machines(MachinesTest):
 
     def test_what_a_process_leaves_running_there_is_ended_and_told(self):
         done = self.run_file(f'''
-            <executable name="daemon" machine="arm" sigterm_timeout="0.5" cmd="sh -c 'setsid sleep 1000 &amp;'">
+            <executable name="daemon" machine="arm" sigterm_timeout="0.5"
+                cmd="sh -c 'setsid sleep 1000 &amp; until grep -qx sleep /proc/$!/comm; do :; done'">
               <env name="{MARK}" value="{self.mark}"/>
             </executable>''')
         self.assertEqual(done.returncode, 0, done.stdout)
