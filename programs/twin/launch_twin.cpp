@@ -42,13 +42,6 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
   }
 }
 
-// Of few runs, one more or less makes another one the 99th of a hundred, so a short recording is simulated for longer.
-std::int64_t simulated_duration_ns(std::int64_t recorded_ns) {
-  constexpr std::int64_t kTimes = 10;
-  constexpr std::int64_t kLongest = 100'000'000'000;
-  return std::max(recorded_ns, std::min(kTimes * recorded_ns, kLongest));
-}
-
 std::size_t processors_here() {
   return static_cast<std::size_t>(std::max(1L, sysconf(_SC_NPROCESSORS_ONLN)));
 }
@@ -125,8 +118,8 @@ int twin(const Arguments& arguments) {
   if (!arguments.folder.empty()) {
     write_twin(arguments, changed, recording.has_ext_events, changed.cpus != system.cpus);
   }
-  const std::int64_t duration_ns = arguments.duration_s > 0 ? static_cast<std::int64_t>(arguments.duration_s * 1e9)
-                                                            : simulated_duration_ns(system.active_ns);
+  const std::int64_t duration_ns =
+      arguments.duration_s > 0 ? static_cast<std::int64_t>(arguments.duration_s * 1e9) : system.active_ns;
   twin_program::Comparison comparison;
   comparison.recorded = recorded;
   System simulated = system;

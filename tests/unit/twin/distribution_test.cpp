@@ -9,9 +9,9 @@ namespace tracing::twin {
 namespace {
 
 TEST(Distribution, KeepsFewValuesAsTheyAre) {
-  EXPECT_EQ(Distribution::of({3, 1, 2}).values, (std::vector<std::int64_t>{1, 2, 3}));
-  EXPECT_EQ(Distribution::of({3, 1, 2}).quantile(0.5), 2);
-  EXPECT_EQ(Distribution::of({}).quantile(0.5), 0);
+  EXPECT_EQ(Distribution::of(std::vector<std::int64_t>{3, 1, 2}).values, (std::vector<std::int64_t>{1, 2, 3}));
+  EXPECT_EQ(Distribution::of(std::vector<std::int64_t>{3, 1, 2}).quantile(0.5), 2);
+  EXPECT_EQ(Distribution::of(std::vector<std::int64_t>{}).quantile(0.5), 0);
 }
 
 TEST(Distribution, KeepsTheEndsAndTheQuantilesOfManyValues) {
@@ -28,7 +28,7 @@ TEST(Distribution, KeepsTheEndsAndTheQuantilesOfManyValues) {
 }
 
 TEST(Draw, GivesEachValueOnceAndThenAgain) {
-  const Distribution distribution = Distribution::of({1, 2, 3, 4, 5, 6, 7, 8});
+  const Distribution distribution = Distribution::of(std::vector<std::int64_t>{1, 2, 3, 4, 5, 6, 7, 8});
   Draw draw(distribution, 1);
   for (int round = 0; round < 2; ++round) {
     std::vector<std::int64_t> values;
@@ -38,6 +38,39 @@ TEST(Draw, GivesEachValueOnceAndThenAgain) {
     std::sort(values.begin(), values.end());
     EXPECT_EQ(values, distribution.values);
   }
+}
+
+TEST(Distribution, KnowsWhenEachValueWasRecorded) {
+  const Distribution distribution = Distribution::of(std::vector<Sample>{{30, 5}, {10, 9}, {20, 7}});
+  EXPECT_EQ(distribution.values, (std::vector<std::int64_t>{5, 7, 9}));
+  ASSERT_EQ(distribution.moments.size(), 3u);
+  EXPECT_EQ(distribution.moments[0].time_ns, 10);
+  EXPECT_EQ(distribution.moments[0].place, 2u);
+  EXPECT_EQ(distribution.moments[2].place, 0u);
+}
+
+TEST(Draw, GivesWhatWasRecordedThenCycleAfterCycle) {
+  const Distribution distribution = Distribution::of(std::vector<Sample>{{110, 5}, {120, 9}, {130, 7}, {140, 8}});
+  Draw draw(distribution, 1, {100, 50});
+  for (const std::int64_t round : {0, 50, 100}) {
+    std::vector<std::int64_t> values;
+    for (const std::int64_t time : {11, 19, 34, 38}) {
+      values.push_back(draw.next_at(round + time).value);
+    }
+    EXPECT_EQ(values, (std::vector<std::int64_t>{5, 9, 7, 8}));
+  }
+  EXPECT_EQ(draw.next_at(31).value, 7);
+}
+
+TEST(Draw, TakesAnyWhereNothingWasRecordedNear) {
+  const Distribution distribution = Distribution::of(std::vector<Sample>{{901, 1}, {902, 2}, {903, 3}});
+  Draw draw(distribution, 1, {0, 1000});
+  std::vector<std::int64_t> values;
+  for (const std::int64_t time : {100, 200, 300}) {
+    values.push_back(draw.next_at(time).value);
+  }
+  std::sort(values.begin(), values.end());
+  EXPECT_EQ(values, (std::vector<std::int64_t>{1, 2, 3}));
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ TEST(QuickRuns, LeaveAJoinWithAnotherRuleToTheRules) {
 
 TEST(QuickRuns, HaveEachTimeOnceBeforeTheyHaveItAgain) {
   Rules rules;
-  rules.system.callbacks[4].run_times = Distribution::of({1, 2, 3, 4});
+  rules.system.callbacks[4].run_times = Distribution::of(std::vector<std::int64_t>{1, 2, 3, 4});
   QuickRuns quick(rules.system);
   for (int round = 0; round < 10; ++round) {
     std::vector<std::int64_t> times;

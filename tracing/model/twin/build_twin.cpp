@@ -252,6 +252,7 @@ class Builder {
       callback.delays = ways[index].delays;
       callback.near_delays = ways[index].near_delays;
       callback.gaps = ways[index].gaps;
+      callback.ways = ways[index].ways;
       if (callback.kind == Callback::Kind::kTimer) {
         callback.phase_ns = runs.first_due_ns(index, recorded.period_ns) - timeline_.begin_ns;
       }
@@ -343,6 +344,7 @@ class Builder {
     for (Callback& callback : system_.callbacks) {
       callback.phase_ns = callback.kind == Callback::Kind::kTimer && callback.runs > 0 ? callback.phase_ns - first : 0;
     }
+    system_.begin_ns = timeline_.begin_ns + (first == std::numeric_limits<std::int64_t>::max() ? 0 : first);
     std::int64_t last = 0;
     for (const timeline::Instance& instance : timeline_.instances) {
       last = std::max(last, instance.end_ns - timeline_.begin_ns);

@@ -2,6 +2,11 @@
 #include "tracing/model/twin/contention.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
 
 #include "tracing/model/twin/simulation.hpp"
 
@@ -9,63 +14,120 @@ namespace tracing::twin {
 
 namespace {
 
-constexpr int kRounds = 4;
-constexpr std::int64_t kLongest = 60'000'000'000;  // of a simulation
-constexpr std::size_t kWaits = 100;
+constexpr std::size_t kMostRounds = 48;
+constexpr std::size_t kLeastRounds = 4;
+constexpr std::size_t kRunsOfAllRounds = 5'000'000;  // about so many seconds of the machine
+constexpr double kPart = 0.4;                        // of a difference: what is changed changes the waits of others
+constexpr std::int64_t kLongest = 60'000'000'000;    // of a simulation
 
-// A few that stand for all.
-std::vector<std::int64_t> few(std::vector<std::int64_t> waits) {
-  std::sort(waits.begin(), waits.end());
-  if (waits.size() <= kWaits) {
-    return waits;
+template <typename Of>  // Callback, or const Callback
+auto& source_of(Of& callback, SimulatedTime::Source source) {
+  switch (source) {
+    case SimulatedTime::Source::kDelay:
+      return callback.delays;
+    case SimulatedTime::Source::kNearDelay:
+      return callback.near_delays;
+    case SimulatedTime::Source::kGap:
+      return callback.gaps;
+    case SimulatedTime::Source::kRun:
+      return callback.run_times;
+    case SimulatedTime::Source::kSilentRun:
+      break;
   }
-  std::vector<std::int64_t> few;
-  for (std::size_t place = 0; place < kWaits; ++place) {
-    few.push_back(waits[(2 * place + 1) * waits.size() / (2 * kWaits)]);
-  }
-  return few;
+  return callback.silent_run_times;
 }
 
-// Changes the values so that they with any of the waits are distributed as `whole`.
-void fit(const Distribution& whole, const std::vector<std::int64_t>& waits, Distribution& part) {
-  if (waits.empty() || waits.back() == 0 || part.empty()) {
+// In ascending order.
+std::vector<std::int64_t> lengths_of(const Callback& callback) {
+  std::vector<std::int64_t> lengths = callback.run_times.values;
+  lengths.insert(lengths.end(), callback.silent_run_times.values.begin(), callback.silent_run_times.values.end());
+  std::sort(lengths.begin(), lengths.end());
+  return lengths;
+}
+
+void sort_by_total(std::vector<SimulatedTime>& times) {
+  std::stable_sort(times.begin(), times.end(), [](const SimulatedTime& left, const SimulatedTime& right) {
+    return left.total_ns < right.total_ns;
+  });
+}
+
+// How far the median and the p99 are from what was recorded; 1 for each is as far as a twin may be. Both in order.
+double misfit(const std::vector<std::int64_t>& recorded, const std::vector<SimulatedTime>& simulated) {
+  constexpr double kMost = 3;
+  const auto of = [&](double part, double allowed) {
+    const auto at = [&](std::size_t count) {
+      return std::clamp<std::size_t>(static_cast<std::size_t>(std::ceil(part * static_cast<double>(count))), 1, count) -
+             1;
+    };
+    const auto was = static_cast<double>(std::max<std::int64_t>(1, recorded[at(recorded.size())]));
+    const auto is = static_cast<double>(std::max<std::int64_t>(1, simulated[at(simulated.size())].total_ns));
+    return std::min(kMost, std::abs(std::log(is / was)) / std::log(allowed));
+  };
+  return recorded.empty() || simulated.empty() ? 0 : of(0.5, 1.1) + of(0.99, 1.25);
+}
+
+// Moves each time that was used so far that the n-th of the simulated totals comes nearer to the n-th recorded one.
+// Both in order.
+void fit(const std::vector<std::int64_t>& recorded, const std::vector<SimulatedTime>& simulated, const Callback& whole,
+         Callback& callback) {
+  if (recorded.empty()) {
     return;
   }
-  std::vector<std::int64_t> sums;
-  sums.reserve(part.values.size() * waits.size());
-  for (const std::int64_t value : part.values) {
-    for (const std::int64_t wait : waits) {
-      sums.push_back(value + wait);
-    }
+  struct Sum {
+    double difference = 0;
+    std::size_t count = 0;
+  };
+  std::map<std::pair<SimulatedTime::Source, std::uint32_t>, Sum> sums;
+  for (std::size_t rank = 0; rank < simulated.size(); ++rank) {
+    const SimulatedTime& time = simulated[rank];
+    const std::int64_t wanted = recorded[(2 * rank + 1) * recorded.size() / (2 * simulated.size())];
+    Sum& sum = sums[{time.source, time.place}];
+    sum.difference += static_cast<double>(wanted - time.total_ns);
+    ++sum.count;
   }
-  std::sort(sums.begin(), sums.end());
-  for (std::size_t place = 0; place < part.values.size(); ++place) {
-    const std::int64_t sum = sums[place * waits.size() + waits.size() / 2];
+  for (const auto& [of, sum] : sums) {
+    std::vector<std::int64_t>& values = source_of(callback, of.first).values;
     // Even the shortest one that was recorded may have waited, but not most of the time.
-    part.values[place] = std::max(whole.values.front() / 2, part.values[place] + whole.values[place] - sum);
+    const std::int64_t least_ns = std::max<std::int64_t>(0, source_of(whole, of.first).values.front() / 2);
+    const double change = kPart * sum.difference / static_cast<double>(sum.count);
+    values[of.second] = std::max<std::int64_t>(least_ns, values[of.second] + std::llround(change));
   }
-  std::sort(part.values.begin(), part.values.end());
 }
 
 }  // namespace
 
 void take_off_simulated_waits(System& system) {
   const std::vector<Callback> whole = system.callbacks;
-  for (int round = 0; round < kRounds; ++round) {
+  std::vector<std::vector<std::int64_t>> lengths(whole.size());
+  if (!system.processor_times) {
+    std::transform(whole.begin(), whole.end(), lengths.begin(), lengths_of);
+  }
+  std::vector<Callback> best;
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t rounds = kMostRounds;
+  for (std::size_t round = 0; round < rounds; ++round) {
     Simulation simulation(system);
     simulation.run(std::min(system.active_ns, kLongest));
+    std::vector<Callback> next = system.callbacks;
+    double sum = 0;
+    std::size_t runs = 0;
     for (Index index = 0; index < whole.size(); ++index) {
-      const std::vector<std::int64_t> begins = few(simulation.waits()[index].begins);
-      Callback& callback = system.callbacks[index];
-      fit(whole[index].delays, begins, callback.delays);
-      fit(whole[index].near_delays, begins, callback.near_delays);
-      if (!system.processor_times) {
-        const std::vector<std::int64_t> runs = few(simulation.waits()[index].runs);
-        fit(whole[index].run_times, runs, callback.run_times);
-        fit(whole[index].silent_run_times, runs, callback.silent_run_times);
-      }
+      SimulatedTimes times = simulation.times()[index];
+      sort_by_total(times.ways);
+      sort_by_total(times.runs);
+      sum += misfit(whole[index].ways.values, times.ways) + misfit(lengths[index], times.runs);
+      fit(whole[index].ways.values, times.ways, whole[index], next[index]);
+      fit(lengths[index], times.runs, whole[index], next[index]);
+      runs += times.runs.size();
     }
+    if (sum < least) {
+      least = sum;
+      best = system.callbacks;
+    }
+    system.callbacks = std::move(next);
+    rounds = std::clamp(kRunsOfAllRounds / std::max<std::size_t>(1, runs), kLeastRounds, kMostRounds);
   }
+  system.callbacks = std::move(best);
 }
 
 }  // namespace tracing::twin

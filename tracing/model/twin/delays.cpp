@@ -123,33 +123,39 @@ std::vector<Way> ways_of(const timeline::Timeline& timeline, const RunTimes& run
 struct Samples {
   struct Busy {
     bool is_near = false;
+    std::int64_t ready_ns = 0;
     std::int64_t waited_ns = 0;  // until the executor was free
     std::int64_t gap_ns = 0;     // then
+    Sample way() const { return {ready_ns, waited_ns + gap_ns}; }
+    Sample gap() const { return {ready_ns + waited_ns, gap_ns}; }
   };
-  std::vector<std::int64_t> delays;
-  std::vector<std::int64_t> near_delays;
+  std::vector<Sample> delays;
+  std::vector<Sample> near_delays;
   std::vector<Busy> busy;
+  std::vector<Sample> ways;
 
-  std::vector<std::int64_t>& delays_of(bool is_near) { return is_near ? near_delays : delays; }
+  std::vector<Sample>& delays_of(bool is_near) { return is_near ? near_delays : delays; }
   // If the executor was busy for a shorter time than a message takes at least, it did not keep the message.
-  std::vector<std::int64_t> take_gaps() {
-    const auto least = [](const std::vector<std::int64_t>& times) {
-      return times.empty() ? 0 : *std::min_element(times.begin(), times.end());
+  std::vector<Sample> take_gaps() {
+    const auto least = [](const std::vector<Sample>& times) {
+      const auto found = std::min_element(
+          times.begin(), times.end(), [](const Sample& left, const Sample& right) { return left.value < right.value; });
+      return found == times.end() ? 0 : found->value;
     };
     const std::int64_t least_ns[] = {least(delays), least(near_delays)};
     const bool is_never_free_for_near = near_delays.empty();
-    std::vector<std::int64_t> gaps;
+    std::vector<Sample> gaps;
     std::vector<Busy> kept;
     for (const Busy& one : busy) {
       if (one.waited_ns < least_ns[one.is_near ? 1 : 0]) {
-        delays_of(one.is_near).push_back(one.waited_ns + one.gap_ns);
+        delays_of(one.is_near).push_back(one.way());
         continue;
       }
-      gaps.push_back(one.gap_ns);
+      gaps.push_back(one.gap());
       kept.push_back(one);
       // What a message needs at least is in the gap. Often the callback that sends it keeps the executor.
       if (one.is_near && is_never_free_for_near) {
-        near_delays.push_back(one.gap_ns);
+        near_delays.push_back({one.ready_ns, one.gap_ns});
       }
     }
     busy = std::move(kept);
@@ -157,7 +163,7 @@ struct Samples {
   }
   void add_busy_to_delays() {
     for (const Busy& one : busy) {
-      delays_of(one.is_near).push_back(one.waited_ns + one.gap_ns);
+      delays_of(one.is_near).push_back(one.way());
     }
   }
 };
@@ -169,7 +175,7 @@ std::vector<WayTimes> way_times(const Recording& recording, const FoundExecutors
   const Busy busy(timeline, executors);
   std::vector<Samples> samples(timeline.callbacks.size());
   // Of each executor: gaps of runs that a thread found ready when it had ended another one.
-  std::vector<std::vector<std::int64_t>> of_executor(executors.executors.size());
+  std::vector<std::vector<Sample>> of_executor(executors.executors.size());
   for (const Way& way : ways_of(timeline, runs)) {
     const timeline::Instance& instance = timeline.instances[way.instance];
     Samples& of = samples[instance.callback];
@@ -178,22 +184,24 @@ std::vector<WayTimes> way_times(const Recording& recording, const FoundExecutors
     const timeline::Instance* const last = busy.before(way.instance);
     const bool follows = last != nullptr && last->end_ns > way.ready_ns && last->end_ns <= instance.start_ns;
     if (follows && executor != FoundExecutors::kNone) {
-      of_executor[executor].push_back(instance.start_ns - last->end_ns);
+      of_executor[executor].push_back({last->end_ns, instance.start_ns - last->end_ns});
     }
     // One that was sent before the last one got its callback was behind it all the way.
     const bool is_behind = follows && last->callback == instance.callback;
     if (before > way.ready_ns || is_behind) {
       // Of several runs that it had to wait for, the last one.
       const std::int64_t free_ns = follows ? std::max(before, last->end_ns) : before;
-      of.busy.push_back({way.is_near, free_ns - way.ready_ns, std::max<std::int64_t>(0, instance.start_ns - free_ns)});
+      of.busy.push_back(
+          {way.is_near, way.ready_ns, free_ns - way.ready_ns, std::max<std::int64_t>(0, instance.start_ns - free_ns)});
     } else {
-      of.delays_of(way.is_near).push_back(instance.start_ns - way.ready_ns);
+      of.delays_of(way.is_near).push_back({way.ready_ns, instance.start_ns - way.ready_ns});
     }
+    of.ways.push_back({way.ready_ns, instance.start_ns - way.ready_ns});
   }
   std::vector<WayTimes> times(samples.size());
   for (std::size_t index = 0; index < samples.size(); ++index) {
     Samples& of = samples[index];
-    std::vector<std::int64_t> gaps = of.take_gaps();
+    std::vector<Sample> gaps = of.take_gaps();
     if (of.delays.empty()) {
       of.delays.swap(of.near_delays);
       for (Samples::Busy& one : of.busy) {
@@ -211,33 +219,38 @@ std::vector<WayTimes> way_times(const Recording& recording, const FoundExecutors
       // machine, and its messages were on their way all the time. With fewer threads it will have many: such as its
       // threads had with other callbacks, or at most the time of a message that a thread is woken for.
       const bool has_others = executor != FoundExecutors::kNone && of_executor[executor].size() >= kEnough;
-      const std::vector<std::int64_t> own = std::exchange(gaps, has_others ? of_executor[executor] : of.delays);
+      const std::vector<Sample> own = std::exchange(gaps, has_others ? of_executor[executor] : of.delays);
       if (!own.empty()) {
         of.add_busy_to_delays();
       }
     }
     times[index] = {Distribution::of(std::move(of.delays)), Distribution::of(std::move(of.near_delays)),
-                    Distribution::of(std::move(gaps))};
+                    Distribution::of(std::move(gaps)), Distribution::of(std::move(of.ways))};
   }
   return times;
 }
 
 void set_call_delays(const Recording& recording, const std::vector<Index>& client_of, System& system) {
-  std::map<std::string, std::vector<std::int64_t>> requests;
-  std::map<Index, std::vector<std::int64_t>> responses;
+  std::map<std::string, std::vector<Sample>> requests;
+  std::map<Index, std::vector<Sample>> responses;
   for (const ServiceCall& call : recording.calls) {
     if (call.client == kNoObject || call.taken_ns == 0 || call.answered_ns == 0) {
       continue;
     }
-    requests[recording.clients[call.client].name].push_back(std::max<std::int64_t>(0, call.taken_ns - call.sent_ns));
-    responses[client_of[call.client]].push_back(std::max<std::int64_t>(0, call.received_ns - call.answered_ns));
+    requests[recording.clients[call.client].name].push_back(
+        {call.sent_ns, std::max<std::int64_t>(0, call.taken_ns - call.sent_ns)});
+    responses[client_of[call.client]].push_back(
+        {call.answered_ns, std::max<std::int64_t>(0, call.received_ns - call.answered_ns)});
   }
   for (Callback& callback : system.callbacks) {
     if (callback.kind == Callback::Kind::kService) {
       callback.delays = Distribution::of(requests[callback.service]);
     } else if (callback.kind == Callback::Kind::kClient) {
       callback.delays = Distribution::of(responses[callback.client]);
+    } else {
+      continue;
     }
+    callback.ways = callback.delays;
   }
 }
 

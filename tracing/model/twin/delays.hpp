@@ -19,6 +19,7 @@ struct WayTimes {
   Distribution delays;
   Distribution near_delays;  // of messages of the same process, if others come, too
   Distribution gaps;         // from the end of the callback before to the begin, if it was due by then
+  Distribution ways;         // from the publication, or the time when a timer is due, to the begin, of all
 };
 
 // By callback of the timeline.

@@ -60,7 +60,7 @@ RunTimes::RunTimes(const Recording& recording) : callbacks_(recording.timeline.c
     const std::int64_t waited = states.time_in(State::kRunnable, instance);
     of.work_ns += static_cast<double>(length - waited);
     of.blocked_ns += static_cast<double>(states.time_in(State::kBlocked, instance));
-    (sends[index] ? of.sending : of.silent).push_back(std::max<std::int64_t>(0, length - waited));
+    (sends[index] ? of.sending : of.silent).push_back({instance.start_ns, std::max<std::int64_t>(0, length - waited)});
   }
 }
 
@@ -70,7 +70,7 @@ bool RunTimes::differ(const Of& callback) {
 }
 
 Distribution RunTimes::sending(std::size_t callback) const {
-  std::vector<std::int64_t> values = callbacks_[callback].sending;
+  std::vector<Sample> values = callbacks_[callback].sending;
   if (!differ(callbacks_[callback])) {
     values.insert(values.end(), callbacks_[callback].silent.begin(), callbacks_[callback].silent.end());
   }

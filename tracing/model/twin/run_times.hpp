@@ -28,8 +28,8 @@ class RunTimes {
  private:
   struct Of {
     std::uint64_t count = 0;
-    std::vector<std::int64_t> sending;
-    std::vector<std::int64_t> silent;
+    std::vector<Sample> sending;
+    std::vector<Sample> silent;
     std::vector<std::int64_t> starts;
     double work_ns = 0;
     double blocked_ns = 0;

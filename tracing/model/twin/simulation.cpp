@@ -17,17 +17,18 @@ Simulation::Simulation(const System& system) : system_(system), rules_(system), 
     }
   }
   running_.resize(system.groups.size());
-  waits_.resize(system.callbacks.size());
+  times_.resize(system.callbacks.size());
   receivers_.resize(system.topics.size());
   callbacks_.reserve(system.callbacks.size());
+  const Cycle cycle{system.begin_ns, system.active_ns};
   for (Index index = 0; index < system.callbacks.size(); ++index) {
     const Callback& callback = system.callbacks[index];
     const std::uint64_t seed = system.seed * 40'503 + 7 * index;
     callbacks_.push_back({.queue = {},
                           .due_ns = callback.phase_ns,
-                          .delays = Draw(callback.delays, seed),
-                          .near_delays = Draw(callback.near_delays, seed + 2),
-                          .gaps = Draw(callback.gaps, seed + 3)});
+                          .delays = Draw(callback.delays, seed, cycle),
+                          .near_delays = Draw(callback.near_delays, seed + 2, cycle),
+                          .gaps = Draw(callback.gaps, seed + 3, cycle)});
     executors_[system.groups[callback.group].executor].callbacks.push_back(index);
     if (callback.kind == Callback::Kind::kSubscription) {
       receivers_[callback.topic].push_back(index);
@@ -82,9 +83,9 @@ Figures Simulation::run(std::int64_t duration_ns) {
       case Event::Kind::kDue: {
         // A thread that waits is woken; one that is busy finds the timer when it looks next.
         const bool is_woken = could_run(event.what);
-        const std::int64_t late_ns = is_woken ? callbacks_[event.what].delays.next() : 0;
-        callbacks_[event.what].arrived_ns = is_woken ? now_ns_ + late_ns : -1;
-        push({now_ns_ + late_ns, 0, Event::Kind::kTimer, event.what, {}});
+        const Draw::Drawn late = is_woken ? callbacks_[event.what].delays.next_at(now_ns_) : Draw::Drawn();
+        callbacks_[event.what].way = {SimulatedTime::Source::kDelay, late.place};
+        push({now_ns_ + late.value, 0, Event::Kind::kTimer, event.what, {}});
         break;
       }
       case Event::Kind::kTimer: {
@@ -183,7 +184,7 @@ void Simulation::take(std::size_t index, Index callback, bool goes_on) {
   ++running_[system_.callbacks[callback].group];
   if (state.is_due) {
     state.is_due = false;
-    thread.message = {state.due_ns, kNone, kNone, 0, state.arrived_ns};
+    thread.message = {state.due_ns, kNone, kNone, 0, state.way};
     // As rcl does: periods that have passed altogether are left out.
     const std::int64_t period = system_.callbacks[callback].period_ns;
     state.due_ns += period;
@@ -195,7 +196,13 @@ void Simulation::take(std::size_t index, Index callback, bool goes_on) {
     thread.message = state.queue.front();
     state.queue.pop_front();
   }
-  work(index, goes_on ? state.gaps.next() : 0, goes_on);
+  std::int64_t gap_ns = 0;
+  if (goes_on) {
+    const Draw::Drawn gap = state.gaps.next_at(now_ns_);
+    gap_ns = gap.value;
+    thread.message.way = {SimulatedTime::Source::kGap, gap.place};
+  }
+  work(index, gap_ns, goes_on);
 }
 
 void Simulation::work(std::size_t thread, std::int64_t work_ns, bool goes_on) {
@@ -221,11 +228,9 @@ void Simulation::step_done(std::size_t index) {
   const Callback& callback = system_.callbacks[thread.callback];
   if (thread.step == 0) {
     thread.begin_ns = now_ns_;
-    thread.run = rules_.next_run(thread.callback);
+    thread.run = rules_.next_run(thread.callback, now_ns_);
     const Message& message = thread.message;
-    if (message.arrived_ns >= 0) {
-      waits_[thread.callback].begins.push_back(now_ns_ - message.arrived_ns);
-    }
+    times_[thread.callback].ways.push_back({message.way.source, message.way.place, now_ns_ - message.sent_ns});
     if (callback.kind == Callback::Kind::kSubscription) {
       const std::string& node = system_.nodes[system_.publishers[message.publisher].node].name;
       figures_[{FigureKind::kHop, hop_name(node, callback.name)}].push_back(now_ns_ - message.sent_ns);
@@ -261,20 +266,24 @@ void Simulation::send(const Output& output) {
     return system_.nodes[system_.groups[system_.callbacks[callback].group].node].process;
   };
   const auto deliver = [&](Index callback, Message message) {
+    const std::vector<Distribution::Moment>& recorded = system_.callbacks[callback].ways.moments;
+    if (!recorded.empty() && now_ns_ < recorded.front().time_ns - system_.begin_ns) {
+      return;  // it was not there yet
+    }
     CallbackState& state = callbacks_[callback];
     const bool is_near = !system_.callbacks[callback].near_delays.empty() && message.publisher != kNone &&
                          system_.nodes[system_.publishers[message.publisher].node].process == process_of(callback);
-    const std::int64_t arrival_ns = now_ns_ + (is_near ? state.near_delays : state.delays).next();
-    message.arrived_ns = could_run(callback) && arrival_ns >= state.last_ns ? arrival_ns : -1;
-    state.last_ns = std::max(state.last_ns, arrival_ns);
+    const Draw::Drawn delay = (is_near ? state.near_delays : state.delays).next_at(now_ns_);
+    message.way = {is_near ? SimulatedTime::Source::kNearDelay : SimulatedTime::Source::kDelay, delay.place};
+    state.last_ns = std::max(state.last_ns, now_ns_ + delay.value);
     push({state.last_ns, 0, Event::Kind::kArrival, callback, message});
   };
   if (output.publisher != kNone) {
     for (const Index callback : receivers_[system_.publishers[output.publisher].topic]) {
-      deliver(callback, {now_ns_, output.publisher, kNone, 0, -1});
+      deliver(callback, {now_ns_, output.publisher, kNone, 0});
     }
   } else if (const auto service = services_.find(system_.clients[output.client].service); service != services_.end()) {
-    deliver(service->second, {now_ns_, kNone, output.client, now_ns_, -1});
+    deliver(service->second, {now_ns_, kNone, output.client, now_ns_});
   }
 }
 
@@ -282,15 +291,18 @@ void Simulation::end(std::size_t index) {
   Thread& thread = threads_[index];
   const Callback& callback = system_.callbacks[thread.callback];
   figures_[{FigureKind::kCallback, callback.name}].push_back(now_ns_ - thread.begin_ns);
-  waits_[thread.callback].runs.push_back(std::max<std::int64_t>(0, now_ns_ - thread.begin_ns - thread.run.time_ns));
+  times_[thread.callback].runs.push_back(
+      {thread.run.is_silent ? SimulatedTime::Source::kSilentRun : SimulatedTime::Source::kRun, thread.run.place,
+       now_ns_ - thread.begin_ns});
   --running_[callback.group];
   if (callback.kind == Callback::Kind::kService) {
     if (const auto answer = answers_.find(thread.message.client); answer != answers_.end()) {
       CallbackState& state = callbacks_[answer->second];
       Message response = thread.message;
       response.sent_ns = now_ns_;
-      response.arrived_ns = -1;
-      push({now_ns_ + state.delays.next(), 0, Event::Kind::kArrival, answer->second, response});
+      const Draw::Drawn delay = state.delays.next_at(now_ns_);
+      response.way = {SimulatedTime::Source::kDelay, delay.place};
+      push({now_ns_ + delay.value, 0, Event::Kind::kArrival, answer->second, response});
     }
   }
   thread.callback = kNone;

@@ -23,10 +23,18 @@
 
 namespace tracing::twin {
 
-// How long threads had to wait for a processor, or for what their executor began meanwhile, by callback.
-struct SimulatedWaits {
-  std::vector<std::int64_t> begins;  // of runs for which the executor was free: after their delay
-  std::vector<std::int64_t> runs;    // within them, all in all
+// Which recorded time a way or a run got, and how long it was in the simulation all in all.
+struct SimulatedTime {
+  enum class Source { kDelay, kNearDelay, kGap, kRun, kSilentRun };
+  Source source = Source::kDelay;
+  std::uint32_t place = 0;  // in the values of that distribution
+  std::int64_t total_ns = 0;
+};
+
+// Of a callback.
+struct SimulatedTimes {
+  std::vector<SimulatedTime> ways;  // from sending, or when the timer is due, to the begin
+  std::vector<SimulatedTime> runs;
 };
 
 class Simulation {
@@ -36,7 +44,7 @@ class Simulation {
   // For this long, in virtual time. To be called once.
   Figures run(std::int64_t duration_ns);
   // After it.
-  const std::vector<SimulatedWaits>& waits() const { return waits_; }
+  const std::vector<SimulatedTimes>& times() const { return times_; }
 
  private:
   // What a callback gets.
@@ -45,7 +53,7 @@ class Simulation {
     Index publisher = kNone;
     Index client = kNone;           // of a request or a response
     std::int64_t requested_ns = 0;  // likewise
-    std::int64_t arrived_ns = -1;   // -1: its executor was busy when it was sent
+    SimulatedTime way = {};         // without its length
   };
   struct Event {
     enum class Kind { kDue, kTimer, kArrival, kWake };
@@ -60,10 +68,10 @@ class Simulation {
   };
   struct CallbackState {
     std::deque<Message> queue;
-    std::int64_t due_ns = 0;       // of a timer
-    std::int64_t arrived_ns = -1;  // likewise, as that of a message
-    bool is_due = false;           // likewise
-    std::int64_t last_ns = 0;      // the last arrival: messages stay in their order
+    std::int64_t due_ns = 0;   // of a timer
+    SimulatedTime way = {};    // likewise, as that of a message
+    bool is_due = false;       // likewise
+    std::int64_t last_ns = 0;  // the last arrival: messages stay in their order
     Draw delays;
     Draw near_delays;
     Draw gaps;
@@ -114,7 +122,7 @@ class Simulation {
   std::map<std::string, Index> services_;
   std::map<Index, Index> answers_;  // the callback of each client
   Figures figures_;
-  std::vector<SimulatedWaits> waits_;
+  std::vector<SimulatedTimes> times_;
 };
 
 }  // namespace tracing::twin

@@ -15,8 +15,8 @@ OutputRules::OutputRules(const System& system) : system_(system), random_(system
                 {},
                 {},
                 {},
-                Draw(callback.run_times, seed),
-                Draw(callback.silent_run_times, seed + 1)};
+                Draw(callback.run_times, seed, {system.begin_ns, system.active_ns}),
+                Draw(callback.silent_run_times, seed + 1, {system.begin_ns, system.active_ns})};
     state.by_sent.resize(callback.outputs.size());
     std::iota(state.by_sent.begin(), state.by_sent.end(), std::size_t{0});
     std::stable_sort(state.by_sent.begin(), state.by_sent.end(), [&](std::size_t left, std::size_t right) {
@@ -61,7 +61,7 @@ std::vector<std::size_t> OutputRules::complete(Index callback) {
   return completed;
 }
 
-Run OutputRules::next_run(Index callback) {
+Run OutputRules::next_run(Index callback, std::optional<std::int64_t> time_ns) {
   State& state = states_[callback];
   const std::vector<Output>& outputs = system_.callbacks[callback].outputs;
   const std::vector<std::size_t> completed = complete(callback);
@@ -86,8 +86,15 @@ Run OutputRules::next_run(Index callback) {
       run.outputs.push_back(index);
     }
   }
-  const bool is_silent = run.outputs.empty() && !system_.callbacks[callback].silent_run_times.empty();
-  run.time_ns = is_silent ? state.silent_run_times.next() : state.run_times.next();
+  run.is_silent = run.outputs.empty() && !system_.callbacks[callback].silent_run_times.empty();
+  Draw& times = run.is_silent ? state.silent_run_times : state.run_times;
+  if (time_ns) {
+    const Draw::Drawn drawn = times.next_at(*time_ns);
+    run.time_ns = drawn.value;
+    run.place = drawn.place;
+  } else {
+    run.time_ns = times.next();
+  }
   return run;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -14,6 +15,8 @@ namespace tracing::twin {
 
 struct Run {
   std::int64_t time_ns = 0;
+  bool is_silent = false;            // the time is one of `silent_run_times`
+  std::uint32_t place = 0;           // of the time in that distribution
   std::vector<std::size_t> outputs;  // indices in Callback::outputs, in the order of `sent`
 };
 
@@ -22,7 +25,8 @@ class OutputRules {
  public:
   // The system must outlive it.
   explicit OutputRules(const System& system);
-  Run next_run(Index callback);
+  // With a time after the begin of the recording: as it was recorded then. Without it: at random.
+  Run next_run(Index callback, std::optional<std::int64_t> time_ns = std::nullopt);
 
  private:
   struct Join {

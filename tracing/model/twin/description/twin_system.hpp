@@ -109,6 +109,7 @@ struct Callback {
   Distribution delays;           // from sending, or when a timer is due, to the begin, if the executor waits for it
   Distribution near_delays;      // likewise, of messages of the same process; empty: as the others
   Distribution gaps;             // from the end of the callback before to the begin, if the executor was busy
+  Distribution ways;             // from sending, or when a timer is due, to the begin, of all that were recorded
   std::vector<Output> outputs;
 };
 
@@ -117,6 +118,7 @@ inline constexpr const char* kCallbackKinds[] = {"timer", "subscription", "servi
 
 struct System {
   std::int64_t duration_ns = 0;  // of the recording
+  std::int64_t begin_ns = 0;     // when the first timer was due
   std::int64_t active_ns = 0;    // from the time when the first timer was due to the end of the last callback
   std::size_t cpus = 1;
   std::uint64_t seed = 1;
