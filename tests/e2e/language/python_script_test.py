@@ -125,8 +125,9 @@ class PythonScriptTest(unittest.TestCase):
 
                 async def work(context, word):
                     await started.wait()
-                    print('coroutine', context.perform_substitution(TextSubstitution(text=word)),
-                          context.asyncio_loop is asyncio.get_running_loop(), flush=True)
+                    text = context.perform_substitution(TextSubstitution(text=word))
+                    # In one piece: the launcher writes to the same pipe.
+                    print(f'coroutine {text} {context.asyncio_loop is asyncio.get_running_loop()}\n', end='', flush=True)
 
                 service.include_launch_description(LaunchDescription([
                     RegisterEventHandler(OnProcessStart(on_start=lambda event, context: started.set())),

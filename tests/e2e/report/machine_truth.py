@@ -11,7 +11,7 @@ import subprocess
 LINE = re.compile(r'\[(\d+)\.(\d{9})\] \([^)]*\) ([^\s:]+)\S* (\w+):(\w+): \{[^}]*\}, \{(.*?)\}, \{(.*)\}$')
 NAME = re.compile(r'procname = "((?:[^"\\]|\\.)*)"')
 NUMBER = re.compile(r'(\w+) = (-?(?:0x)?[0-9A-Fa-f]+)')
-LOST = re.compile(r'Tracer (?:discarded|lost) (\d+) (?:trace )?(event|packet)s? ')
+LOST = re.compile(r'Tracer (?:discarded|lost) (\d+) (?:trace )?(event|packet)s? .* within stream "([^"]*)"')
 TEXT = re.compile(r'(\w+) = "((?:[^"\\]|\\.)*)"')
 ASKING = ('malloc', 'calloc', 'realloc', 'memalign', 'posix_memalign')
 
@@ -21,11 +21,16 @@ def text_of(trace):
 
 
 def lost_of(trace):
-    """Events that were dropped and packets that were overwritten, as far as they were counted, of all streams."""
-    lost = collections.Counter()
-    for count, what in LOST.findall(text_of(trace).stderr):
-        lost[what] += int(count)
-    return lost['event'], lost['packet']
+    """
+    Events that were dropped and packets that were overwritten, as far as they were counted, of all streams.
+
+    Sometimes the tracer's total of a stream is smaller in a packet than in the one before it. So the highest total counts.
+    """
+    now, highest = collections.Counter(), collections.Counter()
+    for count, what, stream in LOST.findall(text_of(trace).stderr):
+        now[what, stream] += int(count) - (1 << 64 if int(count) >> 63 else 0)
+        highest[what, stream] = max(highest[what, stream], now[what, stream])
+    return tuple(sum(total for (lost, _), total in highest.items() if lost == what) for what in ('event', 'packet'))
 
 
 def everything_of(trace):
@@ -43,15 +48,19 @@ class Starts:
     """What the launcher's events tell of each process that it has started."""
 
     def __init__(self):
-        self.spawned, self.processes, self.first = {}, {}, collections.defaultdict(dict)
+        self.spawned, self.executed, self.processes, self.first = {}, {}, {}, collections.defaultdict(dict)
         self.node_of_rcl, self.topic_of = {}, {}
+        self.zeros = []  # of the monotonic clock, at the earliest
 
-    def of_launcher(self, event, numbers, fields):
+    def of_launcher(self, time, event, numbers, fields):
         texts = dict(TEXT.findall(fields))
+        if numbers.get('time'):
+            self.zeros.append(time - numbers['time'])
         if event == 'spawn':
             self.spawned[texts['file'], numbers['line'], texts['process']] = numbers['time']
         elif event == 'exec':
             name, place = texts['process'].rpartition('-')[0], (texts['file'], numbers['line'])
+            self.executed[numbers['pid']] = numbers['time']
             self.processes[numbers['pid']] = texts['process'], *place, numbers['time'] - self.spawned[(*place, name)]
 
     def of_process(self, time, process, event, numbers, fields):
@@ -73,7 +82,12 @@ class Starts:
                 first.setdefault('publication', time)
 
     def rows(self):
-        return [(process, *told, *(self.first[process].get(what) for what in ('init', 'node', 'ready', 'callback', 'publication')))
+        """On a busy machine the launcher may notice the exec after what the process did next, which then took no time."""
+        def after_exec(process, what):
+            time = self.first[process].get(what)
+            return time and max(time, min(self.zeros) + self.executed[process])
+
+        return [(process, *told, *(after_exec(process, what) for what in ('init', 'node', 'ready', 'callback', 'publication')))
                 for process, told in self.processes.items()]
 
 
@@ -104,7 +118,7 @@ class Machines:
             self.host_of[process] = host
             self.hosts[host].add(process)
             if provider == 'launch':
-                self.starts.of_launcher(event, numbers, fields)
+                self.starts.of_launcher(time, event, numbers, fields)
                 continue
             self.starts.of_process(time, process, event, numbers, fields)
             self.begin = time if self.begin is None else self.begin

@@ -236,5 +236,5 @@ class TruthCase(unittest.TestCase):
         database.close()
 
     def compare_rows(self, found, own):
-        self.assertEqual(sorted(map(str, own - found)), [])
-        self.assertEqual(sorted(map(str, found - own)), [])
+        only_own, only_found = (sorted(map(str, rows)) for rows in (own - found, found - own))
+        self.assertEqual((only_found, only_own), ([], []))
