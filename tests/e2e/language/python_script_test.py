@@ -127,7 +127,7 @@ class PythonScriptTest(unittest.TestCase):
                     await started.wait()
                     text = context.perform_substitution(TextSubstitution(text=word))
                     # In one piece: the launcher writes to the same pipe.
-                    print(f'coroutine {text} {context.asyncio_loop is asyncio.get_running_loop()}\n', end='', flush=True)
+                    print(f'coroutine {text} {context.asyncio_loop is asyncio.get_running_loop()}\\n', end='', flush=True)
 
                 service.include_launch_description(LaunchDescription([
                     RegisterEventHandler(OnProcessStart(on_start=lambda event, context: started.set())),
