@@ -38,7 +38,8 @@ std::int64_t timeout(std::string_view text) {
   return std::clamp<std::int64_t>(std::atoll(std::string(text).c_str()), 0, kYear);
 }
 
-// In the middle of an exec a process seems to have neither arguments nor an environment. Nothing tells when it has them.
+// In the middle of an exec a process seems to have neither arguments nor an environment. Nothing tells when it has
+// them.
 std::string read_environment(const FoundProcess& process) {
   constexpr std::chrono::milliseconds kLongestExec{20};
   const auto end = std::chrono::steady_clock::now() + kLongestExec;
