@@ -37,7 +37,8 @@ class Twin(unittest.TestCase):
 
     def test_the_twin_has_the_graph_and_the_rates(self):
         folder = self.directory / 'twin'
-        run = self.launch('twin', self.trace, '-o', folder, '--run', '--json')
+        # As long as the recording would be 2 s, in which its processes don't start on a busy machine.
+        run = self.launch('twin', self.trace, '-o', folder, '--run', '--json', '--duration', '8')
         figures = {one['name']: one for one in json.loads(run.stdout)['figures']}
         self.assertEqual(set(figures), {'/ping, timer 50 ms', '/ping, subscription /pong', '/pong, subscription /ping',
                                         '/ping to /pong, subscription /ping', '/pong to /ping, subscription /pong'})
