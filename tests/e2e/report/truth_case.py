@@ -15,6 +15,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import findings_truth
 from deliveries_truth import Deliveries
 from machine_truth import Machines
 from own_launch import launch, started
@@ -122,6 +123,8 @@ class TruthCase(unittest.TestCase):
         self.compared = self.compared_hops = 0
         self.check_rows(rows, truth, is_whole)
         self.check_sums(rows, truth, machines, is_whole)
+        with self.subTest(table='findings'):
+            self.assertEqual(list(findings_truth.faults(report)), [])
         at_address = collections.defaultdict(list)  # one may be where another one was that has gone
         for callback in report['callbacks']:
             at_address[callback['vpid'], callback['address']].append(callback)

@@ -96,6 +96,20 @@ TEST(Finding, ThereIsNoneInAHealthySystem) {
   EXPECT_TRUE(find_worth_a_look(results).empty());
 }
 
+TEST(Finding, NamesTheSlowestOfSlowStarts) {
+  TraceResults results;
+  for (const std::int64_t seconds : {6, 20, 9}) {
+    StartResult start;
+    start.process = "slow-" + std::to_string(seconds);
+    start.vpid = seconds;
+    start.ready_after_ns = seconds * 1'000'000'000;
+    results.starts.push_back(start);
+  }
+  const std::vector<Finding> findings = find_worth_a_look(results);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].subject, "slow-20 [20]");
+}
+
 TEST(Finding, NamesATimerThatDrifts) {
   TraceResults results;
   CallbackResult timer = late_timer_of("/slow");

@@ -37,6 +37,10 @@ Findings unanswered_requests(const TraceResults& results);
 // stall of the machine does not move it.
 std::int64_t usual_worst(const DurationSummary& times);
 
+// At most `most`, and a little of that, less than 1, by how great the value is: so the greatest of those that reach the
+// most is named first.
+double at_most(double most, double weight, double value);
+
 // "1.20 ms"
 std::string duration(std::int64_t nanoseconds);
 // " (events were lost)", " (an estimate)", both, or nothing

@@ -109,7 +109,7 @@ Findings slow_starts(const TraceResults& results) {
       continue;
     }
     const double seconds = static_cast<double>(*start.ready_after_ns) / 1e9;
-    findings.push_back({Finding::Kind::kSlowestStart, std::min(40.0, 15 + 5 * seconds),
+    findings.push_back({Finding::Kind::kSlowestStart, at_most(40, 15 + 5 * seconds, seconds),
                         fmt::format("{} [{}]", start.process, start.vpid),
                         fmt::format("ready {} after exec", duration(*start.ready_after_ns)),
                         "launch report DIR --all shows the phases of each start"});

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "tracing/model/findings/finders.hpp"
@@ -35,6 +36,10 @@ std::int64_t usual_worst(const DurationSummary& times) {
   constexpr std::uint64_t kForP99 = 500;
   constexpr std::uint64_t kForP90 = 50;
   return times.count >= kForP99 ? times.p99_ns : times.count >= kForP90 ? times.p90_ns : times.p50_ns;
+}
+
+double at_most(double most, double weight, double value) {
+  return std::min(most - 1, weight) + std::min(1.0, std::log10(1 + value) / 20);
 }
 
 std::string duration(std::int64_t nanoseconds) {
