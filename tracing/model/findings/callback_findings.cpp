@@ -125,8 +125,8 @@ Findings starved_callbacks(const TraceResults& results) {
             ? ""
             : fmt::format(", which '{}' had for {}", callback.ran_instead, duration(callback.ran_instead_ns));
     const double milliseconds = static_cast<double>(callback.longest_runnable_ns) / 1e6;
-    findings.push_back({Finding::Kind::kStarvedCallback, at_most(95, 50 + 15 * std::log10(1 + milliseconds), milliseconds),
-                        label(hosts, callback),
+    findings.push_back({Finding::Kind::kStarvedCallback,
+                        at_most(95, 50 + 15 * std::log10(1 + milliseconds), milliseconds), label(hosts, callback),
                         fmt::format("waited {} for a processor{}; at p99 {}{}", duration(callback.longest_runnable_ns),
                                     other, duration(callback.runnable.p99_ns), mark(callback.doubtful)),
                         "give its process a priority, or processors of its own (cpus)", callback.id});
@@ -142,7 +142,8 @@ Findings unfinished_callbacks(const TraceResults& results) {
       continue;  // one may be the last one of the trace
     }
     findings.push_back(
-        {Finding::Kind::kUnfinished, at_most(80, 50 + static_cast<double>(callback.unfinished), static_cast<double>(callback.unfinished)),
+        {Finding::Kind::kUnfinished,
+         at_most(80, 50 + static_cast<double>(callback.unfinished), static_cast<double>(callback.unfinished)),
          label(hosts, callback),
          fmt::format("{} have no end: an exception, or lost events", format_count(callback.unfinished, "begin")),
          "look for exceptions in " + place_in_source(callback), callback.id});
