@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is wrong in a file beside its syntax errors: names that nobody knows, in the parts that can be read.
+// What is wrong in a file beside its syntax errors, which is names that nobody knows, in the parts that can be read;
+// and beside unknown attributes.
 #include <algorithm>
+#include <array>
+#include <string_view>
 #include <utility>
 
 #include "launcher/frontend/entity.hpp"
@@ -89,6 +92,27 @@ class BrokenFile {
   const std::vector<Diagnostic>& syntax_errors_;
 };
 
+// Tags whose attributes change nothing for other actions.
+constexpr std::array<std::string_view, 9> kOfProcesses = {
+    "node", "executable", "lifecycle_node", "node_container", "composable_node", "param", "remap", "env", "log"};
+
+// Removes the attributes at whose names the errors stand. Returns how many.
+std::size_t forget_attributes(std::vector<Entity>& entities, const std::vector<Diagnostic>& errors) {
+  std::size_t count = 0;
+  for (Entity& entity : entities) {
+    if (std::find(kOfProcesses.begin(), kOfProcesses.end(), entity.type_name) != kOfProcesses.end()) {
+      count += std::erase_if(entity.attributes, [&](const Attribute& attribute) {
+        return std::any_of(errors.begin(), errors.end(), [&](const Diagnostic& error) {
+          return error.where && error.where.file->path() == attribute.name_where.file->path() &&
+                 error.where.begin == attribute.name_where.begin && error.where.end == attribute.name_where.end;
+        });
+      });
+    }
+    count += forget_attributes(entity.children, errors);
+  }
+  return count;
+}
+
 }  // namespace
 
 std::vector<Diagnostic> find_in_broken_file(const std::shared_ptr<const SourceFile>& file, const Registry& registry,
@@ -106,6 +130,23 @@ std::vector<Diagnostic> find_in_broken_file(const std::shared_ptr<const SourceFi
     }
   }
   return found;
+}
+
+std::shared_ptr<const LaunchDescription> without_unknown_attributes(const std::shared_ptr<const SourceFile>& file,
+                                                                    const Registry& registry,
+                                                                    const std::vector<Diagnostic>& errors) {
+  try {
+    Entity root = load_entity_tree(file);
+    if (forget_attributes(root.children, errors) != errors.size()) {
+      return nullptr;
+    }
+    auto description = std::make_shared<LaunchDescription>();
+    description->actions = ActionParser(registry).parse(std::move(root.children));
+    description->file = file;
+    return description;
+  } catch (const LaunchError&) {
+    return nullptr;
+  }
 }
 
 }  // namespace launch

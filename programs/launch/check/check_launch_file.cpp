@@ -31,27 +31,34 @@ class Checker {
 
   std::vector<Diagnostic> run(const std::string& path) {
     try {
-      LaunchContext context(registry_, environment_, own_prefix(), [](auto, auto, auto) {});
-      context.scope().log_directory = LogDirectory::choose(environment_);
-      context.scope().warn = [this](const SourceRange& where, const std::string& text) {
-        warn(Finding::kRemark, text, where);
-      };
-      context.scope().note_performed_file = [this](const auto& file) { performed_files_.push_back(file); };
-      for (const auto& [name, value] : options_.arguments) {
-        context.scope().configurations.insert_or_assign(name, value);
-      }
-      context.scope().unrun_commands = std::make_shared<UnrunCommands>();
-      check(*load_launch_files({path}, registry_, context.scope()), context);
+      visit([&](const Scope& scope) { return load_launch_files({path}, registry_, scope); });
     } catch (const LaunchError& error) {
       add(error);
       check_what_can_not_be_read(path, error.diagnostics());
       check_what_does_not_load(path);
+      check_without_unknown_attributes(error.diagnostics());
     }
     leave_out_ignored(readable(path), found_);
     return std::move(found_);
   }
 
  private:
+  // `load` is given the scope of the visit.
+  template <typename Load>
+  void visit(Load load) {
+    LaunchContext context(registry_, environment_, own_prefix(), [](auto, auto, auto) {});
+    context.scope().log_directory = LogDirectory::choose(environment_);
+    context.scope().warn = [this](const SourceRange& where, const std::string& text) {
+      warn(Finding::kRemark, text, where);
+    };
+    context.scope().note_performed_file = [this](const auto& file) { performed_files_.push_back(file); };
+    for (const auto& [name, value] : options_.arguments) {
+      context.scope().configurations.insert_or_assign(name, value);
+    }
+    context.scope().unrun_commands = std::make_shared<UnrunCommands>();
+    check(*load(context.scope()), context);
+  }
+
   static std::shared_ptr<const SourceFile> readable(const std::string& path) {
     try {
       return read_source_file(path);
@@ -87,7 +94,26 @@ class Checker {
     }
   }
 
+  void check_without_unknown_attributes(const std::vector<Diagnostic>& errors) {
+    const std::string path = errors.front().where ? errors.front().where.file->path() : std::string();
+    const auto file = registry_.find_loader(path) == nullptr ? readable(path) : nullptr;
+    const auto description = file == nullptr ? nullptr : without_unknown_attributes(file, registry_, errors);
+    if (description == nullptr) {
+      return;
+    }
+    lacks_attributes_ = true;
+    try {
+      visit([&](const Scope&) { return description; });
+    } catch (const LaunchError&) {
+      // It may come from what is missing.
+    }
+  }
+
   void add(Diagnostic diagnostic) {
+    if (lacks_attributes_ && diagnostic.finding != Finding::kUndefined && diagnostic.finding != Finding::kExpression &&
+        diagnostic.finding != Finding::kMissingPackage) {
+      return;
+    }
     if (diagnostic.message.find(kUnknownOutput) != std::string::npos) {
       return;  // it follows from a value that only a run knows
     }
@@ -141,7 +167,7 @@ class Checker {
          .finds_leaks = options_.finds_leaks});
     const LaunchPlan plan = plan_launch(context, description);
     context.exploration().tell_postponed();
-    if (options_.planned) {
+    if (options_.planned && !lacks_attributes_) {
       options_.planned(plan.processes.size());
     }
     check_unused(description, list, plan);
@@ -206,6 +232,7 @@ class Checker {
   const Environment& environment_;
   const CheckOptions& options_;
   std::vector<Diagnostic> found_;
+  bool lacks_attributes_ = false;                                   // what is visited is not all of the file
   std::vector<std::shared_ptr<const SourceFile>> performed_files_;  // of parameters
   std::set<std::string> told_;
 };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/diagnostics/diagnostic.hpp"
+#include "launcher/language/launch_description.hpp"
 #include "launcher/language/registry.hpp"
 #include "launcher/visit/launch_plan.hpp"
 #include "programs/launch/check/recorded_nodes.hpp"
@@ -39,6 +40,12 @@ std::vector<Diagnostic> find_stray_text(const std::shared_ptr<const SourceFile>&
 // none in an element that has one in its start tag.
 std::vector<Diagnostic> find_in_broken_file(const std::shared_ptr<const SourceFile>& file, const Registry& registry,
                                             const std::vector<Diagnostic>& syntax_errors);
+
+// The file without the attributes that nodes and programs do not have; nullptr if there are other errors among
+// `errors`, which are those of loading it. Only what does not depend on such an attribute may be told of it.
+std::shared_ptr<const LaunchDescription> without_unknown_attributes(const std::shared_ptr<const SourceFile>& file,
+                                                                    const Registry& registry,
+                                                                    const std::vector<Diagnostic>& errors);
 
 // What `ros2 launch` would not know (docs/extensions.md): an error for each action, item and attribute that is an
 // extension. It looks at this file alone, not at the files that it includes. Throws LaunchError when the file is
