@@ -57,6 +57,12 @@ python::Runtime* load_module() {
   return reinterpret_cast<python::GetRuntime>(symbol)();
 }
 
+// Throws std::runtime_error.
+python::Runtime& loaded_runtime() {
+  static python::Runtime* const runtime = load_module();
+  return *runtime;
+}
+
 }  // namespace
 
 void use_python_module(std::string path) {
@@ -72,14 +78,22 @@ void show_python_tracebacks() {
 }
 
 python::Runtime& python_runtime() {
-  static python::Runtime* const runtime = load_module();
-  const auto report_deaths = [](int descriptor) { runtime->report_deaths(descriptor); };
+  python::Runtime& runtime = loaded_runtime();
+  const auto report_deaths = [](int descriptor) { loaded_runtime().report_deaths(descriptor); };
   become_guest(report_deaths);
   python_has_started(report_deaths);
   if (shows_tracebacks()) {
-    runtime->show_tracebacks();
+    runtime.show_tracebacks();
   }
-  return *runtime;
+  return runtime;
+}
+
+std::optional<python::SyntaxError> python_syntax_error(const std::string& text) {
+  try {
+    return loaded_runtime().syntax_error(text);
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
 }
 
 std::string evaluate_python(const std::string& expression, const std::string& modules, PythonPlace place) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -30,6 +31,11 @@ void show_python_tracebacks();
 // Throws EvaluationError: Python's error, or what to install when there is no Python. Must not be called by several
 // threads at once.
 std::string evaluate_python(const std::string& expression, const std::string& modules, PythonPlace place);
+
+// What is wrong with `text` as a program of Python; nullopt for nothing, and without a Python. Nothing of the text
+// runs, so this makes no guest. The first call starts the interpreter: processes that are forked then have their answer
+// soon.
+std::optional<python::SyntaxError> python_syntax_error(const std::string& text);
 
 // what() is one line.
 struct EvaluationError : std::runtime_error {

@@ -139,6 +139,15 @@ struct Pause {
   std::optional<double> seconds;  // until a step has something to do by itself
 };
 
+// What Python's compiler says about a text that is no program. Lines and columns count from 0, columns in characters.
+struct SyntaxError {
+  std::string message;
+  std::uint32_t line = 0;
+  std::uint32_t column = 0;
+  std::uint32_t last_line = 0;
+  std::uint32_t last_column = 0;
+};
+
 // A Python launch file or a Python object failed. what() is one line.
 class __attribute__((visibility("default"))) Error : public std::runtime_error {
  public:
@@ -163,6 +172,10 @@ class Runtime {
   // From now on what ends this process while Python runs (a signal that kills, os._exit()) first writes into the
   // descriptor where Python is.
   virtual void report_deaths(int descriptor) = 0;
+  // What is wrong with a text as a program; nullopt for nothing. Nothing of it runs. The first call starts the
+  // interpreter, but not what the user's installation does at its start (Python's module `site`): that is left to the
+  // first call of another function. So a process can be forked from here that has its answer soon.
+  virtual std::optional<SyntaxError> syntax_error(const std::string& text) = 0;
   // str() of the value of an expression (evaluate_python() in python_module.hpp). Throws std::runtime_error.
   virtual std::string evaluate(const std::string& expression, const std::string& modules) = 0;
   // Runs a launch file. `text` is its content. Throws Error.

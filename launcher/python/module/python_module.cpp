@@ -69,13 +69,15 @@ py::tuple write_element(const Element& element) {
 
 namespace {
 
-// The interpreter lives until the program ends: finalising it would only take time.
-void start_interpreter() {
+// The interpreter lives until the program ends: finalising it would only take time. Without `site`, nothing of the
+// user's installation runs.
+void start_interpreter(bool site) {
   PyConfig config;
   PyConfig_InitPythonConfig(&config);
   config.install_signal_handlers = 0;
   config.parse_argv = 0;
   config.buffered_stdio = 0;  // what a launch file prints appears among the launcher's own lines
+  config.site_import = site ? 1 : 0;
   config.write_bytecode = 0;  // no __pycache__ beside the user's files
   // Otherwise the first python3 on the PATH would tell where the standard library is, whatever version it has.
   PyConfig_SetBytesString(&config, &config.program_name, LAUNCH_PYTHON_PROGRAM);
@@ -124,6 +126,14 @@ std::string evaluate(const std::string& expression, const std::string& modules) 
   return py::str(py::module_::import("builtins").attr("eval")(expression, names));
 }
 
+// The names of a file of the package `launch`. The file alone: the package takes long, and not all needs it.
+py::dict names_of_file(const std::string& name) {
+  py::dict names;
+  names["__builtins__"] = py::module_::import("builtins");
+  py::eval_file(package_directory() + "/launch/" + name, names);
+  return names;
+}
+
 class CPython : public launch::python::Runtime {
  public:
   void show_tracebacks() override { launch::python::shows_tracebacks() = true; }
@@ -131,11 +141,29 @@ class CPython : public launch::python::Runtime {
   void report_deaths(int descriptor) override {
     start();
     const py::gil_scoped_acquire lock;
-    // The file alone: the package that it belongs to takes long, and expressions need none.
-    py::dict names;
-    names["__builtins__"] = py::module_::import("builtins");
-    py::eval_file(package_directory() + "/launch/_deaths.py", names);
-    names["report"](descriptor);
+    names_of_file("_deaths.py")["report"](descriptor);
+  }
+
+  std::optional<launch::python::SyntaxError> syntax_error(const std::string& text) override {
+    if (Py_IsInitialized() == 0) {
+      start_interpreter(false);
+      lacks_site_ = true;
+    }
+    const py::gil_scoped_acquire lock;
+    try {
+      if (!find_syntax_error_) {
+        find_syntax_error_ = names_of_file("_syntax.py")["syntax_error"].cast<py::function>().release();
+      }
+      const py::object found = find_syntax_error_(py::bytes(text));
+      if (found.is_none()) {
+        return std::nullopt;
+      }
+      const auto parts = found.cast<py::tuple>();
+      const auto number = [&](std::size_t at) { return parts[at].cast<std::uint32_t>(); };
+      return launch::python::SyntaxError{parts[0].cast<std::string>(), number(1), number(2), number(3), number(4)};
+    } catch (py::error_already_set& error) {
+      throw std::runtime_error(error.what());
+    }
   }
 
   std::string evaluate(const std::string& expression, const std::string& modules) override {
@@ -202,9 +230,17 @@ class CPython : public launch::python::Runtime {
   }
 
  private:
-  static void start() {
+  void start() {
     if (Py_IsInitialized() == 0) {
-      start_interpreter();
+      start_interpreter(true);
+    } else if (lacks_site_) {
+      lacks_site_ = false;
+      const py::gil_scoped_acquire lock;
+      try {
+        py::module_::import("site").attr("main")();
+      } catch (py::error_already_set& error) {
+        error.discard_as_unraisable("the start of Python");
+      }
     }
   }
 
@@ -221,6 +257,8 @@ class CPython : public launch::python::Runtime {
     return py::module_::import("launch.frontend._extensions");
   }
 
+  bool lacks_site_ = false;
+  py::handle find_syntax_error_;  // never freed, as the interpreter is not
   bool packages_found_ = false;
 };
 

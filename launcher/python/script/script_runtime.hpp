@@ -20,6 +20,7 @@ class ScriptRuntime : public python::Runtime {
 
   void show_tracebacks() override { shows_tracebacks_ = true; }
   void report_deaths(int) override {}  // Python is the program of the user
+  std::optional<python::SyntaxError> syntax_error(const std::string&) override { return std::nullopt; }
   std::string evaluate(const std::string& expression, const std::string& modules) override;
   std::vector<python::Entity> load(const std::string& path, const std::string& text, python::Host& host) override;
   std::optional<std::vector<python::Entity>> make_action(const python::Element& element, python::Host& host) override;

@@ -15,7 +15,9 @@ namespace {
 
 std::vector<std::size_t> line_starts_of(std::string_view text) {
   std::vector<std::size_t> starts = {0};
-  for (std::size_t end = text.find('\n'); end != std::string_view::npos; end = text.find('\n', end + 1)) {
+  for (std::size_t end = text.find_first_of("\r\n"); end != std::string_view::npos;
+       end = text.find_first_of("\r\n", end + 1)) {
+    end += text.substr(end, 2) == "\r\n" ? 1 : 0;
     starts.push_back(end + 1);
   }
   return starts;
@@ -48,10 +50,18 @@ std::size_t Document::offset(const Json& position) const {
     return text_.size();
   }
   std::size_t at = line_starts_[line];
-  while (units > 0 && at < text_.size() && text_[at] != '\n' && text_.compare(at, 2, "\r\n") != 0) {
+  while (units > 0 && at < text_.size() && text_[at] != '\n' && text_[at] != '\r') {
     const CodePoint point = decode_utf8(std::string_view(text_).substr(at));
     units -= std::min(units, utf16_units(point.value));
     at += point.size;
+  }
+  return at;
+}
+
+std::size_t Document::offset_of_character(std::size_t line, std::size_t character) const {
+  std::size_t at = line < line_starts_.size() ? line_starts_[line] : text_.size();
+  for (; character > 0 && at < text_.size() && text_[at] != '\n' && text_[at] != '\r'; --character) {
+    at += decode_utf8(std::string_view(text_).substr(at)).size;
   }
   return at;
 }

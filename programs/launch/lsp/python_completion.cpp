@@ -165,7 +165,13 @@ class PythonCompletion {
     const PythonNames& table = PythonNames::of_installation();
     std::set<std::string> seen;
     for (const PythonImport& import : source_.imports) {
-      if (!import.as.empty() && seen.insert(import.as).second) {
+      const PythonNames::Module* const all = import.name == "*" ? table.module(import.module) : nullptr;
+      for (const auto& [name, known] : all == nullptr ? PythonNames::Module() : *all) {
+        if (seen.insert(name).second) {
+          add(name, kind_of(known), begin, help_of(known));
+        }
+      }
+      if (import.name != "*" && !import.as.empty() && seen.insert(import.as).second) {
         const PythonName* const known = table.find(import.module + "." + import.name);
         add(import.as, known == nullptr ? kModuleItem : kind_of(*known), begin,
             known == nullptr ? "" : help_of(*known));

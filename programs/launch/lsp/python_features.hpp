@@ -18,5 +18,8 @@ Json python_folds(const Reading& reading);                                // pyt
 // What is wrong by the text alone: names that a module of launch does not have, arguments that a class does not take,
 // packages that are missing. Diagnostics of the protocol.
 Json python_findings(const Workspace& workspace, const Reading& reading);  // python_findings.cpp
+// Reads the table of names and starts Python, so that processes which are forked from now on need not do so for each
+// check. Nothing of the user's runs.
+void prepare_python_findings();  // python_findings.cpp
 
 }  // namespace launch::lsp

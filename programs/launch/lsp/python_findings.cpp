@@ -2,6 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "base/diagnostics/diagnostic.hpp"
 #include "base/diagnostics/finding.hpp"
@@ -13,23 +17,6 @@
 namespace launch::lsp {
 
 namespace {
-
-constexpr const char* kParse = R"(
-import ast, json
-found = ''
-try:
-    ast.parse(text)
-except SyntaxError as error:
-    line, column = error.lineno or 1, error.offset or 1
-    last, end = error.end_lineno or line, error.end_offset or column + 1
-    end = end if (last, end) > (line, column) else column + 1
-    place = lambda line, column: {'line': line - 1, 'character': max(column - 1, 0)}
-    found = json.dumps({'message': type(error).__name__ + ': ' + error.msg,
-                        'range': {'start': place(line, column), 'end': place(last, end)}})
-except (ValueError, RecursionError, MemoryError) as error:
-    zero = {'line': 0, 'character': 0}
-    found = json.dumps({'message': type(error).__name__ + ': ' + str(error), 'range': {'start': zero, 'end': zero}})
-)";
 
 class PythonFindings {
  public:
@@ -63,23 +50,13 @@ class PythonFindings {
     found_.push_back(std::move(item));
   }
 
-  // Python's own parser finds it. It runs nothing of the file.
+  // Python's own compiler finds it. It runs nothing of the file.
   void check_syntax() {
-    const Json text = reading_.document.text();
-    const std::string expression =
-        fmt::format("(lambda names: exec({}, names) or names['found'])({{'text': {}}})", Json(kParse).dump(),
-                    text.dump(-1, ' ', false, Json::error_handler_t::replace));
-    try {
-      const Json error = Json::parse(evaluate_python(expression, "", {}), nullptr, false);
-      if (error.is_object()) {
-        found_.push_back({{"range", error.at("range")},
-                          {"severity", 1},
-                          {"code", finding_id(Finding::kPython)},
-                          {"source", "launch"},
-                          {"message", error.at("message")}});
-      }
-    } catch (const EvaluationError&) {
-      // There is no Python here.
+    const Document& document = reading_.document;
+    if (const std::optional<python::SyntaxError> error = python_syntax_error(document.text())) {
+      const std::size_t begin = document.offset_of_character(error->line, error->column);
+      const std::size_t end = document.offset_of_character(error->last_line, error->last_column);
+      add({begin, std::max(begin, end)}, Finding::kPython, error->message, {}, {});
     }
   }
 
@@ -104,6 +81,9 @@ class PythonFindings {
   }
 
   void check_arguments(const PythonBrackets& call) {
+    if (call.callee.empty()) {
+      return;
+    }
     const PythonName* const known = PythonNames::of_installation().find(reading_.python.full_name(call.callee));
     if (known == nullptr || !known->complete || known->arguments.empty()) {
       return;
@@ -133,23 +113,24 @@ class PythonFindings {
       return;
     }
     const std::string package = reading_.document.text().substr(span->begin, span->end - span->begin);
-    const std::vector<std::string> known = packages();
-    if (!package.empty() && std::find(known.begin(), known.end(), package) == known.end()) {
-      add(*span, Finding::kMissingPackage, fmt::format("package '{}' was not found", package), package, known);
+    if (!package.empty() && !is_package(package)) {
+      add(*span, Finding::kMissingPackage, fmt::format("package '{}' was not found", package), package,
+          workspace_.packages());
     }
   }
 
-  const std::vector<std::string>& packages() {
-    if (packages_.empty()) {
-      packages_ = workspace_.packages();
+  bool is_package(const std::string& name) {
+    const auto [known, is_new] = packages_.try_emplace(name, false);
+    if (is_new) {
+      known->second = !workspace_.share(name).empty();
     }
-    return packages_;
+    return known->second;
   }
 
   const Workspace& workspace_;
   const Reading& reading_;
   PythonFileText file_;
-  std::vector<std::string> packages_;
+  std::map<std::string, bool> packages_;  // whether there is one of this name
   Json found_ = Json::array();
 };
 
@@ -157,6 +138,15 @@ class PythonFindings {
 
 Json python_findings(const Workspace& workspace, const Reading& reading) {
   return PythonFindings(workspace, reading).find();
+}
+
+void prepare_python_findings() {
+  static const bool is_prepared = [] {
+    PythonNames::of_installation();
+    python_syntax_error("");
+    return true;
+  }();
+  static_cast<void>(is_prepared);
 }
 
 }  // namespace launch::lsp

@@ -61,22 +61,39 @@ bool names_package(const PythonFileText& file, const PythonBrackets& call, const
   return package != nullptr && package->whole.holds(token.span.begin);
 }
 
+// The place that an editor asks for. `token` is null where nothing stands.
+struct AskedPlace {
+  AskedPlace(const Workspace& workspace, const Reading& reading, const Json& position)
+      : offset(reading.document.offset(position)),
+        file(python_file(workspace, reading)),
+        token(reading.python.token_at(offset)) {}
+
+  std::size_t offset;
+  PythonFileText file;
+  const PythonToken* token;
+};
+
+// The text of a literal.
+std::string content(std::string_view text, const PythonToken& token) {
+  return std::string(text.substr(token.content.begin, token.content.end - token.content.begin));
+}
+
 }  // namespace
 
 Json describe_python(const Workspace& workspace, const Reading& reading, const Json& position) {
-  const std::size_t offset = reading.document.offset(position);
-  const std::string& text = reading.document.text();
-  const PythonSource& source = reading.python;
-  const PythonFileText file = python_file(workspace, reading);
-  const PythonToken* const token = source.token_at(offset);
+  const AskedPlace asked(workspace, reading, position);
+  const PythonFileText& file = asked.file;
+  const PythonToken* const token = asked.token;
   if (token == nullptr) {
     return {};
   }
+  const std::string& text = reading.document.text();
+  const PythonSource& source = reading.python;
   const auto answer = [&](const std::string& markdown) {
     return Json{{"contents", {{"kind", "markdown"}, {"value", markdown}}},
                 {"range", reading.document.range(token->span.begin, token->span.end)}};
   };
-  if (const auto argument = argument_at(reading, workspace, offset);
+  if (const auto argument = argument_at(reading, workspace, asked.offset);
       argument && argument->kind != ArgumentPlace::Kind::kGiven) {
     for (const DeclaredArgument& declared : python_arguments(file)) {
       if (declared.name == argument->name) {
@@ -107,7 +124,7 @@ Json describe_python(const Workspace& workspace, const Reading& reading, const J
   const int number = source.brackets_at(token->span.begin);
   if (token->kind == PythonToken::Kind::kString && number >= 0 &&
       names_package(file, source.brackets[static_cast<std::size_t>(number)], *token)) {
-    const std::string package(text.substr(token->content.begin, token->content.end - token->content.begin));
+    const std::string package = content(text, *token);
     const std::string share = workspace.share(package);
     return share.empty() ? Json() : answer(fmt::format("package **{}**: `{}`", package, share));
   }
@@ -115,14 +132,14 @@ Json describe_python(const Workspace& workspace, const Reading& reading, const J
 }
 
 Json definition_in_python(const Workspace& workspace, const Reading& reading, const Json& position) {
-  const std::size_t offset = reading.document.offset(position);
-  const std::string& text = reading.document.text();
-  const PythonSource& source = reading.python;
-  const PythonFileText file = python_file(workspace, reading);
-  const PythonToken* const token = source.token_at(offset);
+  const AskedPlace asked(workspace, reading, position);
+  const PythonFileText& file = asked.file;
+  const PythonToken* const token = asked.token;
   if (token == nullptr) {
     return {};
   }
+  const std::string& text = reading.document.text();
+  const PythonSource& source = reading.python;
   if (token->kind == PythonToken::Kind::kName) {
     const auto found = source.definitions.find(text.substr(token->span.begin, token->span.end - token->span.begin));
     return found == source.definitions.end()
@@ -133,13 +150,12 @@ Json definition_in_python(const Workspace& workspace, const Reading& reading, co
   for (int number = source.brackets_at(token->span.begin); number >= 0;) {
     const PythonBrackets& call = source.brackets[static_cast<std::size_t>(number)];
     if (token->kind == PythonToken::Kind::kString && names_package(file, call, *token)) {
-      const std::string share =
-          workspace.share(std::string(text.substr(token->content.begin, token->content.end - token->content.begin)));
+      const std::string share = workspace.share(content(text, *token));
       const std::string found = share.empty() ? "" : regular(fs::path(share) / "package.xml");
       return found.empty() ? Json() : beginning_of(found);
     }
     const PythonArgument* const executable = call.find("executable");
-    if (executable != nullptr && executable->whole.holds(offset)) {
+    if (executable != nullptr && executable->whole.holds(asked.offset)) {
       const std::string program = regular(
           workspace.executable(file.value(call.find("package")).value_or(""), file.value(executable).value_or("")));
       return program.empty() ? Json() : beginning_of(program);
@@ -155,7 +171,7 @@ Json definition_in_python(const Workspace& workspace, const Reading& reading, co
     if (call.parent < 0 || (call.callee.ends_with("join") && file.value(&call.arguments.front()))) {
       // A parameter file, or another one.
       for (const PythonArgument& argument : call.arguments) {
-        if (argument.whole.holds(offset)) {
+        if (argument.whole.holds(asked.offset)) {
           const std::string whole = file.value(&argument).value_or("");
           const std::string found = whole.empty() ? "" : regular(fs::path(reading.path).parent_path() / whole);
           if (!found.empty()) {
@@ -171,42 +187,59 @@ Json definition_in_python(const Workspace& workspace, const Reading& reading, co
 
 namespace {
 
-Json symbols_of_brackets(const Reading& reading, const PythonFileText& file, int parent) {
-  Json list = Json::array();
-  const PythonSource& source = reading.python;
-  for (std::size_t i = 0; i < source.brackets.size(); ++i) {
-    const PythonBrackets& call = source.brackets[i];
-    if (call.parent != parent) {
-      continue;
+class PythonOutline {
+ public:
+  PythonOutline(const Reading& reading, const PythonFileText& file)
+      : reading_(reading), file_(file), inner_(reading.python.brackets.size() + 1) {
+    for (std::size_t i = 0; i < reading.python.brackets.size(); ++i) {
+      inner_[static_cast<std::size_t>(reading.python.brackets[i].parent + 1)].push_back(i);
     }
-    Json inner = symbols_of_brackets(reading, file, static_cast<int>(i));
-    const PythonName* const known = PythonNames::of_installation().find(source.full_name(call.callee));
-    if (known == nullptr || known->kind != "class") {
-      list.insert(list.end(), inner.begin(), inner.end());
-      continue;
+  }
+
+  // The classes in these brackets; -1: of the file.
+  Json in(int parent) const {
+    Json list = Json::array();
+    for (const std::size_t number : inner_[static_cast<std::size_t>(parent + 1)]) {
+      Json inner = in(static_cast<int>(number));
+      const PythonBrackets& call = reading_.python.brackets[number];
+      const PythonName* const known = PythonNames::of_installation().find(reading_.python.full_name(call.callee));
+      if (known != nullptr && known->kind == "class") {
+        list.push_back(symbol(call, std::move(inner)));
+      } else {
+        list.insert(list.end(), inner.begin(), inner.end());
+      }
     }
+    return list;
+  }
+
+ private:
+  Json symbol(const PythonBrackets& call, Json inner) const {
     std::string detail;
     for (const char* const keyword : {"name", "executable", "plugin", "package"}) {
-      detail = detail.empty() ? file.value(call.find(keyword)).value_or("") : detail;
+      detail = detail.empty() ? file_.value(call.find(keyword)).value_or("") : detail;
     }
-    detail = detail.empty() && !call.arguments.empty() && file.literal(&call.arguments.front())
-                 ? file.value(&call.arguments.front()).value_or("")
+    detail = detail.empty() && !call.arguments.empty() && file_.literal(&call.arguments.front())
+                 ? file_.value(&call.arguments.front()).value_or("")
                  : detail;
     const std::string name = call.callee.substr(call.callee.rfind('.') + 1);
-    list.push_back({{"name", detail.empty() ? name : name + " " + detail},
-                    {"kind", name == "DeclareLaunchArgument" ? kVariableSymbolOfPython : kClassSymbolOfPython},
-                    {"range", reading.document.range(call.callee_span.begin, call.inside.end + (call.closed ? 1 : 0))},
-                    {"selectionRange", reading.document.range(call.callee_span.begin, call.callee_span.end)},
-                    {"children", std::move(inner)}});
+    const Document& document = reading_.document;
+    return {{"name", detail.empty() ? name : name + " " + detail},
+            {"kind", name == "DeclareLaunchArgument" ? kVariableSymbolOfPython : kClassSymbolOfPython},
+            {"range", document.range(call.callee_span.begin, call.inside.end + (call.closed ? 1 : 0))},
+            {"selectionRange", document.range(call.callee_span.begin, call.callee_span.end)},
+            {"children", std::move(inner)}};
   }
-  return list;
-}
+
+  const Reading& reading_;
+  const PythonFileText& file_;
+  std::vector<std::vector<std::size_t>> inner_;  // brackets in brackets; the first ones are those of the file
+};
 
 }  // namespace
 
 Json python_symbols(const Workspace& workspace, const Reading& reading) {
   const PythonFileText file = python_file(workspace, reading);
-  return symbols_of_brackets(reading, file, -1);
+  return PythonOutline(reading, file).in(-1);
 }
 
 Json python_folds(const Reading& reading) {

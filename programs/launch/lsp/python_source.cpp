@@ -6,6 +6,8 @@
 #include <cctype>
 #include <utility>
 
+#include "programs/launch/lsp/python_names.hpp"
+
 namespace launch::lsp {
 
 namespace {
@@ -91,7 +93,10 @@ class PythonScanner {
 
 class PythonReader {
  public:
-  explicit PythonReader(std::string_view text) : text_(text) { source_.tokens = PythonScanner(text).tokens(); }
+  explicit PythonReader(std::string_view text) : text_(text) {
+    source_.tokens = PythonScanner(text).tokens();
+    source_.opened.assign(source_.tokens.size(), -1);
+  }
 
   PythonSource read() {
     for (std::size_t i = 0; i < tokens().size(); ++i) {
@@ -170,6 +175,7 @@ class PythonReader {
         }
       }
     }
+    source_.opened[token] = static_cast<int>(source_.brackets.size());
     open_.push_back(source_.brackets.size());
     source_.brackets.push_back(std::move(brackets));
     begin_argument(token + 1);
@@ -265,6 +271,10 @@ class PythonReader {
       return;
     }
     const std::size_t start = source_.imports.size();
+    if (is(token + 1, "*")) {
+      source_.imports.push_back({module, span, "*", tokens()[token + 1].span, "*"});
+      return;
+    }
     for (++token; token < tokens().size(); ++token) {
       const bool in_brackets = is(token, "(") || is(token, ")") || is(token, ",");
       if (is_name(token)) {
@@ -339,9 +349,7 @@ int PythonSource::brackets_at(std::size_t offset) const {
 }
 
 int PythonSource::brackets_from(std::size_t token) const {
-  const auto found =
-      std::find_if(brackets.begin(), brackets.end(), [&](const PythonBrackets& one) { return one.first == token + 1; });
-  return found == brackets.end() ? -1 : static_cast<int>(found - brackets.begin());
+  return token < opened.size() ? opened[token] : -1;
 }
 
 const PythonToken* PythonSource::token_at(std::size_t offset) const {
@@ -365,6 +373,12 @@ std::string PythonSource::full_name(std::string_view written) const {
                            (written.size() == import.as.size() || written[import.as.size()] == '.');
     if (is_module) {
       return import.module + std::string(written.substr(import.as.size()));
+    }
+  }
+  for (const PythonImport& import : imports) {
+    std::string full = import.module + "." + std::string(written);
+    if (import.name == "*" && PythonNames::of_installation().find(full) != nullptr) {
+      return full;
     }
   }
   return {};

@@ -53,7 +53,7 @@ struct PythonBrackets {
 struct PythonImport {
   std::string module;  // as in `from MODULE import`, or `import MODULE`
   Span module_span;
-  std::string name;  // "" for `import MODULE`
+  std::string name;  // "" for `import MODULE`, "*" for all
   Span name_span;
   std::string as;  // by which the file calls it
 };
@@ -61,6 +61,7 @@ struct PythonImport {
 struct PythonSource {
   std::vector<PythonToken> tokens;
   std::vector<PythonBrackets> brackets;  // in the order in which they open
+  std::vector<int> opened;               // for each token the number of the brackets that it opens; -1 for none
   std::vector<PythonImport> imports;
   std::map<std::string, std::pair<std::size_t, std::size_t>> values;  // NAME = …: its tokens, of the last assignment
   std::map<std::string, Span> definitions;                            // names that are assigned, or of functions

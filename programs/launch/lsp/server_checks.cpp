@@ -83,6 +83,9 @@ void Server::begin_check() {
   if (paths.empty() || ::pipe2(ends.data(), O_CLOEXEC) != 0) {
     return;
   }
+  if (std::any_of(paths.begin(), paths.end(), is_python)) {
+    prepare_python_findings();
+  }
   UniqueFd result(ends[0]);
   const UniqueFd write_end(ends[1]);
   const pid_t server = ::getpid();
@@ -105,11 +108,13 @@ void Server::run_check(const std::deque<std::string>& paths, int result) {
   const UniqueFd nowhere(::open("/dev/null", O_RDWR | O_CLOEXEC));
   ::dup2(nowhere.get(), STDIN_FILENO);
   ::dup2(nowhere.get(), STDOUT_FILENO);
-  run_python_in_a_guest({std::chrono::seconds(20)});
   bool written = true;
   for (const std::string& path : paths) {
     const Document document = workspace_->document(path).value_or(Document(""));
     const bool only_reads = is_python(path) && !(options_.runs_python && run_next_.contains(path));
+    if (!only_reads) {
+      run_python_in_a_guest({std::chrono::seconds(20)});
+    }
     const Json found = only_reads ? Json{{"diagnostics", python_findings(*workspace_, reading_of(path, document))}}
                                   : check_document(*workspace_, {path, document, {}});
     written = written && write_all(result, found.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");

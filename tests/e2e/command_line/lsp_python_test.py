@@ -99,6 +99,16 @@ class PythonInTheServer(InADirectory):
         self.assertEqual(item['additionalTextEdits'][0]['newText'], 'from launch.actions import TimerAction\n')
         self.assertEqual(item['additionalTextEdits'][0]['range']['start'], {'line': 7, 'character': 0})
 
+    def test_a_star_imports_all_names_of_a_module(self):
+        editor = self.editor()
+        text = 'from launch.actions import *\nx = Timer|\n'
+        [item] = [item for item in self.at_mark(editor, text, 'completion')['items'] if item['label'] == 'TimerAction']
+        self.assertNotIn('additionalTextEdits', item)
+        self.assertNotIn('*', self.at_mark(editor, text))
+        editor.diagnostics('a.launch.py')
+        editor.open('b.launch.py', 'from launch.actions import *\nx = TimerAction(perod=1.0)\n')
+        self.assertEqual([one['message'] for one in editor.diagnostics('b.launch.py')], ["TimerAction has no argument 'perod'\ndid you mean 'period'?"])
+
     def test_values_in_quotes(self):
         editor = self.editor()
         self.assertIn('demo', self.at_mark(editor, PYTHON.replace("package='demo'", "package='|'")))
@@ -183,6 +193,47 @@ class PythonInTheServer(InADirectory):
         editor.change('top.launch.py', {'text': PYTHON + 'def broken(:\n    pass\n'})
         [found] = editor.diagnostics('top.launch.py')
         self.assertEqual((found['message'], found['range']['start']['line']), ('SyntaxError: invalid syntax', PYTHON.count('\n')))
+
+    def test_errors_of_the_syntax(self):
+        editor = self.editor()
+        for text, message, begin, end in (
+                ('x = 1\nreturn x\n', "SyntaxError: 'return' outside function", (1, 0), (1, 8)),
+                ("x = '😀' y z\n", 'SyntaxError: invalid syntax', (0, 9), (0, 10)),
+                ('\ufeffx = 1\ny = = 2\n', 'SyntaxError: invalid syntax', (1, 4), (1, 5)),
+                ('\ufeffx = = 1\n', 'SyntaxError: invalid syntax', (0, 5), (0, 6)),
+                ('x = 1\ry = = 2\r', 'SyntaxError: invalid syntax', (1, 4), (1, 5)),
+                ("x = 1\nif x:\n    y = 'é\n", 'SyntaxError: unterminated string literal (detected at line 3)', (2, 8), (2, 9))):
+            with self.subTest(text=text):
+                editor.open('a.launch.py', text)
+                [found] = editor.diagnostics('a.launch.py')
+                self.assertEqual((found['message'], tuple(found['range']['start'].values()), tuple(found['range']['end'].values())),
+                                 (message, begin[::-1], end[::-1]))
+        for text in ('x = 1 is 1\n', '\ufeffx = 1\n', "x = '\\d'\n"):  # warnings are no errors
+            with self.subTest(text=text):
+                editor.open('a.launch.py', text)
+                self.assertEqual(editor.diagnostics('a.launch.py'), [])
+        editor.open('a.launch.py', f'x = {"(" * 5000}\n')
+        self.assertEqual(editor.diagnostics('a.launch.py')[0]['message'], 'SyntaxError: too many nested parentheses')
+        editor.open('a.launch.py', f'x = {"-" * 100000}1\n')
+        self.assertIn('Error', editor.diagnostics('a.launch.py')[0]['message'])
+
+    def test_nothing_of_an_installation_of_python_runs_before_a_file_does(self):
+        (self.directory / 'sitecustomize.py').write_text(f"print('Hello')\nopen('{self.directory}/ran', 'w').close()\n")
+        before = os.environ.get('PYTHONPATH')
+        os.environ['PYTHONPATH'] = str(self.directory)
+        self.addCleanup(lambda: os.environ.pop('PYTHONPATH') if before is None else os.environ.update(PYTHONPATH=before))
+        editor = self.editor(options={'runPython': True})
+        editor.open('a.launch.py', 'x = = 1\n')
+        self.assertEqual([one['message'] for one in editor.diagnostics('a.launch.py')], ['SyntaxError: invalid syntax'])
+        (self.directory / 'ran').unlink(missing_ok=True)
+        editor.change('a.launch.py', {'text': 'y = = 1\n'})
+        self.assertEqual([one['message'] for one in editor.diagnostics('a.launch.py')], ['SyntaxError: invalid syntax'])
+        self.assertFalse((self.directory / 'ran').exists())
+        # A file that runs has all of Python: `exit` comes from the module `site`.
+        editor.open('b.launch.py', PYTHON.replace('HERE = ', 'assert exit\nHERE = '))
+        self.assertEqual(editor.diagnostics('b.launch.py'), [])
+        self.assertTrue((self.directory / 'ran').exists())
+        self.assertEqual(editor.end(), 0)
 
     def test_nothing_of_the_file_runs(self):
         editor = self.editor()

@@ -26,6 +26,22 @@ TEST(LspDocument, MovesPlacesInside) {
   EXPECT_EQ(document.position(99), place(1, 2));
 }
 
+TEST(LspDocument, EndsLinesWithEachKindOfEnd) {
+  const Document document("a\rb\r\nc\nd");
+  EXPECT_EQ(document.position(2), place(1, 0));
+  EXPECT_EQ(document.position(5), place(2, 0));
+  EXPECT_EQ(document.position(7), place(3, 0));
+  EXPECT_EQ(document.offset(place(0, 9)), 1U);
+  EXPECT_EQ(document.offset(place(1, 9)), 3U);
+}
+
+TEST(LspDocument, KnowsColumnsInCharacters) {
+  const Document document("a\n\xF0\x9F\x98\x80x\r\n");
+  EXPECT_EQ(document.offset_of_character(1, 1), 6U);
+  EXPECT_EQ(document.offset_of_character(1, 9), 7U);
+  EXPECT_EQ(document.offset_of_character(9, 0), 9U);
+}
+
 TEST(LspDocument, TakesChangesOfRangesAndOfAll) {
   Document document("<launch>\n</launch>\n");
   document.change({{"range", {{"start", place(0, 8)}, {"end", place(1, 0)}}}, {"text", "\n <a/>\n"}});
