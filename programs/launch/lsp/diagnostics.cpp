@@ -38,8 +38,12 @@ Json check_document(const Workspace& workspace, const Reading& reading) {
   CheckOptions options;
   options.recorded_nodes = workspace.recorded();
   options.planned = [&](std::size_t processes) { answer["processes"] = processes; };
+  workspace.forget_unknown_settings();
   std::vector<Diagnostic> found =
       check_launch_file(reading.path, workspace.registry(), workspace.environment(), options);
+  if (workspace.has_unknown_settings()) {
+    std::erase_if(found, [](const Diagnostic& diagnostic) { return diagnostic.finding == Finding::kUndefined; });
+  }
   Json list = Json::array();
   Ranges ranges;
   for (const Diagnostic& diagnostic : found) {

@@ -17,6 +17,7 @@
 #include "launcher/process/output/output_router.hpp"
 #include "launcher/substitution/package_index.hpp"
 #include "launcher/substitution/template_parser.hpp"
+#include "programs/launch/lsp/python_stand_in.hpp"
 #include "programs/launch/lsp/python_values.hpp"
 
 namespace launch::lsp {
@@ -48,12 +49,20 @@ Workspace::Workspace(bool runs_python)
       registry_(builtin_actions()),
       packages_(std::make_shared<PackageIndex>(own_prefix())) {
   if (!runs_python_) {
-    // Python launch files count as empty: only running them would tell what they do.
-    registry_.add_loader(".py", [](std::shared_ptr<const SourceFile> file, const Registry&, const Scope&) {
-      auto description = std::make_shared<LaunchDescription>();
-      description->file = std::move(file);
-      return std::shared_ptr<const LaunchDescription>(std::move(description));
-    });
+    // Of Python launch files only what their text tells is known.
+    registry_.add_loader(".py",
+                         [packages = packages_, environment = environment_, unknown = unknown_settings_](
+                             const std::shared_ptr<const SourceFile>& file, const Registry& registry, const Scope&) {
+                           PythonStandIn made = python_stand_in(file, registry, [&](const std::string& package) {
+                             try {
+                               return packages->share(package, environment);
+                             } catch (const std::runtime_error&) {
+                               return std::string();
+                             }
+                           });
+                           *unknown = *unknown || made.may_set_more;
+                           return std::move(made.description);
+                         });
   }
 }
 

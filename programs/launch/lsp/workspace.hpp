@@ -38,6 +38,10 @@ class Workspace {
   const Registry& registry() const { return registry_; }
   const Environment& environment() const { return environment_; }
   bool runs_python() const { return runs_python_; }
+  // Whether a Python file that was loaded and did not run may have set configurations, or variables of the environment,
+  // that nobody knows of.
+  bool has_unknown_settings() const { return *unknown_settings_; }
+  void forget_unknown_settings() const { *unknown_settings_ = false; }
 
   // The nodes of a recorded run, whose names are completed and checked.
   void use_recorded(std::vector<RecordedNode> nodes) { recorded_ = std::move(nodes); }
@@ -64,6 +68,7 @@ class Workspace {
   Scope scope_in(const std::string& path, const Outline& outline) const;
 
   bool runs_python_;
+  std::shared_ptr<bool> unknown_settings_ = std::make_shared<bool>(false);  // the loader of the registry tells it
   Environment environment_;
   Registry registry_;
   std::shared_ptr<PackageIndex> packages_;

@@ -166,6 +166,25 @@ class PythonInTheServer(InADirectory):
         items = editor.at('completion', 'b.launch.xml', 0, column(text, 0, '""', 1))['items']
         self.assertEqual([(item['label'], item['detail']) for item in items], [('speed', 'default: 7')])
 
+    def test_what_an_included_python_file_sets_is_there(self):
+        include = '<launch>\n<arg name="top" default="1"/>\n<include file="$(dirname)/c.launch.py"/>\n<log level="info" message="{}"/>\n</launch>\n'
+        python = ('from launch import LaunchDescription\nfrom launch.actions import *\nfrom launch.substitutions import LaunchConfiguration\n\n\n'
+                  'def generate_launch_description():\n    return LaunchDescription([\n        LogInfo(msg=LaunchConfiguration("top")),\n        {}])\n')
+        for action, read, missing in (
+                ("DeclareLaunchArgument('speed', default_value='7')", '$(var speed)', []),
+                ("DeclareLaunchArgument('speed', default_value='7')", '$(var sped)', ["launch configuration 'sped' does not exist"]),
+                ("DeclareLaunchArgument('speed', default_value=str(7)), SetLaunchConfiguration('made', ['a'])", '$(var speed) $(var made)', []),
+                ("OpaqueFunction(function=set_speed)", '$(var speed)', []),
+                ("SetEnvironmentVariable('SPEED', '1')", '$(env SPEED)', []),
+                ("SetLaunchConfiguration('a' + 'b', '1')", '$(var ab)', []),
+                ("LogInfo(msg='')", '$(var speed)', ["launch configuration 'speed' does not exist"])):
+            with self.subTest(action=action, read=read):
+                (self.directory / 'c.launch.py').write_text(python.replace('{}', action))
+                editor = self.editor()
+                editor.open('d.launch.xml', include.replace('{}', read))
+                self.assertEqual([one['message'].split('\n')[0] for one in editor.diagnostics('d.launch.xml')], missing)
+                self.assertEqual(editor.end(), 0)
+
     def test_outline(self):
         editor = self.editor()
         editor.open('top.launch.py', PYTHON)
