@@ -243,7 +243,8 @@ std::optional<std::chrono::seconds> command_limit() {
 
 GuestCall::GuestCall(const std::string& name) : GuestCall(name, {.file = name}) {}
 
-GuestCall::GuestCall(const std::string& name, PythonPlace place) : outer_(host().name), watched_(std::move(place)) {
+GuestCall::GuestCall(const std::string& name, PythonPlace place)
+    : outer_(host().name), process_(::getpid()), watched_(std::move(place)) {
   Host& self = host();
   self.name = name;
   if (self.shared != nullptr) {
@@ -253,6 +254,9 @@ GuestCall::GuestCall(const std::string& name, PythonPlace place) : outer_(host()
 }
 
 GuestCall::~GuestCall() {
+  if (::getpid() != process_) {
+    ::_exit(EXIT_SUCCESS);  // of os.fork(): what the command or the launch goes on with is not for this process
+  }
   Host& self = host();
   self.name = outer_;
   if (self.shared == nullptr) {

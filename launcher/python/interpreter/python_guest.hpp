@@ -8,6 +8,8 @@
 // (python_watch.hpp).
 #pragma once
 
+#include <sys/types.h>
+
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -50,7 +52,7 @@ std::optional<GuestRefusal> guest_refusal(const std::string& name);
 std::optional<std::chrono::seconds> command_limit();
 
 // For the time of its life Python runs for `name`, in a guest or in a run. Calls nest. `place` is that of an
-// expression.
+// expression. A process that Python has forked ends here if it gets so far.
 class GuestCall {
  public:
   explicit GuestCall(const std::string& name);
@@ -61,6 +63,7 @@ class GuestCall {
 
  private:
   std::string outer_;
+  pid_t process_;
   WatchedCall watched_;
 };
 

@@ -62,6 +62,12 @@ class PythonEndsLaunch(unittest.TestCase):
         self.assertEqual(result.stderr, error('a.launch.py:2:1', 'os._exit(7)', 'Python ends the launch here, with exit code 7'))
         self.assertEqual(result.returncode, 7)
 
+    def test_a_child_that_goes_on_with_the_file_is_no_second_launch(self):
+        text = ('import os\nfrom launch import LaunchDescription\nfrom launch.actions import ExecuteProcess\nos.fork()\n'
+                "def generate_launch_description():\n    return LaunchDescription([ExecuteProcess(cmd=['sh', '-c', 'echo begun >> begun'])])\n")
+        self.assertEqual(self.launch(text).returncode, 0)
+        self.assertEqual((self.directory / 'begun').read_text(encoding='utf-8'), 'begun\n')
+
     def check_at_start(self, code, what, returncode):
         """What has started is ended; the error is in the log, too."""
         result = self.launch(AT_START.format(code))

@@ -66,6 +66,11 @@ class PythonGuest(unittest.TestCase):
         result = self.launch('check', 'a.launch.py')
         self.assertEqual((result.stdout, result.returncode), ('1 file: 0 errors, 0 warnings\n', 0))
 
+    def test_a_child_that_goes_on_with_the_file_ends_with_it(self):
+        self.write('import os\nchild = os.fork()\nif child:\n    print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))\n' + GOOD)
+        result = self.launch('check', 'a.launch.py')
+        self.assertEqual((result.stdout, result.stderr, result.returncode), ('1 file: 0 errors, 0 warnings\n', '0\n', 0))
+
     def test_an_endless_loop_ends_at_the_limit(self):
         self.write('while True: pass\n')
         self.check_is('a.launch.py:1:1: error: Python runs here for more than 1 s, and was ended [LF0005]\n'
