@@ -17,6 +17,7 @@ import json
 import os
 import pathlib
 import random
+import re
 import shutil
 import subprocess
 import sys
@@ -126,12 +127,17 @@ def edits_of(draw, text, count, pieces):
         text = text[:begin] + piece + text[end:]
 
 
+def first_line(message):
+    """Without what each process makes anew: the names of $(anon …)."""
+    return re.sub(r'_\w+_\d+_\d+', '_ANONYMOUS', message.split('\n')[0])
+
+
 def own_findings(found, server):
     """(id, line, severity, first line of the message) of each finding that stands in the file itself."""
     if server:
         return sorted((one['code'], one['range']['start']['line'] + 1, {1: 'error', 2: 'warning'}[one['severity']],
-                       one['message'].split('\n')[0]) for one in found if not one.get('relatedInformation'))
-    return sorted((one['id'], one['line'] or 1, one['severity'], one['message'].split('\n')[0]) for one in found)
+                       first_line(one['message'])) for one in found if not one.get('relatedInformation'))
+    return sorted((one['id'], one['line'] or 1, one['severity'], first_line(one['message'])) for one in found)
 
 
 def check(launch, environment, paths):
