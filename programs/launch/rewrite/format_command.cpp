@@ -36,6 +36,9 @@ int format_command(const Words& words) {
   bool is_right = true;
   for (const std::string& path : launch_files_in(given)) {
     try {
+      if (path.ends_with(".py")) {
+        throw LaunchError(fmt::format("'{}' is a program: launch format writes XML and YAML", path), {});
+      }
       const auto file = read_source_file(path);
       const std::string text = formatted(file, registry);
       if (print) {

@@ -56,6 +56,9 @@ class Rewrite(unittest.TestCase):
         done = self.launch('format', '--check', '.')
         self.assertEqual(done.returncode, 1)
         self.assertIn("a.launch.xml:1:1: error: <launch> is never closed", done.stderr)
+        (self.directory / 'c.launch.py').write_text('x = 1\n')
+        done = self.launch('format', 'c.launch.py', 'b.launch.xml')
+        self.assertEqual((done.returncode, done.stderr), (1, "launch format: error: 'c.launch.py' is a program: launch format writes XML and YAML\n"))
 
     def plan(self, path):
         """What the file would do, without places; None if it can't be planned."""
