@@ -40,13 +40,16 @@ void read_document(const Document& document) {
   require(semantic_tokens(reading).at("data").size() % 5 == 0);
   for (std::size_t at = 0; at <= text.size(); at += 7) {
     require(document.offset(document.position(at)) <= text.size());
+    require(document.offset_of_character(at, at) <= text.size());
   }
 }
 
 // A Python launch file, whose calls and values are read as far as they are written.
 void read_python(const std::string& text) {
   const launch::lsp::PythonSource source = launch::lsp::python_source_of(text);
-  for (const launch::lsp::PythonBrackets& brackets : source.brackets) {
+  for (std::size_t number = 0; number < source.brackets.size(); ++number) {
+    const launch::lsp::PythonBrackets& brackets = source.brackets[number];
+    require(source.brackets_from(brackets.first - 1) == static_cast<int>(number));
     require(brackets.inside.begin <= brackets.inside.end && brackets.inside.end <= text.size());
     require(brackets.first <= brackets.last && brackets.last <= source.tokens.size());
     for (const launch::lsp::PythonArgument& argument : brackets.arguments) {
