@@ -63,9 +63,9 @@ Json check_document(const Workspace& workspace, const Reading& reading) {
     if (!related.empty()) {
       item["relatedInformation"] = std::move(related);
     } else if (here) {
-      const std::string written = here.file->text().substr(here.begin, here.end - here.begin);
+      // The name that a section of a parameter file should have is no name of this file.
       const std::vector<std::string> names = suggested_names(diagnostic.help);
-      if (!written.empty() && !names.empty() && diagnostic.message.find("'" + written + "'") != std::string::npos) {
+      if (!names.empty() && diagnostic.finding != Finding::kUnmatchedParameterFile) {
         item["data"] = names;
       }
     }

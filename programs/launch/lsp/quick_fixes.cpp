@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <cctype>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "programs/launch/lsp/features.hpp"
 
@@ -15,11 +17,47 @@ namespace {
 
 constexpr int kWarningOfProtocol = 2;
 
-// The text in the first quotes of a message: "attribute 'exec' not found …".
+// The texts in the quotes of a message: "attribute 'exec' not found …".
+std::vector<std::string> all_quoted(const std::string& message) {
+  std::vector<std::string> found;
+  for (std::size_t begin = message.find('\''); begin != std::string::npos;) {
+    if (begin > 0 && std::isalpha(static_cast<unsigned char>(message[begin - 1])) != 0) {  // "can't"
+      begin = message.find('\'', begin + 1);
+      continue;
+    }
+    const std::size_t end = message.find('\'', begin + 1);
+    if (end == std::string::npos) {
+      break;
+    }
+    found.push_back(message.substr(begin + 1, end - begin - 1));
+    begin = message.find('\'', end + 1);
+  }
+  return found;
+}
+
 std::string quoted(const std::string& message) {
-  const std::size_t begin = message.find('\'');
-  const std::size_t end = begin == std::string::npos ? begin : message.find('\'', begin + 1);
-  return end == std::string::npos ? std::string() : message.substr(begin + 1, end - begin - 1);
+  const std::vector<std::string> all = all_quoted(message);
+  return all.empty() ? std::string() : all.front();
+}
+
+// Where the word stands in the text: as a whole word, not as the name of a substitution, and once. npos otherwise.
+std::size_t only_place(const std::string& text, const std::string& word) {
+  const auto is_of_word = [](char byte) {
+    return std::isalnum(static_cast<unsigned char>(byte)) != 0 || byte == '_' || byte == '-' || byte == ':';
+  };
+  std::size_t place = std::string::npos;
+  for (std::size_t at = text.find(word); at != std::string::npos && !word.empty(); at = text.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    const bool is_whole = (at == 0 || !is_of_word(text[at - 1])) && (end == text.size() || !is_of_word(text[end]));
+    if (!is_whole || (at >= 2 && text.compare(at - 2, 2, "$(") == 0)) {
+      continue;
+    }
+    if (place != std::string::npos) {
+      return std::string::npos;
+    }
+    place = at;
+  }
+  return place;
 }
 
 class QuickFixes {
@@ -35,7 +73,7 @@ class QuickFixes {
     const Json code = diagnostic_.value("code", Json());
     const std::string id = code.is_string() ? code.get<std::string>() : std::string();
     const std::string message = diagnostic_.value("message", "");
-    changes();
+    changes(message.substr(0, message.find('\n')));  // without the help, which has the right names
     if (is_xml()) {
       if (id == "LF0103" && message.find("' not found in entity '") != std::string::npos) {
         add_attribute(quoted(message));
@@ -71,11 +109,29 @@ class QuickFixes {
                              Json::array({{{"range", reading_.document.range(begin, end)}, {"newText", text}}})}}}}}});
   }
 
-  void changes() {
+  // What was meant, for the word that the message calls wrong. A path of the message may be a file name in the text.
+  void changes(const std::string& message) {
     const Json names = diagnostic_.value("data", Json::array());
+    const std::string written = text_.substr(place_, end_ - place_);
     for (const Json& name : names.is_array() ? names : Json::array()) {
-      const auto& text = name.get_ref<const std::string&>();
-      add(fmt::format("Change to '{}'", text), place_, end_, text, names.size() == 1);
+      const auto& right = name.get_ref<const std::string&>();
+      std::string wrong;
+      std::string text;
+      for (const std::string& one : all_quoted(message)) {
+        const std::size_t path = one.rfind('/') + 1;
+        const std::size_t right_path = right.rfind('/') + 1;
+        const bool is_path = path > 0 && (right_path == 0 || right.substr(0, right_path) == one.substr(0, path));
+        if (one.size() > wrong.size() && only_place(written, one) != std::string::npos) {
+          wrong = one;
+          text = right;
+        } else if (wrong.empty() && is_path && written.ends_with(one.substr(path))) {
+          wrong = one.substr(path);
+          text = right.substr(right_path);
+        }
+      }
+      if (const std::size_t at = only_place(written, wrong); at != std::string::npos) {
+        add(fmt::format("Change to '{}'", text), place_ + at, place_ + at + wrong.size(), text, names.size() == 1);
+      }
     }
   }
 

@@ -153,6 +153,9 @@ Json rename(const Workspace& workspace, const Reading& reading, const Json& posi
   if (!argument) {
     return {};
   }
+  if (name != argument->name && !places_of(workspace, {argument->file, name}, folder).empty()) {
+    throw std::invalid_argument("'" + name + "' is the name of another argument or configuration already");
+  }
   Json changes = Json::object();
   for (const Place& place : places_of(workspace, *argument, folder)) {
     changes[uri_of(place.file)].push_back({{"range", place.range}, {"newText", name}});

@@ -306,6 +306,24 @@ class QuickFixes(InADirectory):
         fixes = self.fixes('<launch>\n  <log message="a" level="info" colour="red"/>\n</launch>\n', 'LF0101')
         self.assertEqual(fixes['Remove colour'], '<launch>\n  <log message="a" level="info"/>\n</launch>\n')
 
+    def test_what_was_meant_inside_of_a_value(self):
+        (self.directory / 'base.launch.xml').write_text(BASE)
+        for line, code, title, fixed in (
+                ('<log message="a $(var sped) b" level="info"/>', 'LF0201', "Change to 'speed'", '$(var speed)'),
+                ('<let name="vra" value=""/><log message="$(var var)" level="info"/>', 'LF0201', "Change to 'vra'", '$(var vra)'),
+                ('<log message="$(find-pkg-share dmeo)/x" level="info"/>', 'LF0301', "Change to 'demo'", '$(find-pkg-share demo)/x'),
+                ('<node pkg="demo" exec="talkr"/>', 'LF0302', "Change to 'talker'", 'exec="talker"'),
+                ('<include file="$(dirname)/bsae.launch.xml"/>', 'LF0001', "Change to 'base.launch.xml'", 'file="$(dirname)/base.launch.xml"')):
+            with self.subTest(line=line):
+                fixes = self.fixes(f'<launch>\n  <let name="speed" value="1"/>\n  {line}\n</launch>\n', code)
+                self.assertIn(title, fixes)
+                self.assertIn(fixed, fixes[title])
+
+    def test_a_section_of_a_parameter_file_is_no_name_of_the_launch_file(self):
+        (self.directory / 'p.yaml').write_text('ctrl:\n  ros__parameters:\n    a: 1\n')
+        fixes = self.fixes('<launch>\n  <node pkg="demo" exec="talker" name="ctrl" namespace="robot1"><param from="$(dirname)/p.yaml"/></node>\n</launch>\n', 'LF0309')
+        self.assertEqual(list(fixes), ['Ignore LF0309 here'])
+
     def test_an_argument_that_nobody_reads(self):
         text = '<launch>\n  <arg name="site" default="hall"/>\n  <log message="a" level="info"/>\n</launch>\n'
         fixes = self.fixes(text, 'LF0501')

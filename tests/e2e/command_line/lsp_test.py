@@ -215,6 +215,14 @@ class LanguageServer(unittest.TestCase):
                                                       'position': {'line': 1, 'character': 14}, 'newName': 'a b'})
         self.assertEqual(wrong['error'], {'code': -32602, 'message': "'a b' can't be the name of an argument"})
 
+    def test_an_argument_does_not_get_the_name_of_another_one(self):
+        editor = self.editor()
+        editor.open('base.launch.xml', BASE)
+        document = {'textDocument': {'uri': editor.uri('base.launch.xml')}, 'position': {'line': 1, 'character': 14}}
+        self.assertEqual(editor.answer('textDocument/rename', {**document, 'newName': 'mode'})['error']['message'],
+                         "'mode' is the name of another argument or configuration already")
+        self.assertIn('changes', editor.ask('textDocument/rename', {**document, 'newName': 'speed'}))
+
     def test_symbols_are_the_tree(self):
         editor = self.editor()
         editor.open('top.launch.xml', TOP)
