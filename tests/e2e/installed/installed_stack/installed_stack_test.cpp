@@ -18,7 +18,7 @@ using test_support::run_command;
 using test_support::RunningCommand;
 using testing::HasSubstr;
 
-constexpr std::chrono::seconds kBuildTimeout{300};
+constexpr std::chrono::seconds kBuildTimeout{900};
 
 CommandResult run(std::vector<std::string> argv) {
   const CommandResult result = run_command(Command{std::move(argv)}, kBuildTimeout);
