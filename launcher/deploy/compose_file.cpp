@@ -5,12 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
+#include <variant>
 
 #include "launcher/deploy/container_leave_outs.hpp"
 #include "launcher/deploy/deployment.hpp"
-#include "launcher/deploy/systemd_text.hpp"
 #include "launcher/deploy/yaml_text.hpp"
 
 namespace launch {
@@ -32,7 +30,7 @@ std::string compose_text(const std::string& text) {
 
 // "7.5s"
 std::string duration_text(Duration time) {
-  return fmt::format("{}s", std::chrono::duration<double>(time).count());
+  return seconds_text(time) + "s";
 }
 
 Json compose_limits(const ProcessSpec& spec) {
@@ -73,17 +71,20 @@ Json compose_limits(const ProcessSpec& spec) {
   return limits;
 }
 
+// Of one machine.
 class ComposeWriter {
  public:
-  ComposeWriter(const LaunchPlan& plan, const DeploymentOptions& options)
-      : options_(options), plan_(deployment_of(plan)) {
-    result_.left_out = plan_.left_out;
+  ComposeWriter(const std::vector<Service>& services, const DeploymentOptions& options)
+      : options_(options), services_(services) {
+    for (const Service& service : services) {
+      health_checks_.push_back(health_check_of(service));
+    }
   }
 
   Deployment write() {
     Json services = Json::object();
-    for (const Service& service : plan_.services) {
-      services[name_of(service)] = service_of(service);
+    for (std::size_t i = 0; i < services_.size(); ++i) {
+      services[services_[i].word] = service_of(i);
     }
     const Json root = {{"services", services}};
     result_.files.insert(result_.files.begin(),
@@ -92,29 +93,41 @@ class ComposeWriter {
   }
 
  private:
-  // Compose has letters, digits, ".", "_" and "-" in names, and each name once.
-  std::string name_of(const Service& service) {
-    const auto [found, is_new] = names_.try_emplace(&service);
-    if (is_new) {
-      const std::string name = unit_name(service.name);
-      found->second = name;
-      std::replace(found->second.begin(), found->second.end(), ':', '-');
-      for (int number = 2; !taken_.insert(found->second).second; ++number) {
-        found->second = fmt::format("{}-{}", name, number);
+  // A command that tells whether the process is healthy; null: there is none.
+  Json health_check_of(const Service& service) {
+    Json check;
+    for (const HealthWatch& watch : service.spec->watches) {
+      const auto* const command = std::get_if<CommandSucceeds>(&watch.subject);
+      const SourceRange& where = watch.where ? watch.where : service.spec->origin;
+      if (command == nullptr || !check.is_null()) {
+        result_.left_out.push_back({fmt::format("'{}' is healthy while {}", service.name, describe(watch)), where});
+        continue;
+      }
+      check["test"].push_back("CMD");
+      for (const std::string& word : command->argv) {
+        check["test"].push_back(compose_text(word));
+      }
+      check["interval"] = duration_text(watch.interval);
+      check["timeout"] = duration_text(watch.timeout);
+      check["retries"] = watch.failures;
+      check["start_period"] = duration_text(watch.start_period);
+      if (watch.reaction != OnUnhealthy::kNothing) {
+        result_.left_out.push_back(
+            {fmt::format("the {} when '{}' gets unhealthy", to_string(watch.reaction), service.name), where});
       }
     }
-    return found->second;
+    return check;
   }
 
-  Json service_of(const Service& service) {
+  Json service_of(std::size_t index) {
+    const Service& service = services_[index];
     const ProcessSpec& spec = *service.spec;
     Json json;
     json["image"] = compose_text(options_.image);
     std::vector<std::string> paths;
-    for (const std::string& name : file_names_of(service)) {
+    for (const std::string& name : service.files) {
       paths.push_back("/launch/parameters/" + name);
-      json["volumes"].push_back(
-          fmt::format("./parameters/{}:/launch/parameters/{}:ro", compose_text(name), compose_text(name)));
+      json["volumes"].push_back(fmt::format("./parameters/{}:/launch/parameters/{}:ro", name, name));
       result_.files.push_back(
           {"parameters/" + name, fmt::format("{}\n{}", export_mark(options_), spec.files[paths.size() - 1].content)});
     }
@@ -124,7 +137,7 @@ class ComposeWriter {
     if (!spec.working_directory.empty()) {
       json["working_dir"] = compose_text(spec.working_directory);
     }
-    for (const auto& [name, value] : variables_of(spec, options_.shell, ShellVariables::kSettings).set) {
+    for (const auto& [name, value] : variables_of(spec, shell_of(spec, options_), ShellVariables::kSettings).set) {
       json["environment"][name] = compose_text(value);
     }
     // Nodes find each other in the network of the host, and pass messages through its shared memory.
@@ -133,11 +146,14 @@ class ComposeWriter {
     json["restart"] = restart_of(service);
     json["stop_signal"] = "SIGINT";
     json["stop_grace_period"] = duration_text(spec.sigterm_timeout + spec.sigkill_timeout);
+    if (!health_checks_[index].is_null()) {
+      json["healthcheck"] = health_checks_[index];
+    }
     for (const ServiceBefore& before : service.before) {
       add_order(json, service, before);
     }
     json.update(compose_limits(spec));
-    leave_out_of_containers(service, result_.left_out);
+    leave_out_of_containers(service, options_, result_.left_out);
     return json;
   }
 
@@ -157,20 +173,24 @@ class ComposeWriter {
   }
 
   void add_order(Json& json, const Service& service, const ServiceBefore& before) {
-    const std::string other = name_of(plan_.services[before.service]);
+    const Service& other = services_[before.service];
     if (before.ended && !before.succeeded) {
-      result_.left_out.push_back(
-          {fmt::format("'{}' waits until '{}' has ended", service.name, other), service.spec->origin});
+      result_.left_out.push_back({before.waits, before.where});
       return;
     }
-    json["depends_on"][other]["condition"] = before.ended ? "service_completed_successfully" : "service_started";
+    const bool is_checked = !health_checks_[before.service].is_null();
+    if (before.healthy && !is_checked) {
+      result_.left_out.push_back({before.waits + "; the start is what is waited for", before.where});
+    }
+    json["depends_on"][other.word]["condition"] = before.ended                   ? "service_completed_successfully"
+                                                  : before.healthy && is_checked ? "service_healthy"
+                                                                                 : "service_started";
     if (before.wanted) {
-      json["depends_on"][other]["required"] = false;
+      json["depends_on"][other.word]["required"] = false;
     }
     if (before.ends_all) {
-      result_.left_out.push_back({fmt::format("the end of all if '{}' can't start, because of '{}'", service.name,
-                                              plan_.services[before.service].name),
-                                  service.spec->origin});
+      result_.left_out.push_back(
+          {fmt::format("the end of all if '{}' can't start, because of '{}'", service.name, other.name), before.where});
     }
   }
 
@@ -179,16 +199,17 @@ class ComposeWriter {
   }
 
   const DeploymentOptions& options_;
-  const DeploymentPlan plan_;
-  std::map<const Service*, std::string> names_;
-  std::set<std::string> taken_;
+  const std::vector<Service>& services_;
+  std::vector<Json> health_checks_;  // of each service
   Deployment result_;
 };
 
 }  // namespace
 
 Deployment as_compose_file(const LaunchPlan& plan, const DeploymentOptions& options) {
-  return ComposeWriter(plan, options).write();
+  return deploy_parts(plan, options, [](const std::vector<Service>& services, const DeploymentOptions& there) {
+    return ComposeWriter(services, there).write();
+  });
 }
 
 }  // namespace launch

@@ -4,16 +4,27 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
+
+#include "base/text/utf8.hpp"
 
 namespace launch {
 
-void leave_out_of_containers(const Service& service, std::vector<LeftOut>& left_out) {
+void leave_out_of_containers(const Service& service, const DeploymentOptions& options, std::vector<LeftOut>& left_out) {
   const ProcessSpec& spec = *service.spec;
-  const auto leave_out = [&](bool is_there, const char* what) {
+  const auto leave_out = [&](bool is_there, const std::string& what) {
     if (is_there) {
       left_out.push_back({fmt::format("{} of '{}'", what, service.name), spec.origin});
     }
   };
+  // Texts in YAML are of characters.
+  for (std::size_t i = 0; i < spec.argv.size(); ++i) {
+    leave_out(!is_utf8(spec.argv[i]), fmt::format("bytes of argument {}, which is no UTF-8,", i));
+  }
+  for (const auto& [name, value] : variables_of(spec, shell_of(spec, options), ShellVariables::kSettings).set) {
+    leave_out(!is_utf8(value), fmt::format("bytes of the variable '{}', which is no UTF-8,", name));
+  }
+  leave_out(!is_utf8(spec.working_directory), "bytes of the working directory, which is no UTF-8,");
   // Files that the launch has made are there as volumes.
   for (std::size_t i = 1; i < spec.argv.size(); ++i) {
     const bool is_made = std::any_of(spec.files.begin(), spec.files.end(),

@@ -8,6 +8,6 @@
 namespace launch {
 
 // Adds what neither Compose nor Kubernetes can say of a service.
-void leave_out_of_containers(const Service& service, std::vector<LeftOut>& left_out);
+void leave_out_of_containers(const Service& service, const DeploymentOptions& options, std::vector<LeftOut>& left_out);
 
 }  // namespace launch

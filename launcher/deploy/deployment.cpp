@@ -7,15 +7,19 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <variant>
 
 #include "base/overloaded.hpp"
 #include "base/processes/process_mark.hpp"
 #include "launcher/deploy/shell_variables.hpp"
+#include "launcher/deploy/systemd_text.hpp"
 #include "launcher/plan/dry_run.hpp"
 
 namespace launch {
 namespace {
+
+constexpr std::size_t kLongestWord = 150;  // of 255 for a file: a name of the whole and a number come to it
 
 // As shells and systemd have them.
 bool is_variable_name(const std::string& name) {
@@ -32,10 +36,14 @@ class Collector {
     for (std::size_t i = 0; i < plan_.processes.size(); ++i) {
       const ProcessSpec& spec = plan_.processes[i];
       const std::size_t number = ++count[spec.name];
-      result_.services.push_back({.name = number == 1 ? spec.name : fmt::format("{}-{}", spec.name, number),
+      const std::string name = number == 1 ? spec.name : fmt::format("{}-{}", spec.name, number);
+      result_.services.push_back({.name = name,
+                                  .word = word_of(name),
                                   .spec = &spec,
                                   .delay = i < plan_.delays.size() ? plan_.delays[i] : Duration{0},
+                                  .files = {},
                                   .before = {}});
+      name_files(result_.services.back());
       add_what_no_service_has(spec);
     }
     for (const Dependency& dependency : plan_.dependencies) {
@@ -49,11 +57,8 @@ class Collector {
   void leave_out(std::string what, const SourceRange& where) { result_.left_out.push_back({std::move(what), where}); }
 
   void add_what_no_service_has(const ProcessSpec& spec) {
-    for (const HealthWatch& watch : spec.watches) {
-      leave_out(fmt::format("'{}' is healthy while {}", spec.name, describe(watch)), spec.origin);
-    }
     if (!spec.machine.empty()) {
-      leave_out(fmt::format("that '{}' runs on machine '{}'", spec.name, spec.machine), spec.origin);
+      add_what_nobody_knows(spec);
     }
     if (spec.tty || spec.terminal_input) {
       leave_out(fmt::format("the terminal of '{}'", spec.name), spec.origin);
@@ -63,6 +68,9 @@ class Collector {
     }
     if (spec.start_limit.starts > 0 && spec.start_limit.cool_down) {
       leave_out(fmt::format("the pause of '{}' after too many starts", spec.name), spec.origin);
+    }
+    if (spec.start_limit.starts > 0 && spec.start_limit.shuts_down) {
+      leave_out(fmt::format("the end of all after too many starts of '{}'", spec.name), spec.origin);
     }
     if (spec.environment.contains(kLeaveRunningVariable)) {
       leave_out(fmt::format("what '{}' leaves running", spec.name), spec.origin);
@@ -74,6 +82,55 @@ class Collector {
     }
     if (spec.scalable) {
       leave_out(fmt::format("further copies of '{}'", spec.name), spec.origin);
+    }
+  }
+
+  // A plan that has asked no machine has texts in angle brackets.
+  void add_what_nobody_knows(const ProcessSpec& spec) {
+    const std::string end = fmt::format(" on {}>", spec.machine);
+    const auto look = [&](const std::string& text, const std::string& what) {
+      const std::size_t last = text.find(end);
+      const std::size_t first = last == std::string::npos ? last : text.rfind('<', last);
+      if (first != std::string::npos) {
+        leave_out(fmt::format("{} of '{}', for nobody has asked the machine: {}", what, spec.name,
+                              text.substr(first, last + end.size() - first)),
+                  spec.origin);
+      }
+    };
+    for (std::size_t i = 0; i < spec.argv.size(); ++i) {
+      look(spec.argv[i], i == 0 ? "the program" : fmt::format("argument {}", i));
+    }
+    for (const auto& [name, value] : spec.environment) {
+      look(value, fmt::format("the variable '{}'", name));
+    }
+    for (const GeneratedFile& file : spec.files) {
+      look(file.content, "a parameter file");
+    }
+    look(spec.working_directory, "the working directory");
+  }
+
+  // Two names may become one word; then the second one gets a number.
+  std::string word_of(const std::string& name) {
+    std::string word = unit_name(name).substr(0, kLongestWord);
+    std::replace(word.begin(), word.end(), ':', '-');
+    if (word.empty() || word.front() == '.') {
+      word.insert(0, "-");
+    }
+    return unused(word, "", words_);
+  }
+
+  static std::string unused(const std::string& text, const std::string& end, std::set<std::string>& used) {
+    std::string chosen = text + end;
+    for (int number = 2; !used.insert(chosen).second; ++number) {
+      chosen = fmt::format("{}-{}{}", text, number, end);
+    }
+    return chosen;
+  }
+
+  void name_files(Service& service) {
+    for (std::size_t i = 0; i < service.spec->files.size(); ++i) {
+      const std::string text = i == 0 ? service.word : fmt::format("{}.{}", service.word, i + 1);
+      service.files.push_back(unused(text, ".yaml", files_));
     }
   }
 
@@ -99,7 +156,9 @@ class Collector {
     }
     ServiceBefore before{.service = *other,
                          .wanted = dependency.on_failure == OnFailure::kStart,
-                         .ends_all = dependency.on_failure == OnFailure::kShutdown};
+                         .ends_all = dependency.on_failure == OnFailure::kShutdown,
+                         .waits = waits,
+                         .where = dependency.where};
     const auto* const exited = std::get_if<UntilExited>(&process->state);
     if (exited != nullptr) {
       before.ended = true;
@@ -111,6 +170,8 @@ class Collector {
         leave_out(waits + ": it starts again when it has ended", dependency.where);
         return;
       }
+    } else if (std::holds_alternative<UntilHealthy>(process->state)) {
+      before.healthy = true;
     } else if (!std::holds_alternative<UntilStarted>(process->state)) {
       leave_out(waits + "; the start is what is waited for", dependency.where);
     }
@@ -138,9 +199,13 @@ class Collector {
                                request.origin);
                    },
                    [&](const CoroutineRequest& request) { leave_out("a coroutine", request.where); },
-                   [&](const TestRequest&) {},
-                   PassOver<ProcessSpec, ProcessCommand, UnregisterRequest, TimerRequest, ShutdownRequest,
-                            NodeDescription, Dependency>(),
+                   [&](const ProcessCommand& command) {
+                     leave_out(fmt::format("the {} of '{}'", name_of(command.kind), command.process), command.where);
+                   },
+                   [&](const ShutdownRequest& request) {
+                     leave_out(fmt::format("the end of all that the file asks for: {}", request.reason), {});
+                   },
+                   PassOver<TestRequest, ProcessSpec, UnregisterRequest, TimerRequest, NodeDescription, Dependency>(),
                });
     for (const LeftToRun& left : plan_.left_to_run) {
       leave_out(left.function.empty() ? "an action that depends on functions of the file"
@@ -150,13 +215,17 @@ class Collector {
   }
 
   const LaunchPlan& plan_;
+  std::set<std::string> words_;
+  std::set<std::string> files_;
   DeploymentPlan result_;
 };
 
 }  // namespace
 
 std::string export_mark(const DeploymentOptions& options) {
-  return fmt::format("# Made by 'launch export' with the name '{}', which may make it anew.", options.name);
+  const std::string machine = options.machine.empty() ? "" : fmt::format(" for machine '{}'", options.machine);
+  return fmt::format("# Made by 'launch export {}' with the name '{}'{}, which may make it anew.", options.kind,
+                     options.name, machine);
 }
 
 DeploymentPlan deployment_of(const LaunchPlan& plan) {
@@ -174,12 +243,22 @@ std::vector<std::string> command_line_of(const ProcessSpec& spec, const std::vec
   return {"/bin/sh", "-c", fmt::format("{}", fmt::join(words, " "))};
 }
 
-std::vector<std::string> file_names_of(const Service& service) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < service.spec->files.size(); ++i) {
-    names.push_back(i == 0 ? service.name + ".yaml" : fmt::format("{}.{}.yaml", service.name, i + 1));
+std::string seconds_text(Duration time) {
+  std::string text = fmt::format("{:.9f}", std::chrono::duration<double>(time).count());
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) {
+    text.pop_back();
   }
-  return names;
+  return text;
+}
+
+Duration stop_timeout_of(const ProcessSpec& spec) {
+  return std::max<Duration>(spec.sigterm_timeout + spec.sigkill_timeout, std::chrono::milliseconds(1));
+}
+
+const Environment& shell_of(const ProcessSpec& spec, const DeploymentOptions& options) {
+  const auto found = options.shells_elsewhere.find(spec.machine);
+  return spec.machine.empty() || found == options.shells_elsewhere.end() ? options.shell : found->second;
 }
 
 ServiceVariables variables_of(const ProcessSpec& spec, const Environment& shell, ShellVariables of_shell) {

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <set>
+#include <variant>
 
+#include "base/text/utf8.hpp"
 #include "launcher/deploy/container_leave_outs.hpp"
 #include "launcher/deploy/deployment.hpp"
 #include "launcher/deploy/yaml_text.hpp"
@@ -17,7 +19,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kLongestName = 50;  // of 63: a Deployment adds to the names of its pods
+constexpr std::size_t kLargestMap = std::size_t{1} << 20U;
 constexpr double kMilli = 1000.0;
+constexpr const char* kMachineLabel = "launch.machine";  // of the node that is a machine of the launch file
+
+std::int64_t whole_seconds(Duration time) {
+  return std::max(std::chrono::ceil<std::chrono::seconds>(time).count(), std::int64_t{1});
+}
 
 // "$(NAME)" is a variable of Kubernetes, and "$$(NAME)" is this text.
 std::string kubernetes_text(const std::string& text) {
@@ -56,21 +64,27 @@ class ObjectWriter {
   }
 
   Deployment write() {
-    std::map<std::string, int> count;
+    std::set<std::string> taken = {whole_ + "-parameters"};
     for (const Service& service : plan_.services) {
-      std::string name = object_name(whole_ + "-" + service.name);
-      if (const int number = ++count[name]; number > 1) {
-        name += fmt::format("-{}", number);
+      const std::string first = object_name(whole_ + "-" + service.name);
+      std::string name = first;
+      for (int number = 2; !taken.insert(name).second; ++number) {
+        name = fmt::format("{}-{}", first, number);
       }
       add(name + ".yaml", object_of(service, name));
     }
     if (!parameters_.empty()) {
+      if (parameters_.dump(-1, ' ', false, Json::error_handler_t::replace).size() > kLargestMap) {
+        result_.left_out.push_back(
+            {"parameter files of more than 1 MiB in one ConfigMap, which Kubernetes refuses", {}});
+      }
       const Json map = {{"apiVersion", "v1"},
                         {"kind", "ConfigMap"},
                         {"metadata", metadata(whole_ + "-parameters", "parameters")},
                         {"data", parameters_}};
       add(whole_ + "-parameters.yaml", map);
     }
+    add_head(result_);
     return std::move(result_);
   }
 
@@ -89,14 +103,15 @@ class ObjectWriter {
 
   Json object_of(const Service& service, const std::string& name) {
     const ProcessSpec& spec = *service.spec;
-    Json pod = {
-        {"hostNetwork", true},
-        {"hostIPC", true},
-        {"terminationGracePeriodSeconds",
-         std::lround(std::ceil(std::chrono::duration<double>(spec.sigterm_timeout + spec.sigkill_timeout).count()))},
-        {"containers", Json::array({container_of(service)})}};
+    Json pod = {{"hostNetwork", true},
+                {"hostIPC", true},
+                {"terminationGracePeriodSeconds", whole_seconds(spec.sigterm_timeout + spec.sigkill_timeout)},
+                {"containers", Json::array({container_of(service)})}};
     if (!spec.files.empty()) {
       pod["volumes"] = Json::array({{{"name", "parameters"}, {"configMap", {{"name", whole_ + "-parameters"}}}}});
+    }
+    if (!spec.machine.empty()) {
+      pod["nodeSelector"] = {{kMachineLabel, spec.machine}};
     }
     leave_out_more(service);
     if (!spec.respawn.enabled) {
@@ -118,7 +133,7 @@ class ObjectWriter {
     Json container = {{"name", object_name(service.name)}, {"image", options_.image}};
     std::vector<std::string> paths;
     Json mounts = Json::array();
-    for (const std::string& name : file_names_of(service)) {
+    for (const std::string& name : service.files) {
       parameters_[name] = spec.files[paths.size()].content;
       paths.push_back("/launch/parameters/" + name);
       mounts.push_back({{"name", "parameters"}, {"mountPath", paths.back()}, {"subPath", name}, {"readOnly", true}});
@@ -127,11 +142,11 @@ class ObjectWriter {
     for (const std::string& word : command_line_of(spec, paths)) {
       command.push_back(kubernetes_text(word));
     }
-    container["command"] = command;
+    container["args"] = command;  // behind the entry point of the image, as Compose does it
     if (!spec.working_directory.empty()) {
       container["workingDir"] = spec.working_directory;
     }
-    for (const auto& [name, value] : variables_of(spec, options_.shell, ShellVariables::kSettings).set) {
+    for (const auto& [name, value] : variables_of(spec, shell_of(spec, options_), ShellVariables::kSettings).set) {
       container["env"].push_back({{"name", name}, {"value", kubernetes_text(value)}});
     }
     if (spec.control_limits.memory_max) {
@@ -144,21 +159,62 @@ class ObjectWriter {
     if (!mounts.empty()) {
       container["volumeMounts"] = mounts;
     }
+    add_probes(container, service);
     return container;
+  }
+
+  // What restarts a container that gets unhealthy is its liveness; without a reaction it is no longer ready.
+  void add_probes(Json& container, const Service& service) {
+    const ProcessSpec& spec = *service.spec;
+    for (const HealthWatch& watch : spec.watches) {
+      const bool restarts = watch.reaction == OnUnhealthy::kRestart && spec.respawn.enabled;
+      const char* const kind = restarts ? "livenessProbe" : "readinessProbe";
+      Json probe = probe_of(watch);
+      if (probe.is_null() || container.contains(kind)) {
+        result_.left_out.push_back({fmt::format("'{}' is healthy while {}", service.name, describe(watch)),
+                                    watch.where ? watch.where : spec.origin});
+        continue;
+      }
+      probe["periodSeconds"] = whole_seconds(watch.interval);
+      probe["timeoutSeconds"] = whole_seconds(watch.timeout);
+      probe["failureThreshold"] = watch.failures;
+      if (watch.start_period > Duration{0}) {
+        probe["initialDelaySeconds"] = whole_seconds(watch.start_period);
+      }
+      container[kind] = probe;
+      if (watch.reaction != OnUnhealthy::kNothing && !restarts) {
+        result_.left_out.push_back(
+            {fmt::format("the {} when '{}' gets unhealthy", to_string(watch.reaction), service.name),
+             watch.where ? watch.where : spec.origin});
+      }
+    }
+  }
+
+  static Json probe_of(const HealthWatch& watch) {
+    Json probe;
+    if (const auto* const command = std::get_if<CommandSucceeds>(&watch.subject)) {
+      probe["exec"]["command"] = command->argv;  // Kubernetes looks for no variables there
+    } else if (const auto* const port = std::get_if<PortAccepts>(&watch.subject);
+               port != nullptr && port->protocol == PortAccepts::Protocol::kTcp) {
+      probe["tcpSocket"]["host"] = port->host;
+      probe["tcpSocket"]["port"] = port->port;
+    }
+    return probe;
   }
 
   void leave_out_more(const Service& service) {
     const ProcessSpec& spec = *service.spec;
-    leave_out_of_containers(service, result_.left_out);
+    leave_out_of_containers(service, options_, result_.left_out);
     const auto leave_out = [&](bool is_there, const std::string& what) {
       if (is_there) {
         result_.left_out.push_back({fmt::format("{} of '{}'", what, service.name), spec.origin});
       }
     };
     for (const ServiceBefore& before : service.before) {
-      result_.left_out.push_back({fmt::format("'{}' waits until '{}' has {}", service.name,
-                                              plan_.services[before.service].name, before.ended ? "ended" : "started"),
-                                  spec.origin});
+      result_.left_out.push_back({before.waits, before.where});
+    }
+    for (const GeneratedFile& file : spec.files) {
+      leave_out(!is_utf8(file.content), "bytes of a parameter file, which is no UTF-8,");
     }
     leave_out(spec.respawn.enabled && spec.respawn.delay > Duration{0}, "the respawn delay");
     leave_out(spec.respawn.enabled && spec.respawn.max_retries >= 0, "the limit of respawns");

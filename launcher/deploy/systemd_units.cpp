@@ -2,6 +2,7 @@
 // A unit for each process and a target for all (systemd.service(5), systemd.target(5)).
 #include <fmt/format.h>
 #include <sched.h>
+#include <signal.h>
 #include <string.h>
 
 #include <chrono>
@@ -11,30 +12,34 @@
 #include <set>
 #include <system_error>
 
+#include "base/text/utf8.hpp"
 #include "launcher/deploy/deployment.hpp"
 #include "launcher/deploy/systemd_text.hpp"
+#include "launcher/deploy/systemd_watch.hpp"
 #include "launcher/process/spawn/program_search.hpp"
 
 namespace launch {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr double kPercent = 100.0;
 
-double seconds_of(Duration time) {
-  return std::chrono::duration<double>(time).count();
+// "SIGTERM", "RTMIN+2"
+std::string signal_text(int signal) {
+  const char* const name = ::sigabbrev_np(signal);
+  return name != nullptr ? fmt::format("SIG{}", name) : fmt::format("RTMIN+{}", signal - SIGRTMIN);
 }
 
+// Of one machine.
 class UnitWriter {
  public:
-  UnitWriter(const LaunchPlan& plan, const DeploymentOptions& options)
-      : options_(options), plan_(deployment_of(plan)), target_(unit_name(options.name) + ".target") {
-    result_.left_out = plan_.left_out;
-    choose_unit_names();
-  }
+  UnitWriter(const std::vector<Service>& services, const DeploymentOptions& options)
+      : options_(options), services_(services), target_(unit_name(options.name) + ".target") {}
 
   Deployment write() {
     // Whoever is waited for until it has ended is a unit that is "activating" for so long.
-    for (const Service& service : plan_.services) {
+    for (const Service& service : services_) {
       for (const ServiceBefore& before : service.before) {
         if (before.ended) {
           awaited_.insert(before.service);
@@ -44,14 +49,17 @@ class UnitWriter {
         }
       }
     }
+    for (std::size_t i = 0; i < services_.size(); ++i) {
+      watches_.push_back(systemd_watch_of(services_[i], awaited_.contains(i)));
+    }
     std::string wants;
-    for (std::size_t i = 0; i < plan_.services.size(); ++i) {
+    for (std::size_t i = 0; i < services_.size(); ++i) {
       wants += fmt::format("Wants={}\n", write_service(i));
     }
-    result_.files.insert(
-        result_.files.begin(),
-        {target_, fmt::format("{}\n[Unit]\nDescription={}\n{}\n[Install]\nWantedBy={}\n", export_mark(options_),
-                              options_.name, wants, options_.of_user ? "default.target" : "multi-user.target")});
+    result_.files.insert(result_.files.begin(),
+                         {target_, fmt::format("{}\n[Unit]\nDescription={}\n{}\n[Install]\nWantedBy={}\n",
+                                               export_mark(options_), systemd_line(options_.name), wants,
+                                               options_.of_user ? "default.target" : "multi-user.target")});
     return std::move(result_);
   }
 
@@ -60,31 +68,20 @@ class UnitWriter {
     result_.left_out.push_back({fmt::format("{} of '{}'", what, service.name), service.spec->origin});
   }
 
-  // Names that differ may become one name of a unit; then the second one gets a number.
   std::string unit_of(const Service& service) const {
-    const std::string& name = unit_names_[static_cast<std::size_t>(&service - plan_.services.data())];
-    return fmt::format("{}-{}.service", unit_name(options_.name), name);
-  }
-
-  void choose_unit_names() {
-    std::set<std::string> taken;
-    for (const Service& service : plan_.services) {
-      const std::string name = unit_name(service.name);
-      unit_names_.push_back(name);
-      for (int number = 2; !taken.insert(unit_names_.back()).second; ++number) {
-        unit_names_.back() = fmt::format("{}-{}", name, number);
-      }
-    }
+    return fmt::format("{}-{}.service", unit_name(options_.name), service.word);
   }
 
   // Returns what the target wants: the unit, or the timer that starts it.
   std::string write_service(std::size_t index) {
-    const Service& service = plan_.services[index];
+    const Service& service = services_[index];
     const std::string unit = unit_of(service);
     std::string text = fmt::format("{}\n# {}\n[Unit]\nDescription={}\nPartOf={}\n", export_mark(options_),
-                                   to_string(service.spec->origin), service.name, target_);
+                                   systemd_line(to_string(service.spec->origin)), systemd_line(service.name), target_);
     text += order_of(service) + start_limit_of(service);
-    text += "\n[Service]\n" + command_of(service, awaited_.contains(index)) + restarts_of(service) + end_of_all(index) +
+    const SystemdWatch& watch = watches_[index];
+    result_.left_out.insert(result_.left_out.end(), watch.left_out.begin(), watch.left_out.end());
+    text += "\n[Service]\n" + command_of(index) + watch.settings + restarts_of(service, watch) + end_of_all(index) +
             limits_of_service(service);
     result_.files.push_back({unit, text});
     write_slices(*service.spec);
@@ -95,24 +92,30 @@ class UnitWriter {
     result_.files.push_back(
         {timer, fmt::format("{}\n[Unit]\nDescription=starts {}\nPartOf={}\n\n[Timer]\nOnActiveSec={}\n"
                             "AccuracySec=1ms\nRemainAfterElapse=no\n",
-                            export_mark(options_), service.name, target_, seconds_of(service.delay))});
+                            export_mark(options_), systemd_line(service.name), target_, seconds_text(service.delay))});
     return timer;
   }
 
-  std::string order_of(const Service& service) const {
+  std::string order_of(const Service& service) {
     std::string text;
     for (const ServiceBefore& before : service.before) {
-      const std::string other = unit_of(plan_.services[before.service]);
+      if (before.healthy && !watches_[before.service].notifies) {
+        result_.left_out.push_back({before.waits + "; the start is what is waited for", before.where});
+      }
+      const std::string other = unit_of(services_[before.service]);
       const bool must = !before.wanted && (!before.ended || before.succeeded);
       text += fmt::format("After={}\n{}={}\n", other, must ? "Requires" : "Wants", other);
     }
     return text;
   }
 
-  static std::string start_limit_of(const Service& service) {
+  std::string start_limit_of(const Service& service) {
     const ProcessSpec& spec = *service.spec;
     if (spec.start_limit.starts > 0) {
-      return fmt::format("StartLimitIntervalSec={}\nStartLimitBurst={}\n", seconds_of(spec.start_limit.within),
+      if (spec.respawn.enabled && spec.respawn.max_retries >= 0) {
+        leave_out(service, "the limit of respawns, beside that of starts,");
+      }
+      return fmt::format("StartLimitIntervalSec={}\nStartLimitBurst={}\n", seconds_text(spec.start_limit.within),
                          spec.start_limit.starts);
     }
     if (spec.respawn.enabled && spec.respawn.max_retries >= 0) {
@@ -121,33 +124,51 @@ class UnitWriter {
     return "StartLimitIntervalSec=0\n";
   }
 
-  std::string command_of(const Service& service, bool is_awaited) {
+  std::string command_of(std::size_t index) {
+    const Service& service = services_[index];
     const ProcessSpec& spec = *service.spec;
     std::vector<std::string> paths;
-    const std::vector<std::string> names = file_names_of(service);
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      const std::string path = "parameters/" + unit_name(options_.name) + "/" + names[i];
+    for (std::size_t i = 0; i < service.files.size(); ++i) {
+      const std::string path = "parameters/" + unit_name(options_.name) + "/" + service.files[i];
       result_.files.push_back({path, fmt::format("{}\n{}", export_mark(options_), spec.files[i].content)});
-      paths.push_back(options_.directory + "/" + path);
+      paths.push_back(options_.install_directory + "/" + path);
     }
     // A unit that has only been asked to start is "started" for its order: as soon as the program runs.
-    // The search of systemd knows folders of its own only.
+    std::string text = awaited_.contains(index)   ? "Type=oneshot\nRemainAfterExit=yes\n"
+                       : watches_[index].notifies ? "Type=notify\n"
+                                                  : "Type=exec\n";
+    const std::string directory = directory_of(spec);
     std::vector<std::string> words = command_line_of(spec, paths);
-    if (!spec.shell) {
-      words.front() = program_of(spec);
+    const std::string program = spec.shell ? words.front() : program_of(spec, directory);
+    const bool is_plain_directory = directory == "~" || is_systemd_path(directory);
+    words.front() = program;
+    if (!spec.machine.empty() && directory != "~" && !directory.starts_with('/')) {
+      leave_out(service, fmt::format("the working directory {}, which is no absolute path,", directory));
     }
-    std::string text = is_awaited ? "Type=oneshot\nRemainAfterExit=yes\n" : "Type=exec\n";
+    if (!is_plain_directory) {
+      words.insert(words.begin(), {"/bin/sh", "-c", "cd -- \"$0\" && exec \"$@\"", directory});
+    } else if (is_systemd_path(program)) {
+      words.front() = fs::path(program).lexically_normal();
+    } else if (program.find('/') != std::string::npos || !spec.machine.empty()) {
+      words.insert(words.begin(), {"/bin/sh", "-c", "exec \"$0\" \"$@\""});
+    }
     text += "ExecStart=";
     for (const std::string& word : words) {
       text += (text.back() == '=' ? "" : " ") + systemd_quoted(word, true);
     }
-    text += fmt::format("\nWorkingDirectory={}\n",
-                        spec.working_directory.empty() ? options_.working_directory : spec.working_directory);
+    text += "\n";
+    if (is_plain_directory) {
+      text += fmt::format("WorkingDirectory={}\n", systemd_line(directory));
+    }
     if (!options_.user.empty()) {
       text += fmt::format("User={}\n", options_.user);
     }
-    const ServiceVariables variables = variables_of(spec, options_.shell, ShellVariables::kAll);
+    const ServiceVariables variables = variables_of(spec, shell_of(spec, options_), ShellVariables::kAll);
     for (const auto& [name, value] : variables.set) {
+      if (!is_utf8(value)) {
+        leave_out(service, fmt::format("the variable '{}', which is no UTF-8,", name));
+        continue;
+      }
       text += fmt::format("Environment={}\n", systemd_quoted(name + "=" + value, false));
     }
     for (const std::string& name : variables.removed) {
@@ -156,9 +177,22 @@ class UnitWriter {
     return text;
   }
 
-  // Where it is now; as it was given if it is not there.
-  std::string program_of(const ProcessSpec& spec) const {
-    std::filesystem::path program = spec.argv.front();
+  // Of another machine: what its user has as home, in which a connecting command begins, too.
+  std::string directory_of(const ProcessSpec& spec) const {
+    if (!spec.machine.empty()) {
+      return spec.working_directory.empty() ? "~" : spec.working_directory;
+    }
+    return spec.working_directory.empty() ? options_.working_directory
+                                          : (fs::path(options_.working_directory) / spec.working_directory).string();
+  }
+
+  // Where it is now; as it was given if it is not there, or on another machine. The search of systemd knows folders of
+  // its own only.
+  static std::string program_of(const ProcessSpec& spec, const std::string& directory) {
+    fs::path program = spec.argv.front();
+    if (!spec.machine.empty()) {
+      return program;
+    }
     try {
       program = find_program(spec);
     } catch (const std::system_error&) {
@@ -166,28 +200,28 @@ class UnitWriter {
         return program;
       }
     }
-    const std::string& directory = spec.working_directory.empty() ? options_.working_directory : spec.working_directory;
-    return (std::filesystem::path(directory) / program).lexically_normal();
+    return fs::path(directory) / program;
   }
 
-  std::string restarts_of(const Service& service) {
+  std::string restarts_of(const Service& service, const SystemdWatch& watch) {
     const ProcessSpec& spec = *service.spec;
     // The end of a launch is SIGINT, then SIGTERM, then SIGKILL. systemd has two of these.
-    std::string text =
-        fmt::format("KillSignal=SIGINT\nTimeoutStopSec={}\n", seconds_of(spec.sigterm_timeout + spec.sigkill_timeout));
+    std::string text = fmt::format("KillSignal=SIGINT\nTimeoutStopSec={}\n", seconds_text(stop_timeout_of(spec)));
     if (spec.respawn.enabled) {
-      text += fmt::format("Restart=always\nRestartSec={}\n", seconds_of(spec.respawn.delay));
+      text += fmt::format("Restart=always\nRestartSec={}\n", seconds_text(spec.respawn.delay));
       if (spec.respawn.backoff != 1.0) {
         leave_out(service, "the growing delay of the respawns");
       }
+    } else if (watch.restarts) {
+      text += "Restart=on-watchdog\nRestartSec=0\n";
     }
     if (spec.allowed_exits.any) {
       leave_out(service, "the permission to end with any exit code");
     } else if (!spec.allowed_exits.codes.empty()) {
       text += "SuccessExitStatus=";
       for (const int code : spec.allowed_exits.codes) {
-        text += fmt::format("{}{}", text.back() == '=' ? "" : " ",
-                            code < 0 ? fmt::format("SIG{}", ::sigabbrev_np(-code)) : std::to_string(code));
+        text +=
+            fmt::format("{}{}", text.back() == '=' ? "" : " ", code < 0 ? signal_text(-code) : std::to_string(code));
       }
       text += "\n";
     }
@@ -197,19 +231,24 @@ class UnitWriter {
   // What stops the target when the service has ended: any end of a required one, a failure of one that another waits
   // for, or a program that can't be executed (systemd.exec(5): 203), for which somebody waits, too.
   std::string end_of_all(std::size_t index) const {
-    const ProcessSpec& spec = *plan_.services[index].spec;
+    const ProcessSpec& spec = *services_[index].spec;
     const std::string stop = fmt::format("systemctl {}--no-block stop {}", options_.of_user ? "--user " : "", target_);
     const char* const rights = options_.of_user ? "" : "+";
     if (spec.required || spec.shutdown_on_exit) {
       return fmt::format("ExecStopPost={}{}\n", rights, stop);
     }
+    const std::string as_shell = fmt::format("ExecStopPost={}/bin/sh -c ", rights);
     if (ends_all_by_failure_.contains(index)) {
-      return fmt::format("ExecStopPost={}/bin/sh -c 'test \"$$SERVICE_RESULT\" = success || {}'\n", rights, stop);
+      return as_shell + fmt::format("'test \"$$SERVICE_RESULT\" = success || {}'\n", stop);
+    }
+    std::string commands;
+    if (watches_[index].ends_all) {
+      commands += as_shell + fmt::format("'case \"$$SERVICE_RESULT\" in watchdog|timeout) {};; esac'\n", stop);
     }
     if (ends_all_unless_it_starts_.contains(index)) {
-      return fmt::format("ExecStopPost={}/bin/sh -c 'test \"$$EXIT_STATUS\" != 203 || {}'\n", rights, stop);
+      commands += as_shell + fmt::format("'test \"$$EXIT_STATUS\" != 203 || {}'\n", stop);
     }
-    return "";
+    return commands;
   }
 
   std::string limits_of_service(const Service& service) {
@@ -287,16 +326,16 @@ class UnitWriter {
       const ControlGroup& group = *spec.control_groups[depth - 1];
       if (written_.insert(&group).second) {
         result_.files.push_back({slice_of({spec.control_groups.begin(), spec.control_groups.begin() + depth}),
-                                 fmt::format("{}\n# {}\n[Slice]\n{}", export_mark(options_), to_string(group.where),
-                                             control_limits(group.limits))});
+                                 fmt::format("{}\n# {}\n[Slice]\n{}", export_mark(options_),
+                                             systemd_line(to_string(group.where)), control_limits(group.limits))});
       }
     }
   }
 
   const DeploymentOptions& options_;
-  const DeploymentPlan plan_;
+  const std::vector<Service>& services_;
   const std::string target_;
-  std::vector<std::string> unit_names_;  // without the name of the whole
+  std::vector<SystemdWatch> watches_;  // of each service
   std::set<std::size_t> awaited_;
   std::set<std::size_t> ends_all_by_failure_;
   std::set<std::size_t> ends_all_unless_it_starts_;
@@ -308,7 +347,9 @@ class UnitWriter {
 }  // namespace
 
 Deployment as_systemd_units(const LaunchPlan& plan, const DeploymentOptions& options) {
-  return UnitWriter(plan, options).write();
+  return deploy_parts(plan, options, [](const std::vector<Service>& services, const DeploymentOptions& there) {
+    return UnitWriter(services, there).write();
+  });
 }
 
 }  // namespace launch

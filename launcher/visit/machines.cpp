@@ -114,7 +114,7 @@ void Machines::declare(MachineDeclaration machine) {
         machine.where, "one launch has one machine of a name", Finding::kExclusive);
   }
   const MachineDeclaration& declared = declared_.insert_or_assign(machine.name, std::move(machine)).first->second;
-  if (!declared.is_local() && connector_ != nullptr && !plan_only_ && refusal_.empty()) {
+  if (!declared.is_local() && connector_ != nullptr && refusal_.empty()) {
     connector_->connect(declared);
   }
 }
@@ -145,7 +145,7 @@ std::shared_ptr<MachineView> Machines::find(const std::string& name, const Sourc
                                   to_string(trace_of_all_)),
                       Finding::kExclusive);
   }
-  if (plan_only_) {
+  if (plan_only_ && connector_ == nullptr) {
     std::shared_ptr<MachineView>& view = views_[name];
     if (view == nullptr) {
       view = std::make_shared<PlannedMachine>(name);

@@ -8,7 +8,8 @@
 #include <set>
 #include <stdexcept>
 #include <system_error>
-#include <vector>
+
+#include "launcher/deploy/systemd_text.hpp"
 
 namespace launch {
 namespace {
@@ -21,39 +22,51 @@ bool has_mark(const fs::path& path, const std::string& mark) {
   return std::getline(file, line) && line == mark;
 }
 
-// The folders in which an export of this name may have left files: parameter files are in folders of their own.
-std::vector<fs::path> folders_of(const Deployment& deployment, const fs::path& directory) {
-  std::set<fs::path> folders = {directory};
-  for (const DeployedFile& file : deployment.files) {
-    folders.insert((directory / file.path).parent_path());
+// The files in a folder, and in those for parameter files in it, that an earlier export has left.
+std::set<fs::path> files_with_mark(const fs::path& folder, const DeploymentOptions& options) {
+  std::set<fs::path> files;
+  const std::string mark = export_mark(options);
+  const fs::path parameters = folder / "parameters";
+  for (const fs::path& place : {folder, parameters, parameters / unit_name(options.name)}) {
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(place, error)) {
+      if (entry.is_regular_file(error) && has_mark(entry.path(), mark)) {
+        files.insert(entry.path());
+      }
+    }
   }
-  return {folders.begin(), folders.end()};
+  return files;
+}
+
+// Those of this machine, and in the folders of other machines.
+std::set<fs::path> earlier_files(const fs::path& directory, DeploymentOptions options) {
+  std::set<fs::path> files = files_with_mark(directory, options);
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory, error)) {
+    if (entry.is_directory(error)) {
+      options.machine = entry.path().filename();
+      files.merge(files_with_mark(entry.path(), options));
+    }
+  }
+  return files;
 }
 
 }  // namespace
 
 void write_exported_files(const Deployment& deployment, const DeploymentOptions& options) {
   const fs::path directory = options.directory;
-  const std::string mark = export_mark(options);
-  std::set<fs::path> written;
+  std::set<fs::path> old = earlier_files(directory, options);
   for (const DeployedFile& file : deployment.files) {
     const fs::path path = directory / file.path;
-    if (fs::exists(path) && !has_mark(path, mark)) {
+    if (fs::exists(path) && !old.contains(path)) {
       throw std::runtime_error(fmt::format(
           "'{}' is there, and no export with the name '{}' has made it; choose another --name or another place",
           path.string(), options.name));
     }
-    written.insert(path);
+    old.erase(path);
   }
-  for (const fs::path& folder : folders_of(deployment, directory)) {
-    if (!fs::exists(folder)) {
-      continue;
-    }
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-      if (entry.is_regular_file() && !written.contains(entry.path()) && has_mark(entry.path(), mark)) {
-        fs::remove(entry.path());
-      }
-    }
+  for (const fs::path& path : old) {
+    fs::remove(path);
   }
   for (const DeployedFile& file : deployment.files) {
     const fs::path path = directory / file.path;

@@ -69,6 +69,28 @@ TEST(ComposeFile, TextsAndNamesStayWhatTheyAre) {
   EXPECT_THAT(text, HasSubstr("      V: \"  a\\n b\"\n"));
 }
 
+TEST(ComposeFile, HasAHealthCheckForAWatchWithACommand) {
+  const std::string xml = R"(
+<executable cmd="true" name="a">
+  <watch kind="command" cmd="test -e $HOME" interval="2.5" timeout="1" failures="4" start_period="3" on_unhealthy="restart"/>
+</executable>
+<executable cmd="true" name="b"><depends_on process="a" condition="healthy" on_failure="start"/></executable>)";
+  const std::string text = exported(as_compose_file, xml);
+  EXPECT_THAT(text,
+              HasSubstr("    healthcheck:\n      test:\n        - \"CMD\"\n        - \"test\"\n        - \"-e\"\n"
+                        "        - \"$$HOME\"\n      interval: \"2.5s\"\n      timeout: \"1s\"\n      retries: 4\n"
+                        "      start_period: \"3s\"\n"));
+  EXPECT_THAT(text, HasSubstr("      a:\n        condition: \"service_healthy\"\n"));
+  EXPECT_THAT(left_out(as_compose_file, xml), ElementsAre("the restart when 'a' gets unhealthy"));
+}
+
+TEST(ComposeFile, NamesThatYamlTakesForOtherValuesAreInQuotes) {
+  const std::string text =
+      exported(as_compose_file, R"(<executable cmd="true" name="on"><env name="No" value="1"/></executable>)");
+  EXPECT_THAT(text, HasSubstr("\n  \"on\":\n"));
+  EXPECT_THAT(text, HasSubstr("\n      \"No\": \"1\"\n"));
+}
+
 TEST(ComposeFile, WhatItCantSayIsListed) {
   EXPECT_THAT(left_out(as_compose_file, R"(
 <executable cmd="true" name="a"/>
@@ -77,7 +99,7 @@ TEST(ComposeFile, WhatItCantSayIsListed) {
 <timer period="5"><executable cmd="true" name="late"/></timer>
 <executable cmd="true" name="z"><depends_on process="a" condition="exited" exit_code="any"/></executable>)"),
               ElementsAre("the end of all with the end of 'b'", "the niceness of 'b'", "the respawn delay of 'c'",
-                          "a respawn after exit code 0 of 'c'", "'z' waits until 'a' has ended",
+                          "a respawn after exit code 0 of 'c'", "'z' waits until 'a' has exited with exit code any",
                           "the timer before the start of 'late'"));
 }
 

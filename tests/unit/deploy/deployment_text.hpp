@@ -25,11 +25,15 @@ inline launch::LaunchPlan plan_of(const std::string& xml) {
 }
 
 inline launch::DeploymentOptions robot_options() {
-  return {.name = "robot",
+  return {.kind = "--systemd",
+          .name = "robot",
+          .machine = "",
           .directory = "/etc/robot",
+          .install_directory = "",
           .working_directory = "/home/user",
           .image = "robot:1",
-          .shell = shell()};
+          .shell = shell(),
+          .shells_elsewhere = {}};
 }
 
 // The files as one text, each behind its path, without the first line of each.

@@ -30,7 +30,7 @@ spec:
   containers:
     - name: "says-it"
       image: "robot:1"
-      command:
+      args:
         - "/bin/echo"
         - "$HOME"
       workingDir: "/srv"
@@ -58,6 +58,24 @@ TEST(KubernetesObjects, TwoOfOneNameAreToldApart) {
       exported(as_kubernetes_objects, R"(<executable cmd="true" name="a_b"/><executable cmd="true" name="a-b"/>)");
   EXPECT_THAT(text, HasSubstr("== robot-a-b.yaml\n"));
   EXPECT_THAT(text, HasSubstr("== robot-a-b-2.yaml\n"));
+}
+
+TEST(KubernetesObjects, HaveProbesForWatches) {
+  const std::string xml = R"xml(
+<executable cmd="true" name="a" respawn="true">
+  <watch kind="command" cmd="test $(env HOME)" interval="2.5" timeout="1" failures="4" start_period="3" on_unhealthy="restart"/>
+  <watch kind="port" port="8080"/>
+</executable>
+<executable cmd="true" name="b"><watch kind="memory" max_memory="1M" on_unhealthy="restart"/></executable>)xml";
+  const std::string text = exported(as_kubernetes_objects, xml);
+  EXPECT_THAT(
+      text, HasSubstr("livenessProbe:\n            exec:\n              command:\n                - \"test\"\n"
+                      "                - \"/home/user\"\n            periodSeconds: 3\n            timeoutSeconds: 1\n"
+                      "            failureThreshold: 4\n            initialDelaySeconds: 3\n"));
+  EXPECT_THAT(text, HasSubstr("readinessProbe:\n            tcpSocket:\n              host: \"localhost\"\n"
+                              "              port: 8080\n"));
+  EXPECT_THAT(left_out(as_kubernetes_objects, xml),
+              ElementsAre("'b' is healthy while it does not have more than 1.0 MiB of memory for 5 s; else restart"));
 }
 
 TEST(KubernetesObjects, WhatTheyCantSayIsListed) {

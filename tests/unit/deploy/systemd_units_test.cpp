@@ -129,6 +129,53 @@ TEST(SystemdUnits, EndAllIfWhatIsWaitedForFails) {
                               "stop robot.target'\n"));
 }
 
+TEST(SystemdUnits, HaveAWatchdogForAProcessThatNotifies) {
+  const std::string text = exported(as_systemd_units, R"(
+<executable cmd="true" name="a" respawn="true" sigterm_timeout="1" sigkill_timeout="2">
+  <watch kind="notify" watchdog="true" timeout="3" on_unhealthy="restart"/>
+</executable>
+<executable cmd="true" name="b"><watch kind="notify" watchdog="true" timeout="0.5" on_unhealthy="shutdown"/></executable>
+<executable cmd="true" name="c"><depends_on process="a" condition="healthy"/></executable>)");
+  EXPECT_THAT(text,
+              HasSubstr("\nNotifyAccess=all\nTimeoutStartSec=3\nWatchdogSec=3\nWatchdogSignal=SIGINT\n"
+                        "TimeoutAbortSec=3\nKillSignal=SIGINT\nTimeoutStopSec=3\nRestart=always\nRestartSec=0\n"));
+  EXPECT_THAT(text, HasSubstr("\nWatchdogSec=0.5\n"));
+  EXPECT_THAT(text, HasSubstr("\nExecStopPost=+/bin/sh -c 'case \"$$SERVICE_RESULT\" in watchdog|timeout) systemctl "
+                              "--no-block stop robot.target;; esac'\n"));
+  EXPECT_THAT(text, HasSubstr("Description=c\nPartOf=robot.target\nAfter=robot-a.service\nRequires=robot-a.service\n"));
+}
+
+TEST(SystemdUnits, WatchesThatSystemdDoesNotHaveAreListed) {
+  EXPECT_THAT(
+      left_out(as_systemd_units, R"(
+<executable cmd="true" name="a"><watch kind="notify" watchdog="true" timeout="3" on_unhealthy="restart"/></executable>
+<executable cmd="true" name="b"><watch kind="notify" watchdog="true" timeout="3"/></executable>
+<executable cmd="true" name="c"><watch kind="memory" max_memory="1M"/></executable>
+<executable cmd="true" name="d"><depends_on process="c" condition="healthy"/></executable>)"),
+      ElementsAre("'a' gets unhealthy if it is not ready in time", "'b' gets unhealthy if it is not ready in time",
+                  "the watchdog of 'b', on which no restart and no end of all follows",
+                  "'c' is healthy while it does not have more than 1.0 MiB of memory for 5 s",
+                  "'d' waits until 'c' is healthy; the start is what is waited for"));
+}
+
+TEST(SystemdUnits, AShellStandsBeforeWhatSystemdTakesAsNoPath) {
+  const std::string text = exported(as_systemd_units, R"(
+<executable cmd="/opt/$$x/prog a" name="a"/>
+<executable cmd="/bin/echo b" name="b" cwd="/srv/../x"/>
+<executable cmd="/bin/echo c" name="c" cwd="/srv/100% a"/>)");
+  EXPECT_THAT(text, HasSubstr("\nExecStart=\"/bin/sh\" \"-c\" \"cd -- \\\"$$0\\\" && exec \\\"$$@\\\"\" \"/srv/../x\" "
+                              "\"/bin/echo\" \"b\"\n"));
+  EXPECT_THAT(text,
+              HasSubstr("\nExecStart=\"/bin/sh\" \"-c\" \"exec \\\"$$0\\\" \\\"$$@\\\"\" \"/opt/$$$$x/prog\" \"a\"\n"));
+  EXPECT_THAT(text, HasSubstr("\nWorkingDirectory=/srv/100%% a\n"));
+}
+
+TEST(SystemdUnits, NoTimeoutIsNotAnEndlessOne) {
+  EXPECT_THAT(
+      exported(as_systemd_units, R"(<executable cmd="true" name="a" sigterm_timeout="0" sigkill_timeout="0"/>)"),
+      HasSubstr("\nTimeoutStopSec=0.001\n"));
+}
+
 TEST(SystemdUnits, WhatTheyCantSayIsListed) {
   EXPECT_THAT(
       left_out(as_systemd_units, R"(
