@@ -15,7 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 
 // SymbolKind
-constexpr int kFunctionSymbol = 12;
 constexpr int kClassSymbolOfPython = 5;
 constexpr int kVariableSymbolOfPython = 13;
 
