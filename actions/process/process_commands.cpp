@@ -52,7 +52,8 @@ ActionType shutdown_action() {
       {.tag = "shutdown", .help = "Ends the whole launch once everything around it has been visited."},
       {{.attribute = {"reason", AttributeType::kText, false, "", "why, for the launch log"},
         .place = place_of(&ShutdownRequest::reason)}},
-      [](const Fields&, LaunchContext& context, ShutdownRequest& shutdown) {
+      [](const Fields& fields, LaunchContext& context, ShutdownRequest& shutdown) {
+        shutdown.where = fields.where();
         context.requests().shutdowns.push_back(std::move(shutdown));
       });
 }

@@ -203,7 +203,7 @@ class Collector {
                      leave_out(fmt::format("the {} of '{}'", name_of(command.kind), command.process), command.where);
                    },
                    [&](const ShutdownRequest& request) {
-                     leave_out(fmt::format("the end of all that the file asks for: {}", request.reason), {});
+                     leave_out(fmt::format("the end of all that the file asks for: {}", request.reason), request.where);
                    },
                    PassOver<TestRequest, ProcessSpec, UnregisterRequest, TimerRequest, NodeDescription, Dependency>(),
                });

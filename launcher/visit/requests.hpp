@@ -47,6 +47,7 @@ struct TimerRequest {
 
 struct ShutdownRequest {
   std::string reason = "reason not given";
+  SourceRange where{};
 };
 
 // The ROS node that a process will be; a part is empty when the launch file leaves it to the program.

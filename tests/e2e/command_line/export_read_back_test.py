@@ -216,7 +216,7 @@ def generate_launch_description():
 ''')
         expected = ['not exported: the terminal of \'a\' (odd.launch.xml:2:4)',
                     'not exported: on_process_exit of \'a\' with exit code any (odd.launch.xml:3:4)',
-                    'not exported: the end of all that the file asks for: done']
+                    'not exported: the end of all that the file asks for: done (odd.launch.xml:4:22)']
         for words, first in ((('--systemd', 'head'), 'head/odd.target'), (('--compose', 'head/compose.yaml', '--image', 'x'), 'head/compose.yaml'),
                              (('--kubernetes', 'head', '--image', 'x'), 'head/odd-a.yaml')):
             with self.subTest(words):
