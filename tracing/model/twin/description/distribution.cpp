@@ -63,7 +63,8 @@ Draw::Drawn Draw::next_at(std::int64_t time_ns) {
   const std::int64_t usual_ns =
       (moments.back().time_ns - moments.front().time_ns) / static_cast<std::int64_t>(moments.size());
   std::size_t chosen = following_;
-  if (chosen >= moments.size() || distance(chosen) > usual_ns) {
+  if (chosen >= moments.size() ||
+      static_cast<double>(distance(chosen)) > cycle_.slack * static_cast<double>(usual_ns)) {
     const auto behind = std::lower_bound(
         moments.begin(), moments.end(), wanted_ns,
         [](const Distribution::Moment& moment, std::int64_t wanted) { return moment.time_ns < wanted; });

@@ -39,6 +39,8 @@ struct Distribution {
 struct Cycle {
   std::int64_t begin_ns = 0;
   std::int64_t length_ns = 0;
+  // How far the next value may be from its time, in usual intervals, before the nearest one is taken instead.
+  double slack = 1;
 };
 
 // Draws values in random order, or as they were recorded one after the other.
