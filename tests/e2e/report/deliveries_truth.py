@@ -62,6 +62,7 @@ class Deliveries:
         events = [event for event in events if event[1]]
         self.node_of, self.publisher_of, self.subscription_of = {}, {}, {}  # by process and handle of rcl
         self.quality_of = {}  # events, by process and handle of rmw
+        self.gone = set()
         self.of_rmw = {}  # both, by process and handle
         self.of_object, self.object_of_callback, self.buffer_of, self.object_of_buffer = {}, {}, {}, {}
         self.publishers, self.subscriptions = [], []
@@ -99,7 +100,7 @@ class Deliveries:
         self.give_quality(publisher, self.quality_of.pop((process, f['rmw_publisher_handle']), None))
 
     def rcl_publisher_fini(self, time, process, thread, f):
-        self.publisher_of.pop((process, f['publisher_handle']), None)
+        self.has_gone(self.publisher_of.pop((process, f['publisher_handle']), None))
 
     def rcl_subscription_init(self, time, process, thread, f):
         known = self.subscription_of.get((process, f['subscription_handle']))
@@ -114,7 +115,7 @@ class Deliveries:
         self.give_quality(subscription, self.quality_of.pop((process, f['rmw_subscription_handle']), None))
 
     def rcl_subscription_fini(self, time, process, thread, f):
-        self.subscription_of.pop((process, f['subscription_handle']), None)
+        self.has_gone(self.subscription_of.pop((process, f['subscription_handle']), None))
 
     # The middleware tells the quality of service before rcl tells of the object, and again when a filter changes.
 
@@ -126,9 +127,13 @@ class Deliveries:
         self.quality_of[process, f['rmw_subscription_handle']] = f
         self.give_quality(self.of_rmw.get((process, f['rmw_subscription_handle'])), f)
 
-    @staticmethod
-    def give_quality(one, f):
-        if one and f:
+    def has_gone(self, one):
+        """Another one may be where it was: what the middleware tells of that place from now on is not about this one."""
+        if one:
+            self.gone.add(one)
+
+    def give_quality(self, one, f):
+        if one and f and one not in self.gone:
             one.is_reliable, one.history, one.is_filtered = bool(f['reliable']), f['history_depth'], bool(f.get('is_filtered'))
 
     def rclcpp_subscription_init(self, time, process, thread, f):

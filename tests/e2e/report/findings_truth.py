@@ -138,9 +138,17 @@ def candidates(report):
     return found
 
 
+def without_hosts(report, subject):
+    """Where there are several hosts, "left: /ping" for "/ping"."""
+    for host in {process['host'] for process in report['processes'] if process['host']}:
+        subject = subject.replace(f'{host}: ', '')
+    return subject
+
+
 def faults(report):
     """What is wrong with the findings of a report: sentences."""
-    found, told = candidates(report), {finding['kind']: finding['subject'] for finding in report['findings']}
+    found = candidates(report)
+    told = {finding['kind']: without_hosts(report, finding['subject']) for finding in report['findings']}
     causes = set()  # callbacks that a finding is about
     for kind, subject in told.items():
         for candidate in found.get(kind, ()):
