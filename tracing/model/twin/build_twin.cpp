@@ -356,19 +356,17 @@ class Builder {
     for (const std::string& action : actions_) {
       miss(fmt::format("the action {} has no stand-in", action));
     }
-    for (const timeline::LifecycleState& state : timeline_.lifecycle) {
-      miss(fmt::format("{} has lifecycle states; its stand-in is always active", timeline_.nodes[state.node].name));
-      break;
+    if (!timeline_.lifecycle.empty()) {
+      miss(fmt::format("{} has lifecycle states; its stand-in is always active",
+                       timeline_.nodes[timeline_.lifecycle.front().node].name));
     }
     if (timeline_.states.empty() && !timeline_.instances.empty()) {
       miss(
           "the trace has no events of the kernel's scheduler: what callbacks waited for a processor counts as their "
           "work");
     }
-    std::size_t unknown = 0;
-    for (const Topic& topic : system_.topics) {
-      unknown += options_.sizes.contains(topic.name) ? 0 : 1;
-    }
+    const auto unknown = std::count_if(system_.topics.begin(), system_.topics.end(),
+                                       [&](const Topic& topic) { return !options_.sizes.contains(topic.name); });
     if (unknown > 0) {
       miss(
           fmt::format("a trace does not tell the sizes of messages: those of {} topics have {} bytes (--bytes, --size)",

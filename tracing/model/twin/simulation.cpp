@@ -20,7 +20,7 @@ Simulation::Simulation(const System& system) : system_(system), rules_(system), 
   times_.resize(system.callbacks.size());
   receivers_.resize(system.topics.size());
   callbacks_.reserve(system.callbacks.size());
-  const Cycle cycle{system.begin_ns, system.active_ns, system.slack};
+  const Cycle cycle = system.cycle();
   for (Index index = 0; index < system.callbacks.size(); ++index) {
     const Callback& callback = system.callbacks[index];
     const std::uint64_t seed = system.seed * 40'503 + 7 * index;

@@ -15,8 +15,8 @@ OutputRules::OutputRules(const System& system) : system_(system), random_(system
                 {},
                 {},
                 {},
-                Draw(callback.run_times, seed, {system.begin_ns, system.active_ns, system.slack}),
-                Draw(callback.silent_run_times, seed + 1, {system.begin_ns, system.active_ns, system.slack})};
+                Draw(callback.run_times, seed, system.cycle()),
+                Draw(callback.silent_run_times, seed + 1, system.cycle())};
     state.by_sent.resize(callback.outputs.size());
     std::iota(state.by_sent.begin(), state.by_sent.end(), std::size_t{0});
     std::stable_sort(state.by_sent.begin(), state.by_sent.end(), [&](std::size_t left, std::size_t right) {

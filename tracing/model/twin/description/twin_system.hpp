@@ -121,6 +121,7 @@ struct System {
   std::int64_t begin_ns = 0;     // when the first timer was due
   std::int64_t active_ns = 0;    // from the time when the first timer was due to the end of the last callback
   double slack = 1;              // of a simulation: Cycle::slack
+  Cycle cycle() const { return {begin_ns, active_ns, slack}; }
   std::size_t cpus = 1;
   std::uint64_t seed = 1;
   // Whether the times of runs are those that they had a processor. Otherwise they may have waited for one in them, and
