@@ -48,6 +48,13 @@ std::string version_in(const fs::path& prefix) {
   return version.empty() ? "unknown" : version;
 }
 
+// Where its sources are. As packages of a system they come apart from `launch`.
+std::string sources() {
+  const std::string directory = own_prefix() + "/share/launch/" + kPackage;
+  std::error_code ignored;
+  return fs::exists(directory, ignored) ? directory : directory + ", which the package launch-companion brings";
+}
+
 }  // namespace
 
 std::optional<std::string> companion_program(std::string_view name, const Environment& environment) {
@@ -56,12 +63,11 @@ std::optional<std::string> companion_program(std::string_view name, const Enviro
 }
 
 std::string ros_program(std::string_view name, const Environment& environment) {
-  const std::string sources = own_prefix() + "/share/launch/" + kPackage;
   if (const auto prefix = companion_prefix(environment)) {
     if (const std::string version = version_in(*prefix); version != LAUNCH_VERSION) {
       throw LaunchError(fmt::format("{} in {} is of version {}, this launch of {}", kPackage, prefix->string(), version,
                                     LAUNCH_VERSION),
-                        {}, fmt::format("build it again from {}", sources));
+                        {}, "build it again from " + sources());
     }
     return (*prefix / "lib" / kPackage / name).string();
   }
@@ -70,7 +76,7 @@ std::string ros_program(std::string_view name, const Environment& environment) {
       std::find(kMiddlewaresOfDds.begin(), kMiddlewaresOfDds.end(), middleware) == kMiddlewaresOfDds.end()) {
     throw LaunchError(
         fmt::format("nodes on {} need {}, which is in no prefix of AMENT_PREFIX_PATH", middleware, kPackage), {},
-        fmt::format("build it in your workspace, from {}", sources));
+        "build it in your workspace, from " + sources());
   }
   return own_library_file(name);
 }

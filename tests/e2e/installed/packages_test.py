@@ -12,7 +12,7 @@ import unittest
 from pathlib import Path
 
 SOURCE = Path(os.environ['SOURCE_DIRECTORY'])
-NAMES = ('launch-tools', 'launch-stack', 'launch-stack-dev', 'python3-launch-trace')
+NAMES = ('launch-tools', 'launch-companion', 'launch-stack', 'launch-stack-dev', 'python3-launch-trace')
 
 
 def folder_of_packages():
@@ -64,6 +64,13 @@ class Packages(unittest.TestCase):
                      '/opt/launch/share/launch_examples/01_ping_pong.launch.xml', '/usr/share/doc/launch-tools/copyright'):
             self.assertIn(path, self.files['launch-tools'])
         self.assertEqual(self.links['/usr/bin/launch'], '/opt/launch/bin/launch')
+
+    def test_the_companion_has_its_sources_alone(self):
+        share = '/opt/launch/share/launch/launch_companion/'
+        self.assertLessEqual({share + 'package.xml', share + 'CMakeLists.txt', share + 'version'}, self.files['launch-companion'])
+        for path in self.files['launch-companion']:
+            self.assertTrue(path.startswith((share, '/usr/share/doc/launch-companion/')), path)
+        self.assertEqual([path for path in self.files['launch-tools'] if path.startswith(share)], [])
 
     def test_the_tools_are_small(self):
         self.assertLess(int(self.fields['launch-tools']['Installed-Size']) * 1024, 25e6)

@@ -35,7 +35,9 @@ class RosProgram : public testing::Test {
 
   test_support::Sandbox sandbox_;
   const std::string own_ = own_library_file("launch-ros-client");
-  const std::string sources_ = own_prefix() + "/share/launch/launch_companion";
+  // The programs of these tests stand in no prefix, so there are no sources beside them.
+  const std::string sources_ =
+      own_prefix() + "/share/launch/launch_companion, which the package launch-companion brings";
 };
 
 TEST_F(RosProgram, IsThatOfTheFirstPrefixWithACompanion) {
