@@ -100,21 +100,54 @@ TEST(StallInContention, IsWhereItWasRecorded) {
   }
 }
 
-// The system was still starting: nothing that was sent before the first message that arrived is simulated to arrive.
-TEST(StartInSimulation, WhatWasNotThereYetGetsNothing) {
-  SmallSystem small;
-  const Index sender = small.add_timer("sender", 10 * kMs, 0);
-  const Index topic = small.publish(sender, "/a", 1);
-  const Index receiver = small.add_subscription("receiver", topic, 0, 0, small.add_process("/receiver"));
-  std::vector<Sample> samples;
-  for (std::int64_t place = 50; place < 100; ++place) {
-    samples.push_back({place * 10 * kMs, kMs});
+// A timer of 10 ms publishes for a second; its messages arrived from the first to the last of these.
+class LifetimeInSimulation : public ::testing::Test {
+ protected:
+  std::size_t arrived(std::int64_t first, std::int64_t last, std::int64_t delay_ns = 0) {
+    SmallSystem small;
+    const Index sender = small.add_timer("sender", 10 * kMs, 0);
+    const Index topic = small.publish(sender, "/a", 1);
+    const Index receiver = small.add_subscription("receiver", topic, 0, 0, small.add_process("/receiver"));
+    std::vector<Sample> samples;
+    for (std::int64_t place = first; place <= last; ++place) {
+      samples.push_back({place * 10 * kMs + shift_ns_, delay_ns});
+    }
+    small.system.callbacks[receiver].delays = Distribution::of(samples);
+    small.system.callbacks[receiver].ways = small.system.callbacks[receiver].delays;
+    small.system.active_ns = 999 * kMs;
+    Figures figures = Simulation(small.system).run(duration_ns_);
+    return figures[{FigureKind::kHop, hop_name("/one", "receiver")}].size();
   }
-  small.system.callbacks[receiver].delays = Distribution::of(samples);
-  small.system.callbacks[receiver].ways = small.system.callbacks[receiver].delays;
-  small.system.active_ns = 999 * kMs;
-  Figures figures = Simulation(small.system).run(small.system.active_ns);
-  EXPECT_EQ((figures[{FigureKind::kHop, hop_name("/one", "receiver")}].size()), 50u);
+
+  std::int64_t shift_ns_ = 0;
+  std::int64_t duration_ns_ = 999 * kMs;
+};
+
+TEST_F(LifetimeInSimulation, WhatWasNotThereYetGetsNothing) {
+  EXPECT_EQ(arrived(50, 99), 50u);
+}
+
+TEST_F(LifetimeInSimulation, WhatHadEndedGetsNothing) {
+  EXPECT_EQ(arrived(0, 49), 50u);
+  EXPECT_EQ(arrived(20, 49), 30u);
+}
+
+// Times in the simulation are not quite those of the recording: nothing is lost or added for that.
+TEST_F(LifetimeInSimulation, SmallDifferencesAreNoEnd) {
+  shift_ns_ = 4 * kMs;
+  EXPECT_EQ(arrived(20, 49), 30u);
+  shift_ns_ = -4 * kMs;
+  EXPECT_EQ(arrived(20, 49), 30u);
+}
+
+TEST_F(LifetimeInSimulation, TheLastMessageArrivesThoughItTakesLong) {
+  EXPECT_EQ(arrived(0, 99, 50 * kMs), 100u);
+}
+
+// As if the recording were played again: nothing says when what is longer ended.
+TEST_F(LifetimeInSimulation, ALongerSimulationGoesOn) {
+  duration_ns_ = 1499 * kMs;
+  EXPECT_EQ(arrived(0, 49), 150u);
 }
 
 }  // namespace

@@ -50,12 +50,27 @@ void Simulation::push(Event event) {
   queue_.push(event);
 }
 
+// From half a usual interval before its first message to as long after its last one.
+Simulation::Lifetime Simulation::lifetime_of(const Callback& callback, std::int64_t duration_ns) const {
+  const std::vector<Distribution::Moment>& recorded = callback.ways.moments;
+  if (recorded.size() < 2) {
+    return {0, duration_ns};
+  }
+  const std::int64_t first_ns = recorded.front().time_ns - system_.begin_ns;
+  const std::int64_t last_ns = recorded.back().time_ns - system_.begin_ns;
+  const std::int64_t half_ns = (last_ns - first_ns) / static_cast<std::int64_t>(recorded.size() - 1) / 2;
+  return {first_ns - half_ns, as_recorded(duration_ns) ? last_ns + half_ns : duration_ns};
+}
+
 void Simulation::schedule_timer(Index callback) {
-  push({callbacks_[callback].due_ns, 0, Event::Kind::kDue, callback, {}});
+  if (callbacks_[callback].due_ns <= callbacks_[callback].lifetime.end_ns) {
+    push({callbacks_[callback].due_ns, 0, Event::Kind::kDue, callback, {}});
+  }
 }
 
 Figures Simulation::run(std::int64_t duration_ns) {
   for (Index index = 0; index < system_.callbacks.size(); ++index) {
+    callbacks_[index].lifetime = lifetime_of(system_.callbacks[index], duration_ns);
     // A timer that never ran was cancelled, or its node ended first.
     if (system_.callbacks[index].kind == Callback::Kind::kTimer && system_.callbacks[index].runs > 0) {
       schedule_timer(index);
@@ -66,7 +81,8 @@ Figures Simulation::run(std::int64_t duration_ns) {
     const std::int64_t event_ns = queue_.empty() ? kNever : queue_.top().time_ns;
     const std::int64_t step_ns = scheduler_.next_ns().value_or(kNever);
     now_ns_ = std::min(event_ns, step_ns);
-    if (now_ns_ > duration_ns) {
+    // Of a simulation that ends as the recording did, what was sent at the end still arrives.
+    if (now_ns_ == kNever || (now_ns_ > duration_ns && !as_recorded(duration_ns))) {
       return std::move(figures_);
     }
     // What ends at this time does so before anything else begins.
@@ -266,11 +282,10 @@ void Simulation::send(const Output& output) {
     return system_.nodes[system_.groups[system_.callbacks[callback].group].node].process;
   };
   const auto deliver = [&](Index callback, Message message) {
-    const std::vector<Distribution::Moment>& recorded = system_.callbacks[callback].ways.moments;
-    if (!recorded.empty() && now_ns_ < recorded.front().time_ns - system_.begin_ns) {
-      return;  // it was not there yet
-    }
     CallbackState& state = callbacks_[callback];
+    if (now_ns_ < state.lifetime.begin_ns || now_ns_ > state.lifetime.end_ns) {
+      return;
+    }
     const bool is_near = !system_.callbacks[callback].near_delays.empty() && message.publisher != kNone &&
                          system_.nodes[system_.publishers[message.publisher].node].process == process_of(callback);
     const Draw::Drawn delay = (is_near ? state.near_delays : state.delays).next_at(now_ns_);

@@ -66,12 +66,18 @@ class Simulation {
       return time_ns != other.time_ns ? time_ns > other.time_ns : number > other.number;
     }
   };
+  // When a callback was there: what is sent to it before or after is lost, as it was in the recording.
+  struct Lifetime {
+    std::int64_t begin_ns = 0;
+    std::int64_t end_ns = 0;
+  };
   struct CallbackState {
     std::deque<Message> queue;
     std::int64_t due_ns = 0;   // of a timer
     SimulatedTime way = {};    // likewise, as that of a message
     bool is_due = false;       // likewise
     std::int64_t last_ns = 0;  // the last arrival: messages stay in their order
+    Lifetime lifetime;
     Draw delays;
     Draw near_delays;
     Draw gaps;
@@ -92,6 +98,9 @@ class Simulation {
     std::deque<Index> ready;
   };
 
+  // Whether it ends when the recording did. A longer one is several recordings, one after the other.
+  bool as_recorded(std::int64_t duration_ns) const { return duration_ns == system_.active_ns; }
+  Lifetime lifetime_of(const Callback& callback, std::int64_t duration_ns) const;
   void push(Event event);
   // Whether its executor has a free thread, and its group nothing that runs.
   bool could_run(Index callback) const;
