@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// <on_process_start>, <on_process_exit>, <on_process_io>, <on_health_change>, <on_start_limit>, <on_shutdown>,
-// <on_state_transition>, <wait_for>: visit actions when something happens. <unregister_event_handler>: a handler gets
-// no more events.
+// <on_process_start>, <on_process_exit>, <on_process_io>, <on_health_change>, <on_start_limit>, <on_machine_lost>,
+// <on_shutdown>, <on_state_transition>, <wait_for>: visit actions when something happens. <unregister_event_handler>: a
+// handler gets no more events.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -170,6 +170,31 @@ ActionType on_start_limit_action() {
   return handler_of<Event>("on_start_limit",
                            "Visits its actions when a process has been started as often as its start_limit allows.",
                            {process_row<Event>(), once_row<Event>(), handler_name_row<Event>()});
+}
+
+ActionType on_machine_lost_action() {
+  using Event = OnMachineLost;
+  return handler_of<Event>(
+      "on_machine_lost", "Visits its actions when the connection to another machine is lost.",
+      {{.attribute = {"machine", Type::kText, false, "every machine", "name of the machine"},
+        .perform =
+            [](const Fields& fields, Scope& scope, Handled<Event>& handled) {
+              const Template& text = fields.text("machine");
+              handled.event.machine = text.perform(scope);
+              if (handled.event.machine.empty() || handled.event.machine == kLocalMachine) {
+                throw LaunchError(handled.event.machine.empty() ? "the name of the machine is empty"
+                                                                : "there is no connection to this machine",
+                                  text.where(), "leave the attribute out to mean every other machine");
+              }
+            },
+        .checks_literal = true},
+       once_row<Event>(),
+       handler_name_row<Event>()},
+      nullptr, [](const Fields& fields, LaunchContext& context, Handled<Event>& handled) {
+        if (fields.has("machine")) {
+          context.machines().require_declared(handled.event.machine, fields.text("machine").where());
+        }
+      });
 }
 
 ActionType on_shutdown_action() {

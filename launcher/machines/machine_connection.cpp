@@ -359,12 +359,13 @@ void MachineConnection::lose(const std::string& reason, std::string help) {
   lost_ = fmt::format("{} machine '{}'{}: {}", was_there ? "the connection to" : "no connection to", settings_.name,
                       was_there ? " is lost" : "", why);
   if (was_there) {
-    std::string rest = runs_.running_labels();
-    if (!rest.empty()) {
-      rest = "; what ran there: " + rest + "; the agent there ends it";
-    }
+    const std::string labels = runs_.running_labels();
+    const std::string rest = labels.empty() ? "" : "; what ran there: " + labels + "; the agent there ends it";
     const std::string words = command_->last_lines().empty() ? "" : "; it wrote last: " + command_->last_lines().back();
     tell_(LogLevel::kError, *lost_ + words + rest);
+    if (observe_loss_) {
+      observe_loss_({settings_.name, why, labels});
+    }
   }
   runs_.lose(*lost_);
 }

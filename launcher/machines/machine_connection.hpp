@@ -24,6 +24,7 @@
 #include "launcher/machines/remote_runs.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/output/output_router.hpp"
+#include "launcher/visit/machines.hpp"
 
 namespace launch {
 
@@ -65,6 +66,9 @@ class MachineConnection {
   // "the connection to machine 'arm' is lost: …"
   const std::string& why_lost() const { return *lost_; }
 
+  // By the loop, once; what ran there has not ended yet for the supervisor. Not for a connection that was never made.
+  void observe_loss(std::function<void(const LostMachine&)> observer) { observe_loss_ = std::move(observer); }
+
   // For the process runner (machine_runner.cpp). What is sent to a lost connection is dropped.
   RemoteRuns& runs() { return runs_; }
   void send(ToAgent kind, const WireWriter& content = {});
@@ -93,6 +97,7 @@ class MachineConnection {
   EventLoop& loop_;
   Settings settings_;
   Tell tell_;
+  std::function<void(const LostMachine&)> observe_loss_;
   std::unique_ptr<ConnectingCommand> command_;
   std::unique_ptr<Outgoing> outgoing_;
   RemoteRuns runs_;

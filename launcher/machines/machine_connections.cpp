@@ -55,6 +55,11 @@ void MachineConnections::connect(const MachineDeclaration& machine) {
                                                                          .connect_timeout = machine.connect_timeout,
                                                                          .launch_version = launch_version_},
                                                                         tell_}}));
+  machines_.at(machine.name)->connection.observe_loss([this](const LostMachine& lost) {
+    if (observe_losses_) {
+      observe_losses_(lost);
+    }
+  });
   const Duration between = machine.keepalive / 4;
   between_pings_ = between_pings_ == Duration{0} ? between : std::min(between_pings_, between);
   if (!pings_.joinable()) {

@@ -28,6 +28,9 @@ class MachineConnections : public MachineConnector {
   void connect(const MachineDeclaration& machine) override;
   std::shared_ptr<MachineView> await(const MachineDeclaration& machine) override;
 
+  // The observer gets each machine whose connection is lost while the loop runs.
+  void observe_losses(std::function<void(const LostMachine&)> observer) { observe_losses_ = std::move(observer); }
+
   // Null if there was never a connection to the machine.
   RemoteRuns* runs(const std::string& machine);
   // The launcher is stopped from now on, or goes on (Ctrl-Z).
@@ -41,6 +44,7 @@ class MachineConnections : public MachineConnector {
   EventLoop& loop_;
   std::string launch_version_;
   MachineConnection::Tell tell_;
+  std::function<void(const LostMachine&)> observe_losses_;
 
   std::mutex mutex_;  // of what follows: the thread reads it
   std::map<std::string, std::unique_ptr<Machine>> machines_;

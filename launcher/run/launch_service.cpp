@@ -207,6 +207,12 @@ void LaunchService::visit(const Invocation& invocation) {
            [&] { context_.visit(invocation); });
 }
 
+void LaunchService::on_lost_machine(const LostMachine& lost) {
+  if (phase_ == Phase::kRunning) {
+    handlers_.on_lost_machine(lost);
+  }
+}
+
 void LaunchService::traverse(const SourceRange& where, Asker asker, const std::function<void()>& traversal) {
   const std::int64_t begin = monotonic_time();
   try {

@@ -67,6 +67,9 @@ class LaunchService {
     health_.monitor.use_ros_client(client);
   }
 
+  // By a source of the loop: the connection to a machine has been lost.
+  void on_lost_machine(const LostMachine& lost);
+
   // For a test of the system that is launched.
   SystemTest& test() { return test_; }
   // Begins the shutdown in a later turn of the loop.

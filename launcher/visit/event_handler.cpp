@@ -20,6 +20,10 @@ struct Description {
                        change.health ? fmt::format(" to {}", name_of(*change.health)) : std::string());
   }
   std::string operator()(const OnStartLimit&) const { return "on_start_limit" + of_process(); }
+  std::string operator()(const OnMachineLost& lost) const {
+    return lost.machine.empty() ? "on_machine_lost of any machine"
+                                : fmt::format("on_machine_lost of machine '{}'", lost.machine);
+  }
   std::string operator()(const OnShutdown&) const { return "on_shutdown"; }
   std::string operator()(const OnStateTransition& transition) const {
     std::string text = fmt::format("on_state_transition of '{}'", transition.node);

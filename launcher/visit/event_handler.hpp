@@ -33,6 +33,10 @@ struct OnHealthChange {
 };
 // A process has reached its limit of starts.
 struct OnStartLimit {};
+// The connection to a machine is lost; empty: to any.
+struct OnMachineLost {
+  std::string machine;
+};
 // Processes that the handler starts run before the others are asked to end.
 struct OnShutdown {
   Duration timeout = std::chrono::seconds(5);  // the longest time that they may take
@@ -49,8 +53,8 @@ struct OnceReady {
 };
 
 struct EventHandler {
-  std::variant<OnProcessStart, OnProcessExit, OnProcessIo, OnHealthChange, OnStartLimit, OnShutdown, OnStateTransition,
-               OnceReady>
+  std::variant<OnProcessStart, OnProcessExit, OnProcessIo, OnHealthChange, OnStartLimit, OnMachineLost, OnShutdown,
+               OnStateTransition, OnceReady>
       event;
   std::string name;     // the name for unregister_event_handler; empty: none
   std::string process;  // a name (process_table.hpp); empty: every process

@@ -119,23 +119,27 @@ void Machines::declare(MachineDeclaration machine) {
   }
 }
 
+void Machines::require_declared(const std::string& name, const SourceRange& where) const {
+  if (declared_.contains(name)) {
+    return;
+  }
+  std::vector<std::string> names = {kLocalMachine};
+  for (const auto& [known, declaration] : declared_) {
+    names.push_back(known);
+  }
+  const std::string help = did_you_mean(name, names);
+  throw LaunchError(
+      fmt::format("there is no machine '{}'", name), where,
+      help.empty() ? fmt::format("declare it before: <machine name=\"{}\" connect=\"ssh …\"/>", name) : help,
+      Finding::kUndefined);
+}
+
 std::shared_ptr<MachineView> Machines::find(const std::string& name, const SourceRange& where) {
   if (name == kLocalMachine) {
     return nullptr;
   }
-  const auto found = declared_.find(name);
-  if (found == declared_.end()) {
-    std::vector<std::string> names = {kLocalMachine};
-    for (const auto& [known, declaration] : declared_) {
-      names.push_back(known);
-    }
-    const std::string help = did_you_mean(name, names);
-    throw LaunchError(
-        fmt::format("there is no machine '{}'", name), where,
-        help.empty() ? fmt::format("declare it before: <machine name=\"{}\" connect=\"ssh …\"/>", name) : help,
-        Finding::kUndefined);
-  }
-  const MachineDeclaration& machine = found->second;
+  require_declared(name, where);
+  const MachineDeclaration& machine = declared_.at(name);
   if (machine.is_local()) {
     return nullptr;
   }

@@ -34,6 +34,13 @@ struct MachineDeclaration {
   bool same_as(const MachineDeclaration& other) const;
 };
 
+// The connection to a machine has ended before the launch.
+struct LostMachine {
+  std::string name;
+  std::string reason;     // in one line
+  std::string processes;  // what ran there: "talker-1, listener-2"
+};
+
 // What an <assign_machine> says: processes that fit all its patterns run on the machine, whatever their launch file
 // says.
 struct MachineAssignment {
@@ -79,6 +86,8 @@ class Machines {
 
   // Throws LaunchError for a name that another declaration has given to another machine, or that is none.
   void declare(MachineDeclaration machine);
+  // Throws LaunchError for a name that no declaration has.
+  void require_declared(const std::string& name, const SourceRange& where) const;
   // The machine of this name, connected; null for this one. Throws LaunchError: at `where` for an unknown name, at the
   // place of its declaration if there is no connection.
   std::shared_ptr<MachineView> find(const std::string& name, const SourceRange& where);

@@ -131,6 +131,24 @@ std::vector<Invocation> EventHandlers::on_line(const ProcessSpec& spec, const st
       });
 }
 
+std::vector<Invocation> EventHandlers::on_lost_machine(const LostMachine& lost) {
+  const auto any = by_process_.find("");
+  if (any == by_process_.end()) {
+    return {};
+  }
+  std::vector<Invocation> invocations;
+  const EventValues values = {{"machine", lost.name}, {"reason", lost.reason}, {"processes", lost.processes}};
+  std::erase_if(any->second, [&](const Registered& each) {
+    const auto* const wanted = std::get_if<OnMachineLost>(&each.handler->event);
+    if (wanted == nullptr || (!wanted->machine.empty() && wanted->machine != lost.name)) {
+      return false;
+    }
+    invocations.push_back({each.handler, values});
+    return each.handler->once;
+  });
+  return invocations;
+}
+
 bool EventHandlers::has_on_shutdown() const {
   const auto any = by_process_.find("");
   return any != by_process_.end() && std::any_of(any->second.begin(), any->second.end(), [](const Registered& each) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "launcher/visit/event_handler.hpp"
+#include "launcher/visit/machines.hpp"
 #include "launcher/visit/process_table.hpp"
 
 namespace launch {
@@ -27,6 +28,7 @@ class EventHandlers {
   std::vector<Invocation> on_event(const ProcessEvent& event);
   std::vector<Invocation> on_line(const ProcessSpec& spec, const std::string& label, OutputStream stream,
                                   std::string_view line);
+  std::vector<Invocation> on_lost_machine(const LostMachine& lost);
   std::vector<Invocation> on_shutdown(const std::string& reason);
 
   bool has_on_shutdown() const;

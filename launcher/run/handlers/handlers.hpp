@@ -39,6 +39,7 @@ class Handlers {
   void on_line(const ProcessSpec& spec, const std::string& label, OutputStream stream, std::string_view line) {
     queue_.add(events_.on_line(spec, label, stream, line));
   }
+  void on_lost_machine(const LostMachine& lost) { queue_.add(events_.on_lost_machine(lost)); }
   // Ends all watches outside the launch. Returns the handlers of the shutdown, which are not in the queue.
   std::vector<Invocation> shutdown(const std::string& reason);
 

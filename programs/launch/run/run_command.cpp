@@ -169,6 +169,7 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   });
   service.use_ros_client(ros_client);
   service.use_guardian(guardian);
+  machines.observe_losses([&service](const LostMachine& lost) { service.on_lost_machine(lost); });
   service.give_up_by([&output] {
     output.show_status("");
     end_of_guest();

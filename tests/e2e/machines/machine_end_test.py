@@ -126,6 +126,24 @@ class MachineEnd(MachinesTest):
         self.assertEqual(launch.wait(PATIENCE), 3)
         self.assert_nothing_left('one agent')
 
+    def test_a_handler_starts_something_in_place_of_what_was_lost(self):
+        launch = self.start_trees([('plain', 'arm'), ('plain', 'base')], f'''
+          <on_machine_lost machine="base"><log message="base is lost"/></on_machine_lost>
+          <on_machine_lost machine="arm">
+            <log message="$(var event.machine) is lost with $(var event.processes): $(var event.reason)"/>
+            <executable name="instead" cmd="sh -c 'echo ready; exec sleep 1000'" output="screen"/>
+          </on_machine_lost>''')
+        agents = self.parts(launch)['agent']
+        arm = [pid for pid in agents if os.readlink(f'/proc/{pid}/ns/uts') == os.readlink(f'/proc/{self.hosts[0]._first}/ns/uts')]
+        os.kill(arm[0], signal.SIGKILL)
+        self.assertRegex(launch.lines.wait_for('arm is lost with '), r"arm is lost with plain0-1: 'nsenter .*' was ended by SIGKILL$")
+        launch.lines.wait_for('[instead-3] ready')
+        launch.send_signal(signal.SIGINT)
+        self.assertEqual(launch.wait(PATIENCE), 3)
+        with self.assertRaisesRegex(AssertionError, 'never: base is lost'):
+            launch.lines.wait_for('base is lost')
+        self.assert_nothing_left('what was started instead')
+
     def test_a_machine_that_freezes_is_lost(self):
         launch = self.start_trees([('plain', 'arm'), ('plain', 'base')])
         agents = self.parts(launch)['agent']

@@ -1,7 +1,8 @@
 from launch import LaunchDescription
-from launch.actions import ExecuteProcess, GroupAction
+from launch.actions import ExecuteProcess, GroupAction, LogInfo, Shutdown
 from launch.conditions import IfCondition
-from launch_extensions import AssignMachine, Machine
+from launch.substitutions import LaunchConfiguration
+from launch_extensions import AssignMachine, Machine, OnMachineLost
 from launch_ros.actions import Node
 from launch_ros.substitutions import FindPackageShare
 
@@ -17,4 +18,7 @@ def generate_launch_description():
             ExecuteProcess(cmd=['true']),
             ExecuteProcess(cmd=['false'], machine='local'),
         ], machine='base', ns='base'),
+        OnMachineLost([Shutdown(reason=[LaunchConfiguration('event.machine'), ' is lost'])], machine='arm', once=True,
+                      name='lost'),
+        OnMachineLost([LogInfo(msg=LaunchConfiguration('event.processes'))]),
     ])

@@ -138,6 +138,24 @@ TEST(EventHandlersText, SaysWhatIsWrongAtItsPlace) {
             "      = help: add respawn_delay, the first delay in seconds");
 }
 
+TEST(EventHandlersText, AMachineThatCanBeLostIsDeclared) {
+  EXPECT_EQ(plan_error("<on_machine_lost machine=\"\"/>"),
+            "/test/system.launch.xml:2:27: error: the name of the machine is empty\n"
+            "    2 | <on_machine_lost machine=\"\"/>\n"
+            "      |                           ^\n"
+            "      = help: leave the attribute out to mean every other machine");
+  EXPECT_EQ(plan_error("<on_machine_lost machine=\"local\"/>"),
+            "/test/system.launch.xml:2:27: error: there is no connection to this machine\n"
+            "    2 | <on_machine_lost machine=\"local\"/>\n"
+            "      |                           ^~~~~\n"
+            "      = help: leave the attribute out to mean every other machine");
+  EXPECT_EQ(plan_error("<machine name=\"arm\" connect=\"ssh arm\"/><on_machine_lost machine=\"amr\"/>"),
+            "/test/system.launch.xml:2:66: error: there is no machine 'amr'\n"
+            "    2 | <machine name=\"arm\" connect=\"ssh arm\"/><on_machine_lost machine=\"amr\"/>\n"
+            "      |                                                                  ^~~\n"
+            "      = help: did you mean 'arm'?");
+}
+
 TEST(EventHandlersText, NumbersNeedNoQuotesInYaml) {
   const auto planned = plan_text(R"(launch:
 - executable: {cmd: a, cpus: 0, memory_limit: 4096}

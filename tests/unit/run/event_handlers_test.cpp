@@ -159,6 +159,28 @@ TEST_F(EventHandlersTest, OnShutdownCannotBeginAScope) {
   EXPECT_THAT(errors_, ElementsAre(HasSubstr("a trace can't begin when the system ends")));
 }
 
+TEST_F(EventHandlersTest, OnMachineLostHearsOfItsMachineOrOfEach) {
+  runner_.default_script({.exits_after = 3s});
+  LaunchService* launch = nullptr;
+  on_service = [&](LaunchService& service) { launch = &service; };
+  const auto first = loop_.after(1s, [&] {
+    launch->on_lost_machine({"arm", "its cable was cut", "talker-1, listener-2"});
+  });
+  const auto second = loop_.after(2s, [&] { launch->on_lost_machine({"base", "it was switched off", ""}); });
+  EXPECT_EQ(run(R"xml(<executable cmd="a"/>
+                   <machine name="arm" connect="local"/>
+                   <on_machine_lost machine="arm">
+                     <log message="$(var event.machine): $(var event.reason), $(var event.processes)"/>
+                     <executable cmd="instead"/>
+                   </on_machine_lost>
+                   <on_machine_lost once="true"><log message="once: $(var event.machine)"/></on_machine_lost>
+                   <on_machine_lost><log message="each: $(var event.machine)"/></on_machine_lost>)xml"),
+            0);
+  EXPECT_THAT(messages_, ElementsAre("[launch.user] arm: its cable was cut, talker-1, listener-2",
+                                     "[launch.user] once: arm", "[launch.user] each: arm", "[launch.user] each: base"));
+  EXPECT_THAT(journal_, testing::Contains("start instead-2"));
+}
+
 TEST_F(EventHandlersTest, HandlersAloneKeepNothingAlive) {
   EXPECT_EQ(run(R"xml(<on_process_exit><log message="never"/></on_process_exit>)xml"), 0);
   EXPECT_THAT(messages_, IsEmpty());

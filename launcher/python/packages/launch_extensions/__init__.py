@@ -70,17 +70,13 @@ class RestartProcess(Action):
         return [entity('restart', self._place(), [('process', self._process), *self._when()])]
 
 
-class _OfProcess(Action):
-    """A handler of an event of the process of an action, of the process with a name, or of every process."""
+class _OfEvent(Action):
+    """A handler of an event."""
 
-    def __init__(self, actions, *, process=None, once=False, name=None, **kwargs):
-        from launch.actions._processes import name_of_process
+    def __init__(self, actions, *, once=False, name=None, **kwargs):
         super().__init__(**kwargs)
         self._actions = actions
         self._attributes = []
-        if process is not None:
-            process = name_of_process(process, 'process') if isinstance(process, Action) else text(process, 'process')
-            self._attributes.append(('process', process))
         if once:
             self._attributes.append(('once', 'true'))
         if name is not None:
@@ -94,6 +90,17 @@ class _OfProcess(Action):
                        entities(self._actions, self._place()))]
 
 
+class _OfProcess(_OfEvent):
+    """A handler of an event of the process of an action, of the process with a name, or of every process."""
+
+    def __init__(self, actions, *, process=None, **kwargs):
+        from launch.actions._processes import name_of_process
+        super().__init__(actions, **kwargs)
+        if process is not None:
+            process = name_of_process(process, 'process') if isinstance(process, Action) else text(process, 'process')
+            self._attributes.insert(0, ('process', process))
+
+
 class OnHealthChange(_OfProcess):
     """Visits its actions each time a process has become healthy or unhealthy; <on_health_change> in XML."""
 
@@ -105,10 +112,21 @@ class OnHealthChange(_OfProcess):
             self._attributes.append(('to', text(to, 'to')))
 
 
+class OnMachineLost(_OfEvent):
+    """Visits its actions when the connection to another machine is lost; <on_machine_lost> in XML."""
+
+    _TAG = 'on_machine_lost'
+
+    def __init__(self, actions, *, machine=None, **kwargs):
+        super().__init__(actions, **kwargs)
+        if machine is not None:
+            self._attributes.append(('machine', text(machine, 'machine')))
+
+
 class OnStartLimit(_OfProcess):
     """Visits its actions when a process has been started as often as its start_limit allows; <on_start_limit> in XML."""
 
     _TAG = 'on_start_limit'
 
 
-__all__ = ['AssignMachine', 'Machine', 'OnHealthChange', 'OnStartLimit', 'RestartProcess', 'WaitFor']
+__all__ = ['AssignMachine', 'Machine', 'OnHealthChange', 'OnMachineLost', 'OnStartLimit', 'RestartProcess', 'WaitFor']
