@@ -8,6 +8,8 @@
 #include <exception>
 #include <fstream>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "base/diagnostics/command_error.hpp"
 #include "base/diagnostics/diagnostic.hpp"
@@ -67,6 +69,21 @@ void calibrate(const Arguments& arguments, const Figures& recorded, double durat
   std::filesystem::remove_all(trace);
 }
 
+// The error for a size that was given for a topic that the twin does not have, or "".
+std::string unknown_topic_error(const Arguments& arguments, const System& system) {
+  std::vector<std::string> topics;
+  for (const auto& topic : system.topics) {
+    topics.push_back(topic.name);
+  }
+  for (const auto& [name, bytes] : arguments.sizes) {
+    if (std::find(topics.begin(), topics.end(), name) == topics.end()) {
+      return launch::usage_error(kCommand, fmt::format("--size: the twin has no topic '{}'", name),
+                                 launch::did_you_mean(name, topics));
+    }
+  }
+  return {};
+}
+
 std::string head_of(const Arguments& arguments, const System& system) {
   const auto number = [](std::size_t count, const char* noun, const char* ending = "s") {
     return fmt::format("{} {}{}", count, noun, count == 1 ? "" : ending);
@@ -100,6 +117,10 @@ int twin(const Arguments& arguments) {
   if (system.callbacks.empty()) {
     throw std::runtime_error(
         fmt::format("the trace in '{}' has no callbacks of nodes to make a twin of", arguments.directory.string()));
+  }
+  if (const std::string error = unknown_topic_error(arguments, system); !error.empty()) {
+    fmt::print(stderr, "{}", error);
+    return launch::kWrongCommandLine;
   }
   const auto apply_what_ifs = [&](System& changed) {
     for (const std::string& what_if : arguments.what_ifs) {

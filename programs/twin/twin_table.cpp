@@ -181,6 +181,7 @@ std::string table_of(const Comparison& comparison, std::size_t top) {
 std::string json_of(const Comparison& comparison) {
   const std::vector<Row> rows = rows_of(comparison);
   nlohmann::ordered_json json;
+  json["version"] = 1;
   json["figures"] = nlohmann::ordered_json::array();
   for (const Row& row : rows) {
     nlohmann::ordered_json one = {{"kind", kKinds[static_cast<std::size_t>(row.key.kind)]},

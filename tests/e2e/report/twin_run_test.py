@@ -60,6 +60,7 @@ class Twin(unittest.TestCase):
 
     def test_a_simulation_of_the_system_as_it_was_has_its_figures(self):
         result = json.loads(self.launch('twin', self.trace, '--json', '--what-if', 'duration(/pong)*3').stdout)
+        self.assertEqual(result['version'], 1)
         for one in result['figures']:
             with self.subTest(one['name']):
                 if one['kind'] == 'callback':
@@ -95,6 +96,13 @@ class Twin(unittest.TestCase):
         self.assertIn("--what-if:1:10: error: the twin has no node '/pnog'", run.stderr)
         self.assertIn("did you mean '/pong'?", run.stderr)
         self.assertEqual(run.stdout, '')
+
+    def test_a_size_for_a_topic_that_is_not_there_is_an_error(self):
+        run = self.launch('twin', self.trace, '--size', '/pingg=100', code=2)
+        self.assertEqual(run.stdout, '')
+        self.assertEqual(run.stderr, "launch twin: error: --size: the twin has no topic '/pingg'\n"
+                                     "      = help: did you mean '/ping'?\n"
+                                     "      = help: see 'launch twin --help'\n")
 
     def test_says_what_it_cannot_do(self):
         run = self.launch('twin', self.directory, '--run', code=2)

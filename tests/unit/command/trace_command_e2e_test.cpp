@@ -241,6 +241,33 @@ TEST_F(TraceCommandE2e, VerbOnASessionThatDoesNotExistIsAnError) {
             "      = help: `launch trace list` shows the sessions that exist\n");
 }
 
+TEST_F(TraceCommandE2e, StoppingASessionAgainLeavesTheVerdictOfItsTrace) {
+  EXPECT_EQ(run_command({TRACE_COMMAND, "start", "run"}).exit_code, 0);
+  TracedApp(10, 10).end();
+  EXPECT_EQ(run_command({TRACE_COMMAND, "pause", "run"}).exit_code, 0);
+  EXPECT_EQ(run_command({TRACE_COMMAND, "resume", "run"}).exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(trace + "/verdict.json")) << "that of the pause";
+  EXPECT_EQ(run_command({TRACE_COMMAND, "stop", "run"}).exit_code, 0);
+  const std::string verdict = test_support::read_file(trace + "/verdict.json");
+  EXPECT_THAT(verdict, testing::HasSubstr("\"complete\": true"));
+  const CommandResult again = run_command({TRACE_COMMAND, "stop", "run"});
+  EXPECT_EQ(again.exit_code, 1);
+  EXPECT_EQ(again.err,
+            "launch trace stop: error: cannot stop trace session 'run': Session name not found\n"
+            "      = help: `launch trace list` shows the sessions that exist\n");
+  EXPECT_EQ(test_support::read_file(trace + "/verdict.json"), verdict);
+}
+
+TEST_F(TraceCommandE2e, StoppingASessionOfSnapshotsAgainWritesNoVerdict) {
+  EXPECT_EQ(run_command({TRACE_COMMAND, "start", "run", "--snapshot-mode"}).exit_code, 0);
+  TracedApp app(10, 10);
+  EXPECT_EQ(run_command({TRACE_COMMAND, "record_snapshot", "run"}).exit_code, 0);
+  EXPECT_EQ(run_command({TRACE_COMMAND, "stop", "run"}).exit_code, 0);
+  app.end();
+  EXPECT_EQ(run_command({TRACE_COMMAND, "stop", "run"}).exit_code, 1);
+  EXPECT_FALSE(std::filesystem::exists(trace + "/verdict.json"));
+}
+
 TEST_F(TraceCommandE2e, WithoutLttngTheExitCodeIsTwo) {
   const CommandResult result =
       run_command({.argv = {TRACE_COMMAND, "start", "run"}, .environment = {{"PATH", "/nowhere"}}});

@@ -99,6 +99,13 @@ void write_failed_verdict(const std::string& session_name, const std::string& di
   }
 }
 
+// A session that ended before has its verdict, or its snapshots have theirs.
+bool is_judged(const std::string& directory) {
+  std::error_code none;
+  return std::filesystem::exists(std::filesystem::path(directory) / kVerdictFile, none) ||
+         !snapshots_in(directory).empty();
+}
+
 // Without its session nobody else would end it.
 void end_kernel_recorder(const std::string& directory) {
   if (!directory.starts_with('/')) {
@@ -191,7 +198,8 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
     const bool is_known = session && !session->path.empty();
     const std::string directory = is_known ? session->path : config.over_network() ? "" : config.trace_directory();
     end_kernel_recorder(directory);
-    if (!config.records_snapshots()) {
+    const bool ended_before = !session && !config.append_trace && is_judged(directory);
+    if (!config.records_snapshots() && !ended_before) {
       write_failed_verdict(name, directory, error.what());
     }
     throw;
@@ -326,7 +334,13 @@ std::optional<LossAccount> LttngTracer::pause(const std::string& name) {
 
 void LttngTracer::resume(const std::string& name) {
   check_daemons_not_stopped();
+  const std::optional<SessionSummary> session = find_session(name);
   check_lttng(lttng_start_tracing(name.c_str()), fmt::format("resume trace session '{}'", name));
+  if (session && session->path.starts_with('/')) {
+    // The verdict of the pause does not know what comes now.
+    std::error_code none;
+    std::filesystem::remove(std::filesystem::path(session->path) / kVerdictFile, none);
+  }
   note_resume(CounterDirectory::of_session(name), name);
   resume_kernel_recorder(recorder_directory(name));
 }
