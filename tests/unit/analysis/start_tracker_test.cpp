@@ -78,10 +78,10 @@ class StartOfProcesses : public ::testing::Test {
   }
 
   std::vector<std::pair<ProcessId, std::int64_t>> ends_;
+  TemporaryDirectory directory_;
 
  private:
-  TemporaryDirectory directory_;
-  TraceWriter writer_{directory_.path()};
+  TraceWriter writer_{directory_.path() / "first"};
   std::optional<std::uint16_t> exec_;
   std::optional<std::uint16_t> signal_;
 };
@@ -120,6 +120,22 @@ TEST_F(StartOfProcesses, IsUnknownWhenTheTraceBeganLater) {
   const std::vector<StartResult> starts = results();
   ASSERT_EQ(starts.size(), 1u);
   EXPECT_EQ(starts[0].node_after_ns, std::nullopt);
+  EXPECT_EQ(starts[0].ready_after_ns, std::nullopt);
+}
+
+TEST_F(StartOfProcesses, IsUnknownBehindTheNodeWhenOnlyALaterSessionHasTheExecutors) {
+  constexpr Thread kDump{71, 79, "talker-ust"};
+  exec(1'000, 1'000, "talker-1", 71);
+  write(2'000, kTalker, ros2::RclInit{7, "8.10.1"});
+  write(3'000, kTalker, ros2::RclNodeInit{1, 2, "talker", "/"});
+  TraceWriter later(directory_.path() / "later", {.identity = 2});
+  later.write(0, kEpoch + 8'000, kDump, ros2::RclInit{7, "8.10.1"});
+  later.write(0, kEpoch + 8'500, kTalker, ros2::RclcppExecutorGetNextReady{});
+  later.finish();
+  const std::vector<StartResult> starts = results();
+  ASSERT_EQ(starts.size(), 1u);
+  EXPECT_EQ(starts[0].init_after_ns, 1'000);
+  EXPECT_EQ(starts[0].node_after_ns, 2'000);
   EXPECT_EQ(starts[0].ready_after_ns, std::nullopt);
 }
 

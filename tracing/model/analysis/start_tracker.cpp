@@ -95,8 +95,12 @@ void StartTracker::on_event(const Event& event, ProcessId id, Kind kind) {
       process.node_ns = event.timestamp_ns;
     }
   } else if (process.node_ns && !process.executor_ns) {
-    process.executor_ns = event.timestamp_ns;
     process.is_told = true;
+    if (*begins_[event.event_class->trace] > *process.node_ns) {
+      process.runs_late = true;
+    } else {
+      process.executor_ns = event.timestamp_ns;
+    }
   }
 }
 
@@ -197,6 +201,9 @@ StartResult StartTracker::result_of(const Start& start, const ProcessTable& proc
   result.init_after_ns = after(known.init_ns);
   result.node_after_ns = after(known.node_ns);
   result.ready_after_ns = after(known.executor_ns);
+  if (known.runs_late) {
+    return result;
+  }
   const FirstActivityRecord activity = first.of(*process);
   result.callback_after_ns = after(activity.callback_ns);
   result.publication_after_ns = after(activity.publication_ns);

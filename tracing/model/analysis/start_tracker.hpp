@@ -4,6 +4,7 @@
 //
 // A process is "ready" when one of its executors waits or looks for work for the first time: everything that the
 // program makes before it spins exists then. ROS 2 has no event for this, and the processes record nothing more for it.
+// Where only a session that began after the node has events of executors, as in a dual session, this is unknown.
 #pragma once
 
 #include <cstdint>
@@ -23,6 +24,7 @@ namespace tracing {
 class StartTracker {
  public:
   void on_event(const Event& event, ProcessId process) {
+    note_begin(event);
     const Kind kind = kind_of(*event.event_class);
     if (kind == Kind::kOther ||
         (kind == Kind::kExecutor && process < processes_.size() && processes_[process].is_told)) {
@@ -57,9 +59,10 @@ class StartTracker {
     std::optional<std::int64_t> init_ns;
     std::optional<std::int64_t> node_ns;
     std::optional<std::int64_t> executor_ns;
-    bool late = false;     // the trace began after the process
-    bool is_seen = false;  // it has had one of these events
-    bool is_told = false;  // no event of an executor tells more
+    bool late = false;       // the trace began after the process
+    bool runs_late = false;  // the trace with its executors began after its first node
+    bool is_seen = false;    // it has had one of these events
+    bool is_told = false;    // no event of an executor tells more
   };
   struct Start {
     StartResult result;
@@ -73,6 +76,15 @@ class StartTracker {
     return kind == Kind::kUnknown ? find_kind(event_class) : kind;
   }
   Kind find_kind(const EventClass& event_class);
+  void note_begin(const Event& event) {
+    const std::size_t trace = event.event_class->trace;
+    if (trace >= begins_.size()) {
+      begins_.resize(trace + 1);
+    }
+    if (!begins_[trace]) {
+      begins_[trace] = event.timestamp_ns;
+    }
+  }
   void on_event(const Event& event, ProcessId process, Kind kind);
   void on_launcher_event(const Event& event, ProcessId launcher, Kind kind);
   void end(ProcessId launcher, const std::string& process, std::int64_t time_ns);
@@ -86,7 +98,8 @@ class StartTracker {
   std::vector<StartCondition> conditions_;
   std::string spawned_;  // the process that the launcher is about to start
   std::optional<std::int64_t> spawn_ns_;
-  std::vector<Process> processes_;  // by ProcessId; may be shorter
+  std::vector<Process> processes_;                   // by ProcessId; may be shorter
+  std::vector<std::optional<std::int64_t>> begins_;  // the first event of each trace; may be shorter
   // How far zero of CLOCK_MONOTONIC, the field `time` of the launcher's events, is behind the epoch, at most.
   std::optional<std::int64_t> monotonic_zero_ns_;
 };
