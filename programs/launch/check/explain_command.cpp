@@ -94,7 +94,8 @@ std::string page() {
   std::string text =
       "# Findings of launch check\n\n"
       "`launch explain --markdown` prints this page, and `launch explain ID` one section of it. An error of an action\n"
-      "that its condition leaves out is a warning. `launch check --disable ID` leaves a finding out.\n";
+      "that its condition leaves out is a warning. Unknown names and missing attributes are errors there, too.\n"
+      "`launch check --disable ID` leaves a finding out.\n";
   for (const FindingInfo& info : finding_table()) {
     text +=
         fmt::format("\n## {}: {}\n\nSeverity: {}.\n\n{}\n```{}\n{}```\n", finding_id(info.finding), info.title,

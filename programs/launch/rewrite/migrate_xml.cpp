@@ -187,7 +187,7 @@ class Migration {
     } else if (made.name == "test" || made.name == "machine") {
       left(piece.name, fmt::format("'{}' is not known to ROS 2", made.name),
            made.name == "test" ? "tests are programs of their own, or files for launch test (docs/testing.md)"
-                               : "ROS 2 launches on one machine; start a launch file on each");
+                               : "launch has machines with a command that leads there (docs/machines.md)");
     }
   }
 

@@ -23,7 +23,7 @@ inline constexpr const char* kVerdictFile = "verdict.json";
 // help against such an overload. A channel in files of a limited size gets more sub-buffers, but not larger ones.
 void explain_losses(LossAccount& account, const std::vector<Stream>& streams);
 
-inline constexpr std::uint64_t kBytesPerLostEvent = 128;  // an event of ros2 with the three contexts has 60 to 110
+inline constexpr std::uint64_t kBytesPerLostEvent = 128;  // an event of ros2 with the three contexts has 45 on average
 inline constexpr std::uint64_t kAdvisedSubbuffers = 4;
 inline constexpr std::uint64_t kLargestAdvice = std::uint64_t{256} << 20;  // bytes for each processor and channel
 

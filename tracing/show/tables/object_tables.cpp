@@ -74,7 +74,7 @@ void add_object_tables(const TracedSystem& system, std::vector<Table>& tables) {
           const ProcessResult* result = result_of(all, process);
           return result == nullptr ? Cell{} : number(result->events);
         },
-        ""},
+        "`NULL` for the launcher"},
        {"doubtful", kInteger,
         [](System all, const auto& process) {
           const ProcessResult* result = result_of(all, process);

@@ -127,7 +127,7 @@ inline constexpr Field<SubscriptionResult> SubscriptionResult::kFields[] = {
     {"transport", &SubscriptionResult::transport, "on the way"},
     {"executor", &SubscriptionResult::executor, "waiting for the executor"},
     {"take", &SubscriptionResult::take, "from the take to the callback"},
-    {"estimated", &SubscriptionResult::estimated, "as in `topics`: part of `received`"},
+    {"estimated", &SubscriptionResult::estimated, "as of the topic: part of `received`"},
     {"unidentified", &SubscriptionResult::unidentified, "likewise; they count as neither lost nor overwritten"},
     {"doubtful", &SubscriptionResult::doubtful, "the process of either side may have lost events"},
 };
