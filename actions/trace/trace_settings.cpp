@@ -70,6 +70,15 @@ SettingPlace snapshot_signal(TraceRequest& request) {
       }};
 }
 
+void perform_snapshot_limit(const Fields& fields, Scope& scope, TraceRequest& request) {
+  NumberField limit = *fields.number("snapshot-limit");
+  limit.require_not_negative();
+  request.config.snapshot_limit = static_cast<std::uint64_t>(limit.perform(scope));
+  if (request.config.snapshot_limit == 0) {
+    throw LaunchError("snapshot-limit is at least 1, got 0", fields.where("snapshot-limit"));
+  }
+}
+
 SettingPlace tracetools_mode(TraceRequest& request) {
   return SettingChoice{
       {"auto", "own", "theirs"}, static_cast<std::size_t>(request.choices.tracetools), [&request](std::size_t word) {
@@ -315,6 +324,7 @@ std::vector<Setting<TraceRequest>> make_trace_settings() {
        .shown = "snapshot-on-late-message"},
       {.attribute = extension("snapshot-limit", Type::kInteger, "10", "snapshots that are kept, the newest ones"),
        .place = at(&Config::snapshot_limit),
+       .perform = perform_snapshot_limit,
        .shown = "snapshot-limit"},
       {.attribute =
            extension("snapshot-size", Type::kInteger, "10 userspace sub-buffers", "bytes of a snapshot at most"),

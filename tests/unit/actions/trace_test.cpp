@@ -163,6 +163,8 @@ TEST(Trace, MalformedEventsAreErrorsAtTheirPlaceBeforeAnythingStarts) {
               HasSubstr(":2:40: error: buffers-ust is expected to be uid or pid, got 'gid'"));
   EXPECT_THAT(plan_actions(R"xml(<trace session-name="run" tracetools="their"/>)xml").error,
               HasSubstr(":2:39: error: tracetools is expected to be auto or own or theirs, got 'their'"));
+  EXPECT_THAT(plan_actions(R"xml(<trace session-name="run" snapshot-limit="0"/>)xml").error,
+              HasSubstr(":2:43: error: snapshot-limit is at least 1, got 0"));
 }
 
 std::string preload_of(const launch::ProcessSpec& spec) {
