@@ -20,6 +20,7 @@
 #include "tracing/record/account/event_cost.hpp"
 #include "tracing/record/account/loss_account.hpp"
 #include "tracing/record/account/loss_text.hpp"
+#include "tracing/record/lttng/daemons_kept_going.hpp"
 #include "tracing/record/plan/trace_config.hpp"
 #include "tracing/record/plan/trace_error.hpp"
 #include "tracing/record/session/session_details.hpp"
@@ -135,7 +136,8 @@ void finish(const TraceOptions& options, Tracer& tracer, const std::function<boo
   }
 }
 
-// A session that existed before a launch, or a command, is not theirs.
+// A session that existed before a launch, or a command, is not theirs. A session daemon that is stopped does not tell
+// how old a session is, so whoever asks at the end of one keeps it going (DaemonsKeptGoing).
 bool is_older(const std::string& session_name, std::int64_t seconds, Tracer& tracer) {
   const std::vector<SessionSummary> sessions = tracer.sessions();
   return std::any_of(sessions.begin(), sessions.end(), [&](const SessionSummary& session) {
@@ -143,9 +145,20 @@ bool is_older(const std::string& session_name, std::int64_t seconds, Tracer& tra
   });
 }
 
+// Says which daemons it has continued.
+bool is_older_with_notes(const TraceOptions& options, Tracer& tracer) {
+  const DaemonsKeptGoing daemons;
+  const bool older = is_older(options.config.lttng_session_name(), *options.created_since, tracer);
+  for (const std::string& note : daemons.notes()) {
+    fmt::print(stderr, "{}: note: {}\n", options.command, note);
+  }
+  return older;
+}
+
 // Ends the session of this command, from another process.
 std::function<void()> ending(const TraceConfig& config, Tracer& tracer) {
   return [&config, &tracer, begin = std::time(nullptr)] {
+    const DaemonsKeptGoing daemons;
     if (!is_older(config.lttng_session_name(), begin, tracer)) {
       tracer.finish(config, [] { return false; });
     }
@@ -240,7 +253,7 @@ void run_verb(const TraceOptions& options, Tracer& tracer) {
       if (!options.config.event_counters.empty()) {
         counters.emplace(options.config.event_counters);
       }
-      if (options.created_since && is_older(session_name, *options.created_since, tracer)) {
+      if (options.created_since && is_older_with_notes(options, tracer)) {
         print_line(fmt::format("trace session '{}' is left as it is: it is older", session_name));
         return;
       }

@@ -194,6 +194,21 @@ TEST_F(TraceCommandE2e, NoVerbWaitsForAStoppedDaemonAndTheEndOfASessionContinues
                           ") was stopped; it was continued, so that the session could end\n");
 }
 
+// The guardian of a killed launcher asks how old the session is.
+TEST_F(TraceCommandE2e, AStoppedDaemonIsContinuedToTellTheAgeOfASession) {
+  EXPECT_EQ(run_command({TRACE_COMMAND, "start", "run"}).exit_code, 0);
+  const pid_t daemon = std::stoi(
+      test_support::read_file(geteuid() == 0 ? "/run/lttng/lttng-sessiond.pid"
+                                             : std::string(getenv("LTTNG_HOME")) + "/.lttng/lttng-sessiond.pid"));
+  kill(daemon, SIGSTOP);
+  ASSERT_EQ(waitpid(daemon, nullptr, WUNTRACED), daemon);  // it is an orphan now, so it is a child of the sandbox
+  const CommandResult stop = run_command({TRACE_COMMAND, "stop", "run", "--created-since=0"});
+  EXPECT_EQ(stop.exit_code, 0);
+  EXPECT_EQ(stop.err, "launch trace stop: note: LTTng's session daemon (process " + std::to_string(daemon) +
+                          ") was stopped; it was continued, so that the session could end\n");
+  EXPECT_EQ(listed_sessions(), "");
+}
+
 TEST_F(TraceCommandE2e, ASessionWithoutASnapshotNamesNoFolder) {
   EXPECT_EQ(run_command({TRACE_COMMAND, "start", "run", "--snapshot-mode"}).exit_code, 0);
   EXPECT_EQ(run_command({TRACE_COMMAND, "stop", "run"}).out,
