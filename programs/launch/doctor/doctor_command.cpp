@@ -5,9 +5,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "base/diagnostics/command_error.hpp"
@@ -74,6 +76,10 @@ int doctor_command(const Words& words) {
     fmt::print(stderr, "{}",
                command_error("launch doctor", fmt::format("'{}' is no list of CPUs", cpus),
                              "write numbers and ranges, such as 0,2-3"));
+    return kWrongCommandLine;
+  }
+  if (std::error_code error; !std::filesystem::is_directory(root, error)) {
+    fmt::print(stderr, "{}", usage_error("launch doctor", fmt::format("--root: there is no directory '{}'", root)));
     return kWrongCommandLine;
   }
   const Machine machine(root);

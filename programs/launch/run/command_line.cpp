@@ -9,9 +9,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <stdexcept>
 #include <string_view>
 
 #include "base/diagnostics/command_error.hpp"
+#include "launcher/process/output/old_logs.hpp"
 #include "programs/launch/commands.hpp"
 
 namespace launch {
@@ -139,6 +141,13 @@ std::variant<CommandLine, ExitNow> parse_command_line(const std::vector<std::str
     return ExitNow{kWrongCommandLine};
   }
 
+  if (!command.keep_logs.empty()) {
+    try {
+      parse_log_limits(command.keep_logs);
+    } catch (const std::invalid_argument& error) {
+      return wrong_use(fmt::format("--keep-logs: {}", error.what()));
+    }
+  }
   for (const std::string& wish : log_levels) {
     const std::size_t separator = wish.find(":=");
     const std::string level = separator == std::string::npos ? wish : wish.substr(separator + 2);

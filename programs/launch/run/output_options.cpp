@@ -57,7 +57,14 @@ LogLimits log_limits(const CommandLine& command, const Environment& environment)
     return parse_log_limits(command.keep_logs);
   }
   const auto variable = environment.find("OVERRIDE_LAUNCH_KEEP_LOGS");
-  return variable == environment.end() || variable->second.empty() ? LogLimits() : parse_log_limits(variable->second);
+  if (variable == environment.end() || variable->second.empty()) {
+    return LogLimits();
+  }
+  try {
+    return parse_log_limits(variable->second);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("OVERRIDE_LAUNCH_KEEP_LOGS: {}", error.what()));
+  }
 }
 
 }  // namespace launch

@@ -80,10 +80,16 @@ std::vector<Debugged> find_running(const std::string& name, const std::string& w
   ControlClient launch = choose_launch(own_environment(), wanted);
   const Json answer = launch.ask({{"do", "ps"}, {"processes", {name}}});
   std::vector<Debugged> found;
+  std::string machine;
   for (const Json& process : answer["processes"]) {
     if (process.contains("pid")) {
       found.push_back(program_below(process["name"].get<std::string>(), process["pid"].get<pid_t>()));
+    } else if (process.contains("pid_there")) {
+      machine = process["machine"].get<std::string>();
     }
+  }
+  if (found.empty() && !machine.empty()) {
+    throw ControlError(fmt::format("'{}' runs on machine '{}', which a debugger here does not reach", name, machine));
   }
   if (found.empty()) {
     throw ControlError(fmt::format("'{}' does not run", name), "launch start starts it");

@@ -159,6 +159,13 @@ class Doctor(unittest.TestCase):
         self.assertEqual(result.stderr, "launch doctor: error: 'two' is no list of CPUs\n"
                                         "      = help: write numbers and ranges, such as 0,2-3\n")
 
+    def test_a_machine_that_is_no_directory(self):
+        result = subprocess.run([LAUNCH, 'doctor', '--root', self.root / 'none'], capture_output=True, text=True, timeout=60,
+                                check=False)
+        self.assertEqual((result.returncode, result.stdout), (2, ''))
+        self.assertEqual(result.stderr, f"launch doctor: error: --root: there is no directory '{self.root / 'none'}'\n"
+                                        "      = help: see 'launch doctor --help'\n")
+
     def test_this_machine(self):
         result = subprocess.run([LAUNCH, 'doctor', '--json'], capture_output=True, text=True, timeout=60, check=False)
         self.assertIn(result.returncode, (0, 1))

@@ -150,10 +150,17 @@ TEST_F(OutputOptions, LogsOfEarlierLaunchesAreRemoved) {
   EXPECT_FALSE(fs::exists(logs[1]));
   EXPECT_TRUE(fs::exists(logs[2]));
   const CommandResult wrong = run_command({LAUNCH_PROGRAM, "--keep-logs", "2x", file});
-  EXPECT_EQ(wrong.exit_code, 1);
-  EXPECT_THAT(wrong.err,
-              HasSubstr("'2x' is no limit for logs, expected such as 200,90d,4G (directories, days, bytes), or "
-                        "all"));
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_EQ(wrong.err,
+            "launch: error: --keep-logs: '2x' is no limit for logs, expected such as 200,90d,4G (directories, days, "
+            "bytes), or all\n"
+            "      = help: see 'launch --help'\n");
+  const CommandResult wrong_variable =
+      run_command({.argv = {LAUNCH_PROGRAM, file}, .environment = {{"OVERRIDE_LAUNCH_KEEP_LOGS", "2x"}}});
+  EXPECT_EQ(wrong_variable.exit_code, 1);
+  EXPECT_EQ(wrong_variable.err,
+            "launch: error: OVERRIDE_LAUNCH_KEEP_LOGS: '2x' is no limit for logs, expected such as 200,90d,4G "
+            "(directories, days, bytes), or all\n");
 }
 
 }  // namespace

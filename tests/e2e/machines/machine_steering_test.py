@@ -40,6 +40,10 @@ class MachineSteering(MachinesTest):
         self.assertIn('pid', self.processes(launch)['here-2'])
         self.assertIn('running on arm', self.launch('ps', *chosen).stdout)
         self.assertIn('[arm:there-1] ready', self.launch('logs', 'there', *chosen).stdout)
+        for command in 'gdb', 'stack':
+            refused = self.launch(command, 'there', *chosen)
+            self.assertEqual((refused.returncode, refused.stdout), (
+                1, f"launch {command}: error: 'there' runs on machine 'arm', which a debugger here does not reach\n"))
         self.launch('signal', 'there', 'USR1', *chosen)
         launch.lines.wait_for('[arm:there-1] got it')
         self.assertEqual(self.launch('restart', 'there', *chosen).returncode, 0)
