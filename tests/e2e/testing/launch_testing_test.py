@@ -208,8 +208,10 @@ print(root.attrib['tests'], sorted({case.get('classname') + '/' + case.get('name
 
     def test_a_description_without_ready_to_test(self):
         output = self.run_tests('no_ready.py', code=1)
-        self.assertIn('generate_test_description functions must return a LaunchDescription containing a ReadyToTest '
-                      'action', output)
+        self.assertIn('no_ready.py:6:1: error: generate_test_description functions must return a LaunchDescription containing a '
+                      'ReadyToTest action\n'
+                      '    6 | def generate_test_description():\n'
+                      '      | ^~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~\n', output)
 
     def test_a_skipped_description(self):
         _, outcomes = self.outcomes('skipped.py')

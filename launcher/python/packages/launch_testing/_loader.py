@@ -9,12 +9,22 @@ import sys
 import types
 import unittest
 
-from launch._places import note_source
+from launch._places import note_source, of_function
+from launch._values import LaunchFileError
 from launch_testing.actions import ReadyToTest
 
 
-class TestFileError(Exception):
-    """The file is no file of launch tests."""
+class TestFileError(LaunchFileError):
+    """The file is no file of launch tests. `place` is where it says so, if that is known."""
+
+    def __init__(self, message, place=None):
+        super().__init__(message)
+        self.of_element = place
+
+
+def place_of_description(function):
+    """Of a generate_test_description(), also of one with parameters."""
+    return of_function(inspect.unwrap(getattr(function, 'func', function)))
 
 
 def _stand_in_for_pytest():
@@ -49,7 +59,7 @@ def load_module(path, name):
     sys.path.insert(0, os.path.dirname(path))
     exec(compile(source, path, 'exec', dont_inherit=True), module.__dict__)
     if not callable(getattr(module, 'generate_test_description', None)):
-        raise TestFileError(f"'{path}' has no generate_test_description(), which returns a LaunchDescription")
+        raise TestFileError(f"'{path}' has no generate_test_description(), which returns a LaunchDescription", (path, 1, 0, 0))
     return module
 
 
@@ -77,7 +87,7 @@ class TestRun:
         if not takes_ready:
             if not ReadyToTest.made:
                 raise TestFileError('generate_test_description functions must return a LaunchDescription containing a '
-                                    'ReadyToTest action')
+                                    'ReadyToTest action', place_of_description(self.description))
             for action in ReadyToTest.made:
                 action._add_callback(ready)
         return description, dict(objects)
@@ -87,7 +97,7 @@ def runs_of(module):
     generate = module.generate_test_description
     pairs = list(generate()) if hasattr(generate, '__parametrized__') else [(generate, {})]
     if not pairs:
-        raise TestFileError(f"'{module.__file__}' has no test runs: its parametrize() has no values")
+        raise TestFileError(f"'{module.__file__}' has no test runs: its parametrize() has no values", place_of_description(generate))
     return [TestRun(module, description, arguments) for description, arguments in pairs]
 
 

@@ -38,7 +38,8 @@ class TestRun:
         description, objects = result if isinstance(result, tuple) else (result, {})
         if not ReadyToTest.made and not takes_it:
             raise _loader.TestFileError('generate_test_description functions must return a LaunchDescription containing a '
-                                        'ReadyToTest action')
+                                        'ReadyToTest action',
+                                        _loader.place_of_description(self._test_description_function))
         for action in ReadyToTest.made:
             action._add_callback(ready_fn)
         return description, dict(objects)
