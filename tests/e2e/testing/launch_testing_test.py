@@ -206,6 +206,14 @@ print(root.attrib['tests'], sorted({case.get('classname') + '/' + case.get('name
         self.assertIn('Timed out waiting for processes to start up: ReadyToTest was not visited within 0.01 s\n',
                       output)
 
+    def test_results_that_can_not_be_written(self):
+        blocked = self.directory / 'a_file'
+        blocked.write_text('')
+        output = self.run_tests('good.py', '--junit-xml', blocked / 'results.xml', code=1)
+        self.assertEqual(output.splitlines()[-1], f"launch_test: error: can't write '{blocked}/results.xml': File exists")
+        self.run_tests('good.py', '--junit-xml', self.directory / 'new' / 'results.xml')
+        self.assertTrue((self.directory / 'new' / 'results.xml').is_file())
+
     def test_a_description_without_ready_to_test(self):
         output = self.run_tests('no_ready.py', code=1)
         self.assertIn('no_ready.py:6:1: error: generate_test_description functions must return a LaunchDescription containing a '

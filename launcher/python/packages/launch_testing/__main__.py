@@ -146,7 +146,12 @@ def main():
         return 130
     if options.junit_xml:
         name = options.package_name or os.path.splitext(os.path.basename(files[0]))[0]
-        _write_junit(options.junit_xml, name, suites)
+        try:
+            os.makedirs(os.path.dirname(options.junit_xml) or '.', exist_ok=True)
+            _write_junit(options.junit_xml, name, suites)
+        except OSError as error:
+            print(f"launch_test: error: can't write '{options.junit_xml}': {error.strerror}", file=sys.stderr)
+            return 1
     for suite in suites:
         for case in suite.cases:
             if case['class'] == 'launch' and case['outcome'] not in ('passed', 'skipped'):
