@@ -16,6 +16,9 @@ constexpr std::size_t kUsualLines = 24;
 
 // Why nobody can attach to the process; "": it is possible.
 std::string why_not(const SteeredProcess& process, const ProcessSupervisor& supervisor) {
+  if (const std::string& machine = process.id == 0 ? "" : supervisor.view(process.id).spec.machine; !machine.empty()) {
+    return error_line(fmt::format("'{}' runs on machine '{}', whose terminals are not reached", process.name, machine));
+  }
   if (!process.tty) {
     return error_line(fmt::format("'{}' has no terminal of its own ({})", process.name, to_string(process.origin)),
                       "write tty=\"true\" there, and let launch reload restart it");

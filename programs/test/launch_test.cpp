@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -304,7 +305,10 @@ int run(const Options& options) {
     return 0;
   }
   queue.directory = fs::absolute(options.directory.empty() ? default_directory(environment) : options.directory);
-  fs::create_directories(queue.directory);
+  std::error_code failed;
+  if (fs::create_directories(queue.directory, failed); failed) {
+    throw std::runtime_error(fmt::format("cannot make '{}': {}", queue.directory.string(), failed.message()));
+  }
 
   const auto begin = std::chrono::steady_clock::now();
   TestReport report(stdout);
@@ -320,7 +324,11 @@ int run(const Options& options) {
   report.finish(results, is_open ? results.size() : tests.size() * queue.rounds, seconds_since(begin), interrupted);
   std::error_code not_empty;
   fs::remove(queue.directory, not_empty);
-  return conclude(options, results, interrupted);
+  const int code = conclude(options, results, interrupted);
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    throw std::runtime_error("cannot write the output");
+  }
+  return code;
 }
 
 // `words` come after "launch test". Returns the exit code: 0 when every test has passed, 1 when one has failed or a

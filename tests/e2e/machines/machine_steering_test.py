@@ -44,6 +44,9 @@ class MachineSteering(MachinesTest):
             refused = self.launch(command, 'there', *chosen)
             self.assertEqual((refused.returncode, refused.stdout), (
                 1, f"launch {command}: error: 'there' runs on machine 'arm', which a debugger here does not reach\n"))
+        refused = self.launch('attach', 'there', *chosen)
+        self.assertEqual((refused.returncode, refused.stdout), (
+            1, "launch attach: error: 'there-1' runs on machine 'arm', whose terminals are not reached\n"))
         self.launch('signal', 'there', 'USR1', *chosen)
         launch.lines.wait_for('[arm:there-1] got it')
         self.assertEqual(self.launch('restart', 'there', *chosen).returncode, 0)

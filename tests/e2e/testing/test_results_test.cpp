@@ -67,6 +67,18 @@ TEST_F(TestResults, WritesResultsForOtherPrograms) {
   EXPECT_TRUE(fs::exists(out / "files" / "0001-good" / "output.txt"));
 }
 
+TEST_F(TestResults, WhatCanNotBeWrittenIsAnError) {
+  const std::string file = write("a.launch.xml", R"xml(
+  <executable cmd="echo hello" name="greeter"/>
+  <test name="good"><output text="hello"/></test>)xml");
+  const CommandResult nowhere = run({file, "--directory", "/proc/files"});
+  EXPECT_EQ(nowhere.exit_code, 1);
+  EXPECT_EQ(nowhere.err, "launch test: error: cannot make '/proc/files': No such file or directory\n");
+  const CommandResult full = run_command({.argv = {"sh", "-c", "\"$0\" test \"$1\" >/dev/full", LAUNCH_PROGRAM, file}});
+  EXPECT_EQ(full.exit_code, 1);
+  EXPECT_EQ(full.err, "launch test: error: cannot write the output\n");
+}
+
 TEST_F(TestResults, AnEngineGetsEachTestAndGivesItsResult) {
   const std::string file = write("a.launch.xml", R"xml(
   <arg name="code"/>
