@@ -5,9 +5,9 @@ set(SANITIZE "" CACHE STRING "Sanitizers to build with: address,undefined or thr
 # On in the presets: the sources give no warnings with their compilers and options. Other compilers and other levels of
 # optimisation warn of other things, which must not stop the build of a release.
 option(WARNINGS_AS_ERRORS "Stop at warnings" OFF)
-option(SMALL_PROGRAMS "Compile for size what waits for processes, files and people" OFF)
+option(SMALL_PROGRAMS "Compile for size what waits for processes, files and people, and what shows them results" OFF)
 
-# For the folder that calls it, and those below. Whatever reads traces or runs in nodes stays compiled for speed.
+# For the folder that calls it, and those below. Whatever reads and analyses traces or runs in nodes stays compiled for speed.
 macro(compile_for_size)
   if(SMALL_PROGRAMS)
     add_compile_options(-Os)

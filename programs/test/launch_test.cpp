@@ -307,7 +307,7 @@ int run(const Options& options) {
   queue.directory = fs::absolute(options.directory.empty() ? default_directory(environment) : options.directory);
   std::error_code failed;
   if (fs::create_directories(queue.directory, failed); failed) {
-    throw std::runtime_error(fmt::format("cannot make '{}': {}", queue.directory.string(), failed.message()));
+    throw std::runtime_error(fmt::format("cannot make '{}': {}", queue.directory, failed.message()));
   }
 
   const auto begin = std::chrono::steady_clock::now();

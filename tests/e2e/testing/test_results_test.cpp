@@ -74,7 +74,7 @@ TEST_F(TestResults, WhatCanNotBeWrittenIsAnError) {
   const CommandResult nowhere = run({file, "--directory", "/proc/files"});
   EXPECT_EQ(nowhere.exit_code, 1);
   EXPECT_EQ(nowhere.err, "launch test: error: cannot make '/proc/files': No such file or directory\n");
-  const CommandResult full = run_command({.argv = {"sh", "-c", "\"$0\" test \"$1\" >/dev/full", LAUNCH_PROGRAM, file}});
+  const CommandResult full = run_command({"sh", "-c", "\"$0\" test \"$1\" >/dev/full", LAUNCH_PROGRAM, file});
   EXPECT_EQ(full.exit_code, 1);
   EXPECT_EQ(full.err, "launch test: error: cannot write the output\n");
 }
