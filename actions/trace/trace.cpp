@@ -6,11 +6,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
 
+#include "actions/trace/machines_trace.hpp"
 #include "actions/trace/trace_scope.hpp"
 #include "actions/trace/trace_settings.hpp"
 #include "base/diagnostics/diagnostic.hpp"
 #include "base/environment/test_run_variables.hpp"
+#include "launcher/traced/machine_recorder.hpp"
 #include "launcher/visit/at_machine.hpp"
 #include "launcher/visit/launch_context.hpp"
 #include "tracing/model/chains/chain_definition.hpp"
@@ -138,12 +143,9 @@ class Trace : public Action {
 
  protected:
   void execute(LaunchContext& context) const override {
-    if (!fields_.has("machine")) {
-      context.machines().require_only_this_machine(where());
-    } else if (const Template& machine = fields_.text("machine"); machine.perform(context.scope()) != kLocalMachine) {
-      throw LaunchError("a trace of another machine is not supported", machine.where(),
-                        "machine=\"local\" records this machine only", Finding::kExclusive);
-    }
+    MachinesTrace::Settings settings{.only = other_machine(context), .prefix = context.own_prefix()};
+    const bool only_here = fields_.has("machine") && !settings.only;
+    settings.collects = perform_collect(context, only_here);
     const AtMachine here(context, nullptr);
     Scope& scope = context.scope();
     TraceRequest request;
@@ -156,11 +158,90 @@ class Trace : public Action {
     find_faults(request.config, context);
     complete_choices(request.choices, context);
     request.config.snapshot_mode = request.config.snapshot_mode || request.choices.flight_recorder();
-    context.requests().scopes.push_back(
-        std::make_unique<TraceScope>(std::move(request), tracing::make_lttng_tracer(), context.own_prefix(), where()));
+    if (!only_here) {
+      find_settings_of_one_machine(request, settings.only, context);
+    }
+    std::unique_ptr<TraceScope> scope_here;
+    if (!settings.only) {
+      scope_here = std::make_unique<TraceScope>(request, tracing::make_lttng_tracer(), context.own_prefix(), where());
+    }
+    if (only_here) {
+      context.requests().scopes.push_back(std::move(scope_here));
+    } else {
+      context.requests().scopes.push_back(std::make_unique<MachinesTrace>(
+          std::move(request), std::move(scope_here), context.machines().recorders(), std::move(settings), where()));
+    }
   }
 
  private:
+  // The one that the trace is for, if it is not this one.
+  std::optional<std::string> other_machine(LaunchContext& context) const {
+    if (!fields_.has("machine")) {
+      return std::nullopt;
+    }
+    const Template& machine = fields_.text("machine");
+    const std::shared_ptr<MachineView> view =
+        context.machines().find(machine.perform(context.scope()), machine.where());
+    return view == nullptr ? std::nullopt : std::optional(view->name());
+  }
+
+  bool perform_collect(LaunchContext& context, bool only_here) const {
+    if (!fields_.has("collect")) {
+      return true;
+    }
+    const Template& text = fields_.text("collect");
+    if (only_here) {
+      throw LaunchError("collect is for recordings of other machines, and this trace has none", text.where(),
+                        "leave it out", Finding::kExclusive);
+    }
+    const std::string given = text.perform(context.scope());
+    if (given != "end" && given != "none") {
+      throw LaunchError(fmt::format("collect is expected to be end or none, got '{}'", given), text.where());
+    }
+    return given == "end";
+  }
+
+  // Settings that have no effect, or another one, on several machines.
+  void find_settings_of_one_machine(const TraceRequest& request, const std::optional<std::string>& only,
+                                    LaunchContext& context) const {
+    const auto refuse = [&](const SourceRange& where) {
+      if (only) {
+        throw LaunchError(
+            fmt::format("this setting of <trace> works on this machine only, and the trace is one of machine '{}'",
+                        *only),
+            where, {}, Finding::kExclusive);
+      }
+      context.machines().require_only_this_machine(where);
+    };
+    const tracing::TraceConfig& config = request.config;
+    const TraceChoices& choices = request.choices;
+    const std::pair<const char*, bool> used[] = {{"snapshot-on-crash", choices.snapshot_on_crash},
+                                                 {"snapshot-on-signal", choices.snapshot_on_signal != 0},
+                                                 {"snapshot-on-events", !choices.snapshot_on_events.empty()},
+                                                 {"snapshot-on-late-callback", choices.callback_deadline != 0},
+                                                 {"snapshot-on-late-message", choices.message_deadline != 0},
+                                                 {"snapshot-mode", config.snapshot_mode},
+                                                 {"dual-session", config.dual_session},
+                                                 {"url", !config.url.empty()},
+                                                 {"live-timer", config.live_timer != 0},
+                                                 {"events-kernel", !config.events_kernel.empty()},
+                                                 {"syscalls", !config.syscalls.empty()},
+                                                 {"append-trace", config.append_trace}};
+    for (const auto& [setting, is_used] : used) {
+      if (is_used && fields_.has(setting)) {
+        refuse(fields_.where(setting));
+      }
+    }
+    const std::vector<const Fields*> channels = fields_.items("channel");
+    for (const Fields* const channel : channels) {
+      for (const char* const setting : {"events-kernel", "syscalls"}) {
+        if (channel->has(setting)) {
+          refuse(channel->where(setting));
+        }
+      }
+    }
+  }
+
   // What follows from several settings, or from the environment.
   void complete_session(tracing::TraceConfig& config, Scope& scope) const {
     if (const auto suffix = scope.environment.find(kSessionSuffixVariable); suffix != scope.environment.end()) {
@@ -227,8 +308,12 @@ class Trace : public Action {
 // `launch trace` has all settings but this one.
 std::vector<AttributeSpec> trace_attributes() {
   std::vector<AttributeSpec> attributes = declared_attributes(trace_settings());
-  attributes.push_back({"machine", AttributeType::kText, false, "none",
-                        "local: processes of other machines are not recorded; without it they are an error", true});
+  attributes.push_back({"machine", AttributeType::kText, false, "all machines of the launch",
+                        "record this machine only; local is the one where launch runs", true});
+  attributes.push_back({"collect", AttributeType::kText, false, "end",
+                        "end: recordings of other machines are fetched when all processes have ended; none: they stay "
+                        "there",
+                        true});
   return attributes;
 }
 

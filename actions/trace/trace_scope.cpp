@@ -7,7 +7,6 @@
 
 #include <utility>
 
-#include "actions/trace/tracetools_choice.hpp"
 #include "base/diagnostics/diagnostic.hpp"
 #include "tracing/record/plan/trace_error.hpp"
 
@@ -32,7 +31,7 @@ TraceScope::TraceScope(TraceRequest request, std::unique_ptr<tracing::Tracer> tr
     : origin_(std::move(origin)),
       choices_(std::move(request.choices)),
       run_(std::move(request.config), std::move(tracer), std::move(prefix), choices_),
-      tracetools_(std::make_unique<TracetoolsChoice>(choices_.tracetools, run_.prefix())) {
+      processes_(run_, choices_) {
   if (choices_.snapshot_on_signal != 0) {
     // The first of several traces starts threads. If the signal is not blocked in them, it ends the launcher.
     sigset_t signal;
@@ -82,7 +81,7 @@ void TraceScope::begin(EventLoop& loop, Tell tell, Completion done) {
   };
   in_background(
       loop, "tracing setup failed: ",
-      [this, told, observe, refused = tracetools_->refused()] {
+      [this, told, observe, refused = processes_.refused()] {
         if (refused) {
           throw tracing::TraceError(*refused, "use tracetools=\"auto\", or trace=\"false\" for the process");
         }
@@ -97,6 +96,17 @@ void TraceScope::begin(EventLoop& loop, Tell tell, Completion done) {
         }
         done(error);
       });
+}
+
+void TraceScope::prepare(ProcessSpec& spec) const {
+  if (!spec.machine.empty()) {
+    return;  // its agent prepares it
+  }
+  processes_.prepare(spec, [this](const std::string& warning) {
+    if (tell_) {
+      tell_(true, warning);
+    }
+  });
 }
 
 void TraceScope::record(const LaunchRecord& record) {
@@ -120,7 +130,7 @@ void TraceScope::record(const LaunchRecord& record) {
 void TraceScope::end(EventLoop& loop, Tell tell, Completion done) {
   signals_.reset();
   look_around_.reset();
-  run_.config().tracetools = tracetools_->uses();
+  run_.config().tracetools = processes_.uses();
   in_background(
       loop, "", [this, told = on_loop(loop, tell)] { run_.finish(told); }, std::move(done));
 }

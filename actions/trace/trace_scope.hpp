@@ -9,21 +9,25 @@
 #include <vector>
 
 #include "actions/trace/trace_settings.hpp"
+#include "launcher/traced/traced_processes.hpp"
 #include "launcher/visit/run_scope.hpp"
 #include "tracing/record/plan/channel_plan.hpp"
 #include "tracing/record/session/traced_run.hpp"
 
 namespace launch {
 
-class TracetoolsChoice;
-
 class TraceScope : public RunScope {
  public:
+  // The evaluated settings. They may be changed before begin().
+  tracing::TraceConfig& config() { return run_.config(); }
+
   // `prefix`: see tracing::TracedRun.
   TraceScope(TraceRequest request, std::unique_ptr<tracing::Tracer> tracer, std::string prefix, SourceRange origin);
   ~TraceScope() override;
 
-  void expect(const std::vector<ProcessSpec>& processes) override;
+  void expect(const std::vector<ProcessSpec>& processes) override { processes_.expect(processes, true); }
+  // The same, of a launch that has other processes on other machines.
+  void expect_some(const std::vector<ProcessSpec>& processes) { processes_.expect(processes, false); }
   void begin(EventLoop& loop, Tell tell, Completion done) override;
   void end(EventLoop& loop, Tell tell, Completion done) override;
   void hurry() override { run_.hurry(); }
@@ -44,16 +48,11 @@ class TraceScope : public RunScope {
   // Runs `work` on a thread of its own, because the calls of the session block, then `finished` on the loop's thread.
   // An error of the session becomes one at the place of the <trace>, behind `context`.
   void in_background(EventLoop& loop, std::string context, std::function<void()> work, Completion finished);
-  bool traces(const ProcessSpec& spec) const;
-  bool records_programs() const { return !run_.config().all_events_ust().empty(); }
-  // The settings that only our tracetools carries out.
-  std::vector<std::string> settings_of_tracetools() const;
-
   SourceRange origin_;
   TraceChoices choices_;
   tracing::TracedRun run_;
-  const std::unique_ptr<TracetoolsChoice> tracetools_;  // changes with each process that is prepared
-  Tell tell_;                                           // empty until the session begins
+  mutable TracedProcesses processes_;  // changes with each process that is prepared
+  Tell tell_;                          // empty until the session begins
   SnapshotObserver snapshot_observer_;
   EventLoop::SourcePtr signals_;
   EventLoop::SourcePtr look_around_;

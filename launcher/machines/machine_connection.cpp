@@ -26,6 +26,7 @@ constexpr seconds kPatienceAtEnd{30};            // for the guardian there, whic
 constexpr milliseconds kPatienceAfterLoss{300};  // for the command to say why
 constexpr seconds kLongestAnswer{30};
 constexpr std::size_t kLongestBanner = 64 * 1024;
+constexpr int kPingsForATrace = 32;  // at its begin and at its end, to compare the clocks
 constexpr int kCommandNotFound = 127;
 constexpr int kCommandNotExecutable = 126;
 constexpr int kNoConnectionOfSsh = 255;
@@ -43,7 +44,8 @@ MachineConnection::MachineConnection(EventLoop& loop, Settings settings, Tell te
     : loop_(loop),
       settings_(std::move(settings)),
       tell_(std::move(tell)),
-      runs_(loop, [this](ToAgent kind, const WireWriter& content) { send(kind, content); }) {
+      runs_(loop, [this](ToAgent kind, const WireWriter& content) { send(kind, content); }),
+      traces_(loop, settings_.name, clock_, [this](ToAgent kind, const WireWriter& content) { send(kind, content); }) {
   try {
     command_ = std::make_unique<ConnectingCommand>(settings_.words);
   } catch (const std::system_error& error) {
@@ -104,15 +106,30 @@ void MachineConnection::send(ToAgent kind, const WireWriter& content) {
     return;  // the end of its output comes, too, and tells why
   }
   watch_output();
+  if (kind == ToAgent::kTraceBegin || kind == ToAgent::kTraceEnd) {
+    more_pings_ = kPingsForATrace;
+    ping();
+  }
+}
+
+void MachineConnection::take_pong(WireReader& reader) {
+  const auto sent = static_cast<std::int64_t>(reader.u64());
+  ClockReading there;
+  there.epoch_ns = reader.i64();
+  there.monotonic_ns = reader.i64();
+  reader.end();
+  clock_.take_answer(sent, there);
+  if (std::exchange(more_pings_, std::max(more_pings_ - 1, 0)) > 0) {
+    ping();
+  }
 }
 
 void MachineConnection::ping() {
   if (!expects_pings_) {
     return;
   }
-  WireWriter time;
-  time.i64(std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch()).count());
-  outgoing_->add(encode(ToAgent::kPing, time));
+  const std::chrono::nanoseconds now = Clock::now().time_since_epoch();
+  outgoing_->add(encode(ToAgent::kPing, WireWriter().i64(now.count())));
 }
 
 void MachineConnection::suspend(bool stops) {
@@ -260,7 +277,8 @@ void MachineConnection::take_greeting() {
 
 void MachineConnection::dispatch(const Frame& frame) {
   WireReader reader(frame.content);
-  switch (static_cast<FromAgent>(frame.kind)) {
+  const auto kind = static_cast<FromAgent>(frame.kind);
+  switch (kind) {
     case FromAgent::kHello:
       if (hello_) {
         throw WireError("it tells of its machine twice");
@@ -290,6 +308,7 @@ void MachineConnection::dispatch(const Frame& frame) {
       return;
     }
     case FromAgent::kPong:
+      take_pong(reader);
       return;
     case FromAgent::kStarted:
     case FromAgent::kFailed:
@@ -297,8 +316,14 @@ void MachineConnection::dispatch(const Frame& frame) {
     case FromAgent::kClosed:
     case FromAgent::kExited:
     case FromAgent::kGroups:
-      runs_.receive(static_cast<FromAgent>(frame.kind), reader);
+      runs_.receive(kind, reader);
       return;
+    default:
+      break;
+  }
+  if (kind >= FromAgent::kTraceTold && kind <= FromAgent::kTraceFailed) {
+    traces_.receive(kind, reader);
+    return;
   }
   throw WireError("it sends a message of an unknown kind");
 }
@@ -368,6 +393,7 @@ void MachineConnection::lose(const std::string& reason, std::string help) {
     }
   }
   runs_.lose(*lost_);
+  traces_.lose(*lost_);
 }
 
 void MachineConnection::throw_lost() const {

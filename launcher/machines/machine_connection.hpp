@@ -18,10 +18,12 @@
 #include <string_view>
 #include <vector>
 
+#include "launcher/machines/clock_offset.hpp"
 #include "launcher/machines/connecting_command.hpp"
 #include "launcher/machines/protocol/agent_protocol.hpp"
 #include "launcher/machines/protocol/outgoing.hpp"
 #include "launcher/machines/remote_runs.hpp"
+#include "launcher/machines/remote_traces.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/output/output_router.hpp"
 #include "launcher/visit/machines.hpp"
@@ -71,6 +73,7 @@ class MachineConnection {
 
   // For the process runner (machine_runner.cpp). What is sent to a lost connection is dropped.
   RemoteRuns& runs() { return runs_; }
+  RemoteTraces& traces() { return traces_; }
   void send(ToAgent kind, const WireWriter& content = {});
 
   // The launcher is stopped from now on, or goes on.
@@ -87,6 +90,7 @@ class MachineConnection {
   void receive();
   void take_greeting();
   void dispatch(const Frame& frame);
+  void take_pong(WireReader& reader);
   void watch_output();
   void watch_silence();
   // The connection is no more. `reason` says why, if it is known better than by the end of the command.
@@ -101,6 +105,9 @@ class MachineConnection {
   std::unique_ptr<ConnectingCommand> command_;
   std::unique_ptr<Outgoing> outgoing_;
   RemoteRuns runs_;
+  ClockOffset clock_;
+  int more_pings_ = 0;  // each follows the answer to the one before
+  RemoteTraces traces_;
 
   std::string before_greeting_;
   bool greeted_ = false;

@@ -102,6 +102,21 @@ std::shared_ptr<MachineView> MachineConnections::await(const MachineDeclaration&
   }
 }
 
+std::vector<std::string> MachineConnections::connected() const {
+  std::vector<std::string> names;
+  for (const auto& [name, machine] : machines_) {
+    if (machine->view != nullptr && !machine->connection.is_lost()) {
+      names.push_back(name);
+    }
+  }
+  return names;
+}
+
+std::unique_ptr<MachineRecorder> MachineConnections::recorder(const std::string& machine) {
+  const auto found = machines_.find(machine);
+  return found == machines_.end() ? nullptr : found->second->connection.traces().recorder();
+}
+
 RemoteRuns* MachineConnections::runs(const std::string& machine) {
   const auto found = machines_.find(machine);
   return found == machines_.end() ? nullptr : &found->second->connection.runs();

@@ -8,15 +8,17 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "launcher/machines/machine_connection.hpp"
+#include "launcher/traced/machine_recorder.hpp"
 #include "launcher/visit/machines.hpp"
 
 namespace launch {
 
 // A thread of its own tells the agents that the launcher is there, because a visit may keep the loop busy: a function
 // of a Python launch file takes as long as it wants.
-class MachineConnections : public MachineConnector {
+class MachineConnections : public MachineConnector, public MachineRecorders {
  public:
   // The loop must outlive the connections. `tell` gets what is to be told of machines while the launch runs.
   MachineConnections(EventLoop& loop, std::string launch_version, MachineConnection::Tell tell);
@@ -27,6 +29,9 @@ class MachineConnections : public MachineConnector {
 
   void connect(const MachineDeclaration& machine) override;
   std::shared_ptr<MachineView> await(const MachineDeclaration& machine) override;
+  MachineRecorders* recorders() override { return this; }
+  std::vector<std::string> connected() const override;
+  std::unique_ptr<MachineRecorder> recorder(const std::string& machine) override;
 
   // The observer gets each machine whose connection is lost while the loop runs.
   void observe_losses(std::function<void(const LostMachine&)> observer) { observe_losses_ = std::move(observer); }

@@ -328,7 +328,9 @@ void LaunchService::prepare(ProcessSpec& spec, ProcessId id) {
   health_.monitor.prepare(spec, id);
   if (spec.machine.empty()) {  // what these add to a process is on this machine
     limits_.prepare(spec, id);
-    scopes_.prepare(spec);
+  }
+  scopes_.prepare(spec);
+  if (spec.machine.empty()) {
     test_.prepare(spec, id);
   }
   ros_tasks_.name_process(id, spec.other_names);

@@ -144,10 +144,9 @@ std::shared_ptr<MachineView> Machines::find(const std::string& name, const Sourc
     return nullptr;
   }
   if (trace_of_all_) {
-    throw LaunchError("a trace of several machines is not supported, and this launch records one", where,
-                      fmt::format("write machine=\"local\" in the <trace> ({}) to record this machine only",
+    throw LaunchError(fmt::format("a setting of the <trace> of this launch ({}) works on this machine only",
                                   to_string(trace_of_all_)),
-                      Finding::kExclusive);
+                      where, "write machine=\"local\" in the <trace> to record this machine only", Finding::kExclusive);
   }
   if (plan_only_ && connector_ == nullptr) {
     std::shared_ptr<MachineView>& view = views_[name];
@@ -229,9 +228,10 @@ void Machines::check_files() {
 
 void Machines::require_only_this_machine(const SourceRange& where) {
   if (!views_.empty()) {
-    throw LaunchError(fmt::format("a trace of several machines is not supported, and processes run on machine '{}'",
-                                  views_.begin()->first),
-                      where, "write machine=\"local\" to record this machine only", Finding::kExclusive);
+    throw LaunchError(
+        fmt::format("this setting of <trace> works on this machine only, and processes run on machine '{}'",
+                    views_.begin()->first),
+        where, "write machine=\"local\" to record this machine only", Finding::kExclusive);
   }
   trace_of_all_ = where;
 }

@@ -15,6 +15,8 @@
 
 namespace launch {
 
+class MachineRecorders;
+
 // The name of this machine.
 inline constexpr const char* kLocalMachine = "local";
 
@@ -69,6 +71,9 @@ class MachineConnector {
   virtual void connect(const MachineDeclaration& machine) = 0;
   // Waits until the machine has answered. Throws LaunchError at the place of the declaration.
   virtual std::shared_ptr<MachineView> await(const MachineDeclaration& machine) = 0;
+  // For traces of the machines (launcher/traced/machine_recorder.hpp); null if none can be recorded. They live as long
+  // as the connector.
+  virtual MachineRecorders* recorders() { return nullptr; }
 };
 
 class Machines {
@@ -108,11 +113,14 @@ class Machines {
   void check_files();
   void forget_files() { files_.clear(); }
 
+  // For traces of other machines; null if no machine is asked for anything.
+  MachineRecorders* recorders() const { return connector_ == nullptr ? nullptr : connector_->recorders(); }
+
   // Of other machines, in the order of their names.
   std::vector<const MachineDeclaration*> elsewhere() const;
 
-  // A trace that does not say which machines it records: it would have to record all, which is not supported. Throws
-  // LaunchError if another machine is in use; from now on find() throws for other machines.
+  // A trace of all machines has a setting, at `where`, that works on this machine only. Throws LaunchError if another
+  // machine is in use; from now on find() throws for other machines.
   void require_only_this_machine(const SourceRange& where);
   void forget_trace() { trace_of_all_ = {}; }
 

@@ -22,11 +22,24 @@ constexpr std::size_t kReadSize = 64UL * 1024;
 // So much may wait for the connection before output is read no further.
 constexpr std::size_t kMostWaiting = 1024UL * 1024;
 
+WireWriter pong(std::uint64_t ping) {
+  const auto nanoseconds = [](auto now) {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(now.time_since_epoch()).count();
+  };
+  const auto epoch = nanoseconds(std::chrono::system_clock::now());
+  return WireWriter().u64(ping).i64(epoch).i64(nanoseconds(std::chrono::steady_clock::now()));
+}
+
 }  // namespace
 
 Agent::Agent(EventLoop& loop, ProcessRunner& runner, Guardian& guardian, UniqueFd in, UniqueFd out,
              const std::string& launch_version)
-    : loop_(loop), runner_(runner), guardian_(guardian), in_(std::move(in)), out_(std::move(out)) {
+    : loop_(loop),
+      runner_(runner),
+      guardian_(guardian),
+      in_(std::move(in)),
+      out_(std::move(out)),
+      traces_(loop, guardian, [this](FromAgent kind, const WireWriter& content) { send(kind, content); }) {
   ::fcntl(in_.get(), F_SETFL, ::fcntl(in_.get(), F_GETFL) | O_NONBLOCK);
   auto number = std::make_shared<std::int32_t>(0);
   files_.announce_to(
@@ -124,13 +137,20 @@ void Agent::dispatch(const Frame& frame) {
       return;
     }
     case ToAgent::kPing:
-      send(FromAgent::kPong, WireWriter().u64(reader.u64()));
+      send(FromAgent::kPong, pong(reader.u64()));
       return;
     case ToAgent::kSuspend:
       launcher_stopped_ = reader.flag();
       return;
     case ToAgent::kEnd:
       end(0);
+      return;
+    case ToAgent::kTraceBegin:
+    case ToAgent::kTraceEnd:
+    case ToAgent::kTraceHurry:
+    case ToAgent::kTraceFetch:
+    case ToAgent::kTraceLeave:
+      traces_.receive(kind, reader);
       return;
   }
   throw WireError("it sends a message of an unknown kind");
@@ -140,6 +160,7 @@ void Agent::set_up(const AgentSetup& setup) {
   try {
     const Environment environment = environment_after(setup.setup);
     questions_.emplace(loop_, environment);
+    traces_.use_environment(environment);
     send(FromAgent::kHello, WireWriter().rest(to_wire(describe_machine(environment))));
   } catch (const std::exception& error) {
     send(FromAgent::kRefused, WireWriter().text(error.what()));
@@ -179,6 +200,7 @@ void Agent::start(WireReader& reader) {
   Run run;
   try {
     files_.write(spec, number);
+    traces_.prepare(spec);
     spec.mark = guardian_.mark(spec.label, spec);
     run.process = runner_.spawn(spec);
   } catch (const std::system_error& error) {
@@ -187,6 +209,8 @@ void Agent::start(WireReader& reader) {
   }
   guardian_.note(number, run.process.pid, spec.label, spec);
   run.started = loop_.now();
+  run.label = spec.label.empty() ? spec.name : spec.label;
+  traces_.started(run.process.pid);
   run.streams[0].fd = std::move(run.process.out);
   run.streams[1].fd = std::move(run.process.err);
   send(FromAgent::kStarted, WireWriter().u32(number).i32(run.process.pid));
@@ -242,6 +266,7 @@ void Agent::on_exit(std::uint32_t number) {
     exit.out_of_memory = runner_.was_ended_by_kernel(run.process, run.started);
   }
   run.exit = exit;
+  traces_.ended(run.label, run.process.pid, exit.code != 0);
   // What it has written before comes first.
   for (std::size_t which = 0; which < run.streams.size(); ++which) {
     pump(number, which);

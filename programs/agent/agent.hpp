@@ -21,6 +21,7 @@
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/process_runner.hpp"
 #include "launcher/process/spawn/generated_files.hpp"
+#include "programs/agent/agent_traces.hpp"
 #include "programs/agent/machine_questions.hpp"
 
 namespace launch {
@@ -44,6 +45,7 @@ class Agent {
   };
   struct Run {
     Process process;
+    std::string label;
     std::array<Stream, 2> streams;
     EventLoop::SourcePtr exit_source;
     Duration started{0};
@@ -76,6 +78,7 @@ class Agent {
   Frames frames_;
   GeneratedFiles files_;
   std::optional<MachineQuestions> questions_;  // once it is set up
+  AgentTraces traces_;
   std::map<std::uint32_t, Run> runs_;
   std::uint32_t last_run_ = 0;
   Duration silence_{0};

@@ -5,10 +5,13 @@
 #include <string_view>
 #include <vector>
 
+#include "launcher/machines/fetched_files.hpp"
 #include "launcher/machines/protocol/agent_protocol.hpp"
 #include "launcher/machines/protocol/spec_wire.hpp"
 #include "launcher/machines/remote_runs.hpp"
+#include "launcher/machines/remote_traces.hpp"
 #include "launcher/process/fake/fake_event_loop.hpp"
+#include "launcher/traced/machine_trace.hpp"
 
 namespace {
 
@@ -33,13 +36,21 @@ void read_as_launcher(std::string_view bytes) {
   std::vector<Process> processes;
   processes.push_back(runs.start(spec));
   processes.push_back(runs.start(spec));
+  ClockOffset clock;
+  RemoteTraces traces(loop, "arm", clock, [](ToAgent, const WireWriter&) {});
+  const auto recorder = traces.recorder();
+  recorder->begin(
+      "", [](const std::string&) {}, [](const MachineRecorder::Outcome&) {});
   Frames frames;
   frames.add(bytes);
+  is_path_of_fetched_file(bytes);
   attempt([&] {
     while (const auto frame = frames.take()) {
       WireReader reader(frame->content);
       if (static_cast<FromAgent>(frame->kind) == FromAgent::kHello) {
         parse_agent_hello(frame->content);
+      } else if (static_cast<FromAgent>(frame->kind) >= FromAgent::kTraceTold) {
+        traces.receive(static_cast<FromAgent>(frame->kind), reader);
       } else {
         runs.receive(static_cast<FromAgent>(frame->kind), reader);
       }
@@ -59,6 +70,9 @@ void read_as_agent(std::string_view bytes) {
       } else if (static_cast<ToAgent>(frame->kind) == ToAgent::kStart) {
         reader.u32();
         get_spec(reader);
+      } else if (static_cast<ToAgent>(frame->kind) == ToAgent::kTraceBegin) {
+        reader.u32();
+        parse_machine_trace(reader.rest());
       }
     }
   });

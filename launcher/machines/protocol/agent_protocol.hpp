@@ -37,21 +37,35 @@ enum class ToAgent : std::uint8_t {
   kAsk = 7,      // u32 question, u8 what, texts
   kPing = 8,     // u64: anything
   kSuspend = 9,  // flag: the launcher is stopped from now on, and says nothing; or it goes on
-  kEnd = 10      // nothing follows: end what is left
+  kEnd = 10,     // nothing follows: end what is left
+  // The number of a trace is chosen by the launcher, each greater than the one before.
+  kTraceBegin = 11,  // u32 trace, MachineTrace (launcher/traced/machine_trace.hpp): record the machine
+  kTraceEnd = 12,    // u32 trace: end it
+  kTraceHurry = 13,  // u32 trace: end it with the data that is there
+  kTraceFetch = 14,  // u32 trace, u32 bytes: of its files so many more may be sent
+  kTraceLeave = 15   // u32 trace, flag: nothing more is wanted of it; remove its files there, or leave them
 };
 
 // From the agent.
 enum class FromAgent : std::uint8_t {
-  kHello = 1,    // after kSetup: AgentHello
-  kStarted = 2,  // u32 run, i32 pid
-  kFailed = 3,   // u32 run, i32 errno, text: it could not be started
-  kOutput = 4,   // u32 run, u8 stream, bytes
-  kClosed = 5,   // u32 run, u8 stream: nothing more comes
-  kExited = 6,   // u32 run, AgentExit
-  kGroups = 7,   // a list of u32 run and flag
-  kAnswer = 8,   // u32 question, flag whether it went well, text: the answer, or what is wrong
-  kPong = 9,     // u64: as in the ping
-  kRefused = 10  // text: why the agent can't do its work; the connection ends
+  kHello = 1,        // after kSetup: AgentHello
+  kStarted = 2,      // u32 run, i32 pid
+  kFailed = 3,       // u32 run, i32 errno, text: it could not be started
+  kOutput = 4,       // u32 run, u8 stream, bytes
+  kClosed = 5,       // u32 run, u8 stream: nothing more comes
+  kExited = 6,       // u32 run, AgentExit
+  kGroups = 7,       // a list of u32 run and flag
+  kAnswer = 8,       // u32 question, flag whether it went well, text: the answer, or what is wrong
+  kPong = 9,         // u64: as in the ping; i64: nanoseconds since the epoch; i64: those of the monotonic clock
+  kRefused = 10,     // text: why the agent can't do its work; the connection ends
+  kTraceTold = 11,   // u32 trace, text: a warning of it
+  kTraceBegun = 12,  // u32 trace, flag whether it went well, text: what is wrong, text: what helps, text: the directory
+  kTraceEnded = 13,  // u32 trace, flag whether it went well, texts as before; no directory: nothing is written
+  kTraceFile = 14,   // u32 trace, text: a path below the directory, u64: its bytes, which follow
+  kTraceBytes = 15,  // u32 trace, bytes of the file
+  kTraceSum = 16,    // u32 trace, u64: sum_of() all bytes of the file, which ends here
+  kTraceAll = 17,    // u32 trace, u32: how many files, u64: how many bytes it were
+  kTraceFailed = 18  // u32 trace, text: its files can't be sent
 };
 
 // The longest content of a frame. Specs with parameters and the list of packages are the long ones.
@@ -59,6 +73,19 @@ inline constexpr std::size_t kLongestFrame = std::size_t{8} * 1024 * 1024;
 
 // So many bytes of a stream may be on their way before the launcher has passed on the first of them.
 inline constexpr std::uint32_t kStreamWindow = 256 * 1024;
+
+// Of the files of a trace so many bytes may be on their way.
+inline constexpr std::uint32_t kTraceWindow = 1024 * 1024;
+inline constexpr std::size_t kTracePiece = 64UL * 1024;  // bytes of a file in one message, at most
+
+// The sum of the bytes of a file (FNV-1a): it tells a transfer that went wrong, and no attack.
+inline constexpr std::uint64_t kSumOfNothing = 0xcbf29ce484222325;
+inline std::uint64_t sum_of(std::string_view bytes, std::uint64_t sum = kSumOfNothing) {
+  for (const char byte : bytes) {
+    sum = (sum ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
+  }
+  return sum;
+}
 
 // What can be asked about files and programs there.
 enum class AgentQuestion : std::uint8_t {

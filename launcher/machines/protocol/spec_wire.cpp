@@ -97,6 +97,10 @@ void put(WireWriter& writer, const ProcessSpec& spec) {
   for (const GeneratedFile& file : spec.files) {
     writer.u32(static_cast<std::uint32_t>(file.argument)).text(file.name).text(file.content);
   }
+  writer.flag(spec.traced).u32(static_cast<std::uint32_t>(spec.other_names.size()));
+  for (const std::string& name : spec.other_names) {
+    writer.text(name);
+  }
 }
 
 ProcessSpec get_spec(WireReader& reader) {
@@ -133,6 +137,10 @@ ProcessSpec get_spec(WireReader& reader) {
       throw WireError("a file of a process belongs to no word of its command line");
     }
     spec.files.push_back(std::move(file));
+  }
+  spec.traced = reader.flag();
+  for (std::uint32_t left = reader.count(kText); left > 0; --left) {
+    spec.other_names.push_back(reader.text());
   }
   reader.end();
   if (spec.argv.empty() || spec.argv.front().empty()) {

@@ -103,10 +103,19 @@ class MachineErrors(MachinesTest):
         process = '<executable cmd="true" machine="arm"/>'
         machine = f'<machine name="arm" connect="{self.plain()}"/>'
         for text, words, error in (
-                (f'{machine}<trace session-name="t"/>{process}', (), 'error: a trace of several machines is not supported, and this launch records one'),
-                (f'{machine}{process}<trace session-name="t"/>', (),
-                 "error: a trace of several machines is not supported, and processes run on machine 'arm'"),
-                (f'{machine}<trace session-name="t" machine="arm"/>', (), 'error: a trace of another machine is not supported'),
+                (f'{machine}<trace session-name="t" snapshot-mode="true"/>{process}', (),
+                 'works on this machine only'),
+                (f'{machine}{process}<trace session-name="t" syscalls="openat"/>', (),
+                 "error: this setting of <trace> works on this machine only, and processes run on machine 'arm'"),
+                (f'{machine}{process}<trace session-name="t"><channel name="k" events-kernel="sched_switch"/></trace>', (),
+                 "error: this setting of <trace> works on this machine only, and processes run on machine 'arm'"),
+                (f'{machine}<trace session-name="t" machine="arm" append-trace="true"/>', (),
+                 "error: this setting of <trace> works on this machine only, and the trace is one of machine 'arm'"),
+                (f'{machine}<trace session-name="t" machine="leg"/>', (), "error: there is no machine 'leg'"),
+                (f'{machine}{process}<trace session-name="t" collect="stream"/>', (),
+                 "error: collect is expected to be end or none, got 'stream'"),
+                ('<trace session-name="t" machine="local" collect="end"/>', (),
+                 'error: collect is for recordings of other machines, and this trace has none'),
                 (f'{machine}<group machine="arm" scoped="false">{process}</group>', (), 'error: machine needs a scoped group'),
                 (f'{machine}{process}', ('--contain',), "error: a launch with --contain can't reach other machines"),
                 (f'{machine}{process}', ('--isolate',), "error: a launch with --isolate can't reach other machines")):

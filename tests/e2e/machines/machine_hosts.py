@@ -32,7 +32,12 @@ class Host:
         self.folder = folder / name
         self.folder.mkdir()
         (self.folder / 'tmp').mkdir()
-        script = f'hostname {name}; mount --bind {self.folder}/tmp /tmp; ip link set lo up; echo ready; exec sleep infinity'
+        # The session daemon of LTTng of a machine, and what it shares with its processes, belong to this machine.
+        # Its home directory may be below /tmp, and is the same there.
+        home = self.folder.relative_to('/tmp') if self.folder.is_relative_to('/tmp') else 'home'
+        script = (f'hostname {name}; mkdir -p {self.folder}/tmp/{home}; mount --bind {self.folder} {self.folder}/tmp/{home}; '
+                  f'mount --rbind {self.folder}/tmp /tmp; mount -t tmpfs tmpfs /dev/shm; '
+                  '[ ! -d /run/lttng ] || mount -t tmpfs tmpfs /run/lttng; ip link set lo up; echo ready; exec sleep infinity')
         self._keeper = subprocess.Popen(namespaces('sh', '-c', script), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                         stderr=subprocess.PIPE, text=True)
         if self._keeper.stdout.readline() != 'ready\n':
@@ -43,10 +48,25 @@ class Host:
 
     def connect(self, *environment):
         """The connecting command. What runs there has the environment of a login, with these variables added."""
+        return ' '.join(self._words(*environment))
+
+    def _words(self, *environment):
         user = () if os.geteuid() == 0 else ('-U', '--preserve-credentials')
-        words = ['nsenter', '-t', self._first, *user, '-p', '-m', '-u', '-n', '-i', '--', 'env', '-i', f'HOME={self.folder}',
-                 f'PATH={Path(LAUNCH).parent}:/usr/bin:/bin', *environment]
-        return ' '.join(words)
+        return ['nsenter', '-t', self._first, *user, '-p', '-m', '-u', '-n', '-i', '--', 'env', '-i', f'HOME={self.folder}',
+                f'PATH={Path(LAUNCH).parent}:/usr/bin:/bin', *environment]
+
+    def run(self, *command):
+        """What the command prints there."""
+        return subprocess.run([*self._words(), *command], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              text=True, check=False, timeout=PATIENCE).stdout
+
+    def link(self, other, network='192.168.77'):
+        """Joins the networks of two hosts, by a cable between them."""
+        subprocess.run(['ip', 'link', 'add', 'cable', 'netns', self._first, 'type', 'veth', 'peer', 'name', 'cable', 'netns', other._first],
+                       check=True, timeout=PATIENCE)
+        for host, number in ((self, 1), (other, 2)):
+            host.run('sh', '-c', f'PATH=$PATH:/usr/sbin:/sbin; ip address add {network}.{number}/24 dev cable; ip link set cable up; '
+                                 'ip route add 224.0.0.0/4 dev cable')
 
     def end(self):
         self._keeper.kill()

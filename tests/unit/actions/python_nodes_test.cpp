@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "actions/trace/python_nodes.hpp"
+#include "launcher/traced/python_nodes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "actions/trace/tracetools_choice.hpp"
+#include "launcher/traced/tracetools_choice.hpp"
 
 #include <gmock/gmock.h>
 

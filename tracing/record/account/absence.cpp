@@ -8,6 +8,7 @@
 #include "base/text/names.hpp"
 #include "tracing/decode/ctf/metadata_text.hpp"
 #include "tracing/decode/ctf/trace_class.hpp"
+#include "tracing/record/account/nothing_recorded.hpp"
 #include "tracing/record/account/stream_packets.hpp"
 #include "tracing/record/plan/ros_events.hpp"
 
@@ -162,9 +163,7 @@ std::vector<Absence> absent_events(const RecordedEvents& events, const std::set<
     }
   }
   if (nothing && has_known_rule) {
-    absences.push_back(
-        {"no userspace event was recorded: no program that ran has events of the session and was registered with "
-         "the session daemon"});
+    absences.push_back({kNothingRecorded});
   }
   return absences;
 }

@@ -63,7 +63,7 @@ std::string TraceConfig::lttng_session_name() const {
   if (dual_session) {
     return session_name + "-snapshot";
   }
-  return session_name;
+  return session_name.substr(0, session_name.find('/'));
 }
 
 std::string trace_base_path(const std::string& given, const std::map<std::string, std::string>& environment) {

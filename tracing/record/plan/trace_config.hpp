@@ -61,7 +61,9 @@ struct TracetoolsUse {
 
 // Events are given as the text of an event rule (event_rule.hpp), in the simplest case the name.
 struct TraceConfig {
-  std::string session_name;    // any time stamp already appended
+  // Any time stamp already appended. NAME/FOLDER: the part of one machine in the directory NAME of a trace of several
+  // machines; the session is called NAME.
+  std::string session_name;
   bool has_timestamp = false;  // a run may append a number (free_name.hpp)
   std::string base_path;       // absolute directory that will hold the trace directory
   bool append_trace = false;

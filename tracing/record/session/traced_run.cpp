@@ -32,6 +32,11 @@ constexpr std::uint64_t kLargestSummarized = 100'000'000;
 // An event of the stack (docs/tracetools.md): the stack compares the times itself and fires only this.
 constexpr const char* kLateCallback = "ros2_deadline:callback";
 constexpr const char* kLateMessage = "ros2_deadline:message";
+// Of a trace of several machines, whose launch describes them together.
+bool is_part_of_a_trace(const TraceConfig& config) {
+  return config.session_name.find('/') != std::string::npos;
+}
+
 // The reason for a snapshot, for people.
 std::string snapshot_reason(const RunChoices& choices, const std::string& rule) {
   if (rule == kLateCallback && choices.callback_deadline != 0) {
@@ -238,7 +243,7 @@ void TracedRun::finish(const Tell& tell) {
   if (!config_.records_snapshots() && !config_.over_network() && !hurry_) {
     summarize();
   }
-  if (choices_.report && !config_.over_network() && !hurry_) {
+  if (choices_.report && !config_.over_network() && !hurry_ && !is_part_of_a_trace(config_)) {
     make_report();
   }
   tell_result(tell);
@@ -317,11 +322,11 @@ void TracedRun::tell_result(const Tell& tell) const {
   const std::string report_command = "launch report " + launch::shell_quoted(config_.trace_directory());
   if (!report_.empty()) {
     tell(false, "report: " + report_);
-  } else if (choices_.report) {
+  } else if (choices_.report && !is_part_of_a_trace(config_)) {
     tell(true, "no report: " + (config_.over_network() ? "the trace is on another machine"
                                 : hurry_               ? "the launch was to end at once"
                                                        : fmt::format("see what `{}` says", report_command)));
-  } else if (!config_.over_network() && !config_.records_snapshots()) {
+  } else if (!config_.over_network() && !config_.records_snapshots() && !is_part_of_a_trace(config_)) {
     tell(false, "what is in it: " + report_command);
   }
 }

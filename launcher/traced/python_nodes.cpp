@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "actions/trace/python_nodes.hpp"
+#include "launcher/traced/python_nodes.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,8 +9,8 @@
 #include <sstream>
 #include <system_error>
 
-#include "launcher/language/setting.hpp"
 #include "launcher/process/spawn/program_search.hpp"
+#include "launcher/traced/words_of_text.hpp"
 
 namespace launch {
 namespace {
@@ -32,7 +32,7 @@ std::vector<std::string> interpreter_of(const fs::path& program) {
   if (file.get() != '#' || file.get() != '!' || !std::getline(file, line)) {
     return {};
   }
-  return split_names(line);
+  return words_of_text(line);
 }
 
 // The command of Python that the process is, with the interpreter at its beginning. None of another program.

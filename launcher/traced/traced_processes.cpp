@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses the processes that a <trace> records, and prepares their environment.
+#include "launcher/traced/traced_processes.hpp"
+
 #include <fmt/format.h>
 #include <fnmatch.h>
 #include <sys/sysinfo.h>
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
-#include "actions/trace/python_nodes.hpp"
-#include "actions/trace/trace_scope.hpp"
-#include "actions/trace/tracetools_choice.hpp"
+#include "launcher/traced/python_nodes.hpp"
 #include "tracing/record/account/counters/event_counters.hpp"
 #include "tracing/record/lttng/session_daemon.hpp"
 #include "tracing/record/plan/buffer_sizes.hpp"
@@ -45,7 +45,21 @@ std::string nanoseconds_of(double milliseconds) {
 
 }  // namespace
 
-void TraceScope::expect(const std::vector<ProcessSpec>& processes) {
+TracedProcesses::TracedProcesses(tracing::TracedRun& run, ProcessChoices choices)
+    : run_(run), choices_(std::move(choices)), tracetools_(choices_.tracetools, run_.prefix()) {}
+
+std::vector<std::string> unknown_nodes(const ProcessChoices& choices, const std::vector<ProcessSpec>& processes) {
+  std::vector<std::string> warnings;
+  for (const std::string& pattern : choices.nodes.value_or(std::vector<std::string>())) {
+    if (std::none_of(processes.begin(), processes.end(),
+                     [&](const ProcessSpec& spec) { return matches(pattern, spec); })) {
+      warnings.push_back(fmt::format("nothing that is launched now is called '{}', which 'nodes' names", pattern));
+    }
+  }
+  return warnings;
+}
+
+void TracedProcesses::expect(const std::vector<ProcessSpec>& processes, bool all) {
   const auto traced = static_cast<std::size_t>(
       std::count_if(processes.begin(), processes.end(), [this](const ProcessSpec& spec) { return traces(spec); }));
   const auto processors = static_cast<std::size_t>(::get_nprocs_conf());
@@ -58,10 +72,10 @@ void TraceScope::expect(const std::vector<ProcessSpec>& processes) {
   }
   for (const ProcessSpec& spec : processes) {
     if (traces(spec) && records_programs()) {
-      tracetools_->look_at(spec);
+      tracetools_.look_at(spec);
     }
   }
-  if (std::string warning = tracetools_->ineffective(config, settings_of_tracetools()); !warning.empty()) {
+  if (std::string warning = tracetools_.ineffective(config, settings_of_tracetools()); !warning.empty()) {
     run_.warn(std::move(warning));
   }
   if (choices_.python_nodes) {
@@ -72,15 +86,14 @@ void TraceScope::expect(const std::vector<ProcessSpec>& processes) {
       run_.warn(std::move(warning));
     }
   }
-  for (const std::string& pattern : choices_.nodes.value_or(std::vector<std::string>())) {
-    if (std::none_of(processes.begin(), processes.end(),
-                     [&](const ProcessSpec& spec) { return matches(pattern, spec); })) {
-      run_.warn(fmt::format("nothing that is launched now is called '{}', which 'nodes' names", pattern));
+  if (all) {
+    for (std::string& warning : unknown_nodes(choices_, processes)) {
+      run_.warn(std::move(warning));
     }
   }
 }
 
-std::vector<std::string> TraceScope::settings_of_tracetools() const {
+std::vector<std::string> TracedProcesses::settings_of_tracetools() const {
   std::vector<std::string> settings;
   const auto add = [&settings](bool is_given, const char* name) {
     if (is_given) {
@@ -93,13 +106,13 @@ std::vector<std::string> TraceScope::settings_of_tracetools() const {
   return settings;
 }
 
-bool TraceScope::traces(const ProcessSpec& spec) const {
+bool TracedProcesses::traces(const ProcessSpec& spec) const {
   return spec.traced &&
          (!choices_.nodes || std::any_of(choices_.nodes->begin(), choices_.nodes->end(),
                                          [&](const std::string& pattern) { return matches(pattern, spec); }));
 }
 
-void TraceScope::prepare(ProcessSpec& spec) const {
+void TracedProcesses::prepare(ProcessSpec& spec, const std::function<void(const std::string&)>& warn) {
   if (!traces(spec)) {
     std::string& variable = spec.environment["LD_PRELOAD"];
     const std::string library = run_.prefix() + "/lib/launch/liblaunch_untraced.so";
@@ -116,11 +129,11 @@ void TraceScope::prepare(ProcessSpec& spec) const {
   }
   spec.environment.emplace("TRACETOOLS_REGISTER_TIMEOUT", kLongestRegistration);
   if (records_programs()) {
-    TracetoolsChoice::preload(tracetools_->look_at(spec), spec.environment);
+    TracetoolsChoice::preload(tracetools_.look_at(spec), spec.environment);
     // Of a process that was not there when the session began.
-    if (const std::string warning = tracetools_->ineffective(run_.config(), settings_of_tracetools());
-        tell_ && !warning.empty()) {
-      tell_(true, warning);
+    if (const std::string warning = tracetools_.ineffective(run_.config(), settings_of_tracetools());
+        warn && !warning.empty()) {
+      warn(warning);
     }
   }
   if (choices_.python_nodes && records_programs()) {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "actions/trace/trace_settings.hpp"
 #include "launcher/process/process_spec.hpp"
+#include "launcher/traced/process_choices.hpp"
 #include "tracing/record/plan/trace_config.hpp"
 #include "tracing/record/programs/tracetools_check.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "actions/trace/tracetools_choice.hpp"
+#include "launcher/traced/tracetools_choice.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <system_error>
 
-#include "launcher/language/setting.hpp"
 #include "launcher/process/spawn/program_search.hpp"
+#include "launcher/traced/words_of_text.hpp"
 #include "tracing/record/plan/event_rule.hpp"
 #include "tracing/record/plan/preload.hpp"
 
@@ -28,7 +28,7 @@ std::vector<std::string> programs_of(const ProcessSpec& spec) {
   if (spec.shell) {
     words.clear();
     for (const std::string& text : spec.argv) {
-      for (std::string& word : split_names(text)) {
+      for (std::string& word : words_of_text(text)) {
         words.push_back(std::move(word));
       }
     }

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// The end of a trace of several machines: recordings come home, and get one verdict.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "actions/trace/machines_trace.hpp"
+#include "base/diagnostics/diagnostic.hpp"
+#include "base/text/quoted_text.hpp"
+#include "launcher/process/health_watch.hpp"
+#include "tracing/record/account/nothing_recorded.hpp"
+#include "tracing/record/lttng/installed_program.hpp"
+
+namespace launch {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::seconds kBetweenProgress{5};
+// To describe a trace in one line, up to this many bytes are read.
+constexpr std::uintmax_t kLargestDescribed = 100'000'000;
+
+std::uintmax_t bytes_below(const fs::path& directory) {
+  std::uintmax_t bytes = 0;
+  std::error_code failed;
+  fs::recursive_directory_iterator entry(directory, failed);
+  for (; !failed && entry != fs::recursive_directory_iterator(); entry.increment(failed)) {
+    std::error_code none;
+    if (entry->is_regular_file(none)) {
+      bytes += entry->file_size(none);
+    }
+  }
+  return bytes;
+}
+
+}  // namespace
+
+void MachinesTrace::end(EventLoop& loop, Tell tell, Completion done) {
+  tell_ = std::move(tell);
+  done_ = std::move(done);
+  if (parts_.empty()) {
+    here_->end(loop, tell_, [this](const std::exception_ptr& error) {
+      note(error);
+      end_of_this_machine_alone();
+    });
+    return;
+  }
+  wait_for(parts_.size() + (here_ ? 1 : 0), [this] { finish(); });
+  if (here_) {
+    const auto tell_here = [this](bool warning, const std::string& text) {
+      if (used_.contains(kLocalMachine) || text.find(tracing::kNothingRecorded) == std::string::npos) {
+        tell_(warning, text);
+      }
+    };
+    here_->end(loop, tell_here, [this](const std::exception_ptr& error) {
+      note(error);
+      finished_one();
+    });
+  }
+  for (const auto& part : parts_) {
+    part->recorder->end([this, &part = *part](const MachineRecorder::Outcome& outcome) { on_ended(part, outcome); });
+  }
+}
+
+// No other machine was in use when the trace began.
+void MachinesTrace::end_of_this_machine_alone() {
+  std::vector<std::string> problems;
+  for (const tracing::MachinePart& part : results()) {
+    if (!part.problem.empty()) {
+      problems.push_back(part.problem);
+    }
+  }
+  if (!problems.empty()) {
+    try {
+      tracing::note_problems(here_->config().trace_directory(), problems);
+    } catch (const std::exception& error) {
+      note(std::make_exception_ptr(LaunchError(error.what(), origin_)));
+    }
+    for (const std::string& problem : problems) {
+      tell_(true, problem);
+    }
+    fail_on_loss(false);
+  }
+  std::exchange(done_, nullptr)(error_);
+}
+
+void MachinesTrace::fail_on_loss(bool complete) {
+  if (request_.config.fail_on_loss && !complete) {
+    note(
+        std::make_exception_ptr(LaunchError(fmt::format("the trace of session '{}' is incomplete", session()), origin_,
+                                            "use larger sub-buffers, record fewer events, or leave out fail-on-loss")));
+  }
+}
+
+void MachinesTrace::on_ended(Part& part, const MachineRecorder::Outcome& outcome) {
+  const std::string& machine = part.result.machine;
+  if (outcome.lost) {
+    part.result.problem =
+        fmt::format("{}: its recording is not here; the agent there has ended it in '{}'", outcome.error, part.there);
+    finished_one();
+    return;
+  }
+  if (!outcome.well) {
+    note(std::make_exception_ptr(
+        LaunchError(fmt::format("machine '{}': {}", machine, outcome.error), origin_, outcome.help)));
+    part.result.problem = fmt::format("machine '{}': {}", machine, outcome.error);
+  }
+  if (outcome.directory.empty()) {
+    if (part.result.problem.empty()) {
+      part.result.nothing = true;
+    }
+    part.recorder->leave(false);
+    finished_one();
+    return;
+  }
+  part.there = outcome.directory;
+  if (!settings_.collects) {
+    part.result.left_there = part.there;
+    part.recorder->leave(false);
+    tell_(false, fmt::format("the recording of machine '{}' stays there: {}", machine, part.there));
+    finished_one();
+    return;
+  }
+  part.fetching = true;
+  if (!fetching_) {
+    watch_fetching();
+  }
+  part.recorder->fetch(directory() + "/" + machine,
+                       [this, &part](const MachineRecorder::Outcome& fetched) { on_fetched(part, fetched); });
+  if (hurried_) {
+    part.recorder->hurry();
+  }
+}
+
+void MachinesTrace::watch_fetching() {
+  fetching_ = loop_->after(kBetweenProgress, [this] {
+    for (const auto& part : parts_) {
+      if (part->fetching) {
+        tell_(false, fmt::format("fetching the recording of machine '{}': {} so far", part->result.machine,
+                                 size_text(part->recorder->fetched())));
+      }
+    }
+    watch_fetching();
+  });
+}
+
+void MachinesTrace::on_fetched(Part& part, const MachineRecorder::Outcome& outcome) {
+  part.fetching = false;
+  const std::string& machine = part.result.machine;
+  if (outcome.well) {
+    part.result.folder = machine;
+    part.recorder->leave(true);
+  } else {
+    part.result.left_there = part.there;
+    part.result.problem = fmt::format("the recording of machine '{}' could not be fetched: {}; it is in '{}' there",
+                                      machine, outcome.error, part.there);
+    part.recorder->leave(false);
+  }
+  finished_one();
+}
+
+void MachinesTrace::finish() {
+  fetching_.reset();
+  const std::vector<tracing::MachinePart> all = results();
+  tracing::MachinesVerdict verdict;
+  try {
+    verdict = tracing::write_machines_verdict(directory(), session(), all);
+  } catch (const std::exception& error) {
+    note(std::make_exception_ptr(LaunchError(error.what(), origin_)));
+  }
+  for (const tracing::MachinePart& part : all) {
+    if (!part.problem.empty()) {
+      tell_(true, part.problem);
+    }
+  }
+  const bool describes = !hurried_;
+  worker_ = std::thread([this, verdict, describes, count = all.size()] {
+    const std::string program = settings_.prefix + "/lib/launch/launch-report";
+    std::string text;
+    std::string page;
+    if (describes) {
+      if (bytes_below(directory()) <= kLargestDescribed) {
+        text = tracing::program_output(program, {"--summary", directory()});
+      }
+      if (request_.choices.report) {
+        page = directory() + "/report.html";
+        tracing::program_output(program, {directory(), "--html", page});
+      }
+    }
+    loop_->post([this, verdict, count, text, page] {
+      tell_(false, fmt::format("trace of {} machines written to: {}{}", count, directory(),
+                               text.empty() ? "" : fmt::format(" ({})", text)));
+      tell_(!verdict.complete,
+            fmt::format("the trace of all machines is {}", verdict.complete ? "complete" : "incomplete"));
+      std::error_code none;
+      if (!page.empty() && fs::exists(page, none)) {
+        tell_(false, "report: " + page);
+      } else {
+        tell_(request_.choices.report,
+              fmt::format("{}: launch report {}", request_.choices.report ? "no report; see" : "what is in it",
+                          shell_quoted(directory())));
+      }
+      fail_on_loss(verdict.complete);
+      std::exchange(done_, nullptr)(error_);
+    });
+  });
+}
+
+}  // namespace launch

@@ -1,0 +1,275 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A trace of several machines: a session on each, one directory at the end, one verdict; also when something dies."""
+
+import json
+import os
+import signal
+import subprocess
+import time
+import unittest
+from pathlib import Path
+
+from machine_hosts import LAUNCH, MARK, PATIENCE, MachinesTest
+
+
+# A connection that does something when the first file of a recording comes through it.
+CABLE = '''
+import os, subprocess, sys
+agent = subprocess.Popen(sys.argv[2:], stdout=subprocess.PIPE)
+while chunk := agent.stdout.read1(65536):
+    begin, file, _ = chunk.partition(b'ust/uid')
+    sys.stdout.buffer.write(begin + file)
+    sys.stdout.buffer.flush()
+    if file:
+        if sys.argv[1] == 'cut':
+            os._exit(1)
+        agent.wait()  # nothing comes any more
+'''
+
+
+class MachineTrace(MachinesTest):
+    def setUp(self):
+        super().setUp()
+        self.hosts = [self.host('arm'), self.host('base')]
+        self.traces = self.folder / 'traces'
+        self.environment['ROS_TRACE_DIR'] = str(self.traces)
+
+    def start_nodes(self, trace, more='', keepalive=5, cable=''):
+        """A talker on one machine and a listener on the other; the talker has said something when this returns."""
+        text = ''.join(f'<machine name="{host.name}" connect="{cable} {host.connect()}" keepalive="{keepalive}"/>\n' for host in self.hosts)
+        launch = self.start(self.file(
+            f'{text}<set_env name="{MARK}" value="{self.mark}"/>\n{trace}\n'
+            '<node pkg="demo_nodes_cpp" exec="talker" machine="arm" output="screen"/>\n'
+            f'<node pkg="demo_nodes_cpp" exec="listener" machine="base" output="screen"/>\n{more}'))
+        launch.lines.wait_for("[arm:talker-1] [INFO]")
+        return launch
+
+    def interrupt(self, launch):
+        launch.send_signal(signal.SIGINT)
+        code = launch.wait(PATIENCE)
+        launch.lines._thread.join(PATIENCE)
+        while (line := launch.lines._queue.get()) is not None:
+            launch.lines.seen.append(line)
+        return code
+
+    def verdict(self, *folders):
+        return json.loads(self.traces.joinpath('t', *folders, 'verdict.json').read_text())
+
+    def report(self):
+        return json.loads(subprocess.run([LAUNCH, 'report', self.traces / 't', '--json'], check=True, stdout=subprocess.PIPE,
+                                         timeout=PATIENCE, env=self.environment).stdout)
+
+    def recordings_there(self, host):
+        return sorted(path.name for path in (host.folder / '.ros/tracing').glob('*'))
+
+    def wait_for_verdict(self, host):
+        """Of the recording that stays there. The guardian writes it when the session has ended."""
+        end = time.monotonic() + PATIENCE
+        while not (found := list((host.folder / '.ros/tracing').glob('t-*/verdict.json'))):
+            if time.monotonic() > end:
+                self.fail(f'there is no verdict on {host.name}')
+            time.sleep(0.05)  # nothing tells of what happens on another machine
+        return found
+
+    def assert_no_session(self, host):
+        end = time.monotonic() + PATIENCE
+        gone = ('no available recording session', 'No session daemon')
+        while not any(words in (listed := host.run('lttng', 'list')) for words in gone):
+            if time.monotonic() > end:
+                self.fail(f'a session is left on {host.name}: {listed}')
+            time.sleep(0.05)  # nothing tells of the end of a session of another machine
+
+    def test_one_trace_of_two_machines(self):
+        self.hosts[0].link(self.hosts[1])
+        launch = self.start_nodes('<trace session-name="t"/>')
+        launch.lines.wait_for('[base:listener-2] [INFO]')
+        self.assertEqual(self.interrupt(launch), 0, launch.lines.seen)
+        lines = launch.lines.seen
+        begun = next(i for i, line in enumerate(lines) if 'recording on machines arm, base' in line)
+        started = next(i for i, line in enumerate(lines) if 'process started' in line)
+        self.assertLess(begun, started)
+        self.assertTrue([line for line in lines if f'trace of 3 machines written to: {self.traces}/t (' in line], lines)
+        verdict = self.verdict()
+        self.assertEqual([part['machine'] for part in verdict['machines']], ['local', 'arm', 'base'])
+        self.assertEqual([part['folder'] for part in verdict['machines']], ['local', 'arm', 'base'])
+        self.assertEqual(verdict['complete'], all(self.verdict(part)['complete'] for part in ('local', 'arm', 'base')))
+        self.assertTrue(verdict['complete'], (verdict, lines))  # that nothing was to be recorded here is no problem
+        self.assertTrue(self.verdict('local')['nothing_to_record'])
+        self.assertFalse([line for line in lines if 'incomplete' in line], lines)
+        for host in self.hosts:  # they share a clock, so the truth is known
+            clock = json.loads((self.traces / 't' / host.name / 'clock.json').read_text())
+            self.assertLessEqual(abs(clock['offset_ns']), clock['uncertainty_ns'], clock)
+            self.assertLessEqual(abs(clock['monotonic']['offset_ns']), clock['uncertainty_ns'], clock)
+            self.assertGreater(clock['round_trips'], 32)
+        report = self.report()
+        hosts = {process['name']: process['host'] for process in report['processes'] if process['name'] in ('talker', 'listener')}
+        self.assertEqual(hosts, {'talker': 'arm', 'listener': 'base'})
+        heard = [one for one in report['subscriptions'] if (one['topic'], one['node']) == ('/chatter', '/listener')]
+        self.assertEqual(len(heard), 1)
+        self.assertGreater(heard[0]['received'], 0, heard)
+        for host in self.hosts:
+            self.assertEqual(self.recordings_there(host), [])
+            self.assert_no_session(host)
+
+    def test_recordings_stay_there(self):
+        launch = self.start_nodes('<trace session-name="t" collect="none"/>')
+        self.assertEqual(self.interrupt(launch), 0, launch.lines.seen)
+        for host in self.hosts:
+            there = f'{host.folder}/.ros/tracing/t-{host.name}'
+            launch.lines.wait_for(f"the recording of machine '{host.name}' stays there: {there}")
+            self.assertTrue((Path(there) / 'verdict.json').is_file())
+            self.assertFalse((self.traces / 't' / host.name).exists())
+        parts = {part['machine']: part for part in self.verdict()['machines']}
+        self.assertEqual(parts['arm']['left_there'], f'{self.hosts[0].folder}/.ros/tracing/t-arm')
+        self.assertFalse(self.verdict()['complete'])  # what is not here is not known here
+
+    def test_one_machine(self):
+        launch = self.start_nodes('<trace session-name="t" machine="arm"/>')
+        self.assertEqual(self.interrupt(launch), 0, launch.lines.seen)
+        self.assertEqual([part['machine'] for part in self.verdict()['machines']], ['arm'])
+        self.assertEqual({process['host'] for process in self.report()['processes']}, {'arm'})
+        self.assertEqual(self.recordings_there(self.hosts[1]), [])
+
+    def test_this_machine(self):
+        launch = self.start_nodes('<trace session-name="t" machine="local"/>', '<node pkg="demo_nodes_cpp" exec="talker" name="here"/>')
+        self.assertEqual(self.interrupt(launch), 0, launch.lines.seen)
+        self.assertNotIn('machines', self.verdict())
+        for host in self.hosts:
+            self.assertEqual(self.recordings_there(host), [])
+
+    def test_a_machine_that_is_used_later_is_told_in_the_verdict(self):
+        launch = self.start(self.file(
+            f'<machine name="arm" connect="{self.hosts[0].connect()}"/><trace session-name="t"/><executable name="here" cmd="sleep 1000"/>'
+            '<timer period="0.1"><executable name="late" machine="arm" cmd="echo late" output="screen"/></timer>'))
+        launch.lines.wait_for('[arm:late')
+        self.interrupt(launch)
+        self.assertTrue([line for line in launch.lines.seen
+                         if "machine 'arm' was not in use when the trace began: its processes are not recorded" in line], launch.lines.seen)
+        verdict = self.verdict()
+        self.assertFalse(verdict['complete'])
+        self.assertIn("machine 'arm' was first used when the trace had begun, so these processes are not recorded: late", verdict['absent'])
+
+    def test_a_machine_that_is_lost_is_told_in_the_verdict(self):
+        launch = self.start_nodes('<trace session-name="t"/>', keepalive=1.5)
+        self.kill_agent(self.hosts[0])
+        launch.lines.wait_for("the connection to machine 'arm' is lost: ")
+        self.interrupt(launch)
+        verdict = self.verdict()
+        self.assertFalse(verdict['complete'])
+        parts = {part['machine']: part for part in verdict['machines']}
+        self.assertNotIn('folder', parts['arm'])
+        self.assertIn("the connection to machine 'arm' is lost: ", parts['arm']['problem'])
+        self.assertIn(f'{self.hosts[0].folder}/.ros/tracing/t-arm', parts['arm']['problem'])
+        self.assertEqual(parts['base']['folder'], 'base')
+        self.assert_nothing_left('lost machine')
+        # Its guardian has ended the session there, and judged what it holds.
+        self.assert_no_session(self.hosts[0])
+        self.wait_for_verdict(self.hosts[0])
+
+    def cable(self, does):
+        path = self.folder / 'cable.py'
+        path.write_text(CABLE)
+        return f'/usr/bin/python3 {path} {does}'
+
+    def test_a_connection_that_is_cut_while_files_come_leaves_nothing_that_looks_whole(self):
+        launch = self.start_nodes('<trace session-name="t"/>', cable=self.cable('cut'))
+        self.interrupt(launch)
+        verdict = self.verdict()
+        self.assertFalse(verdict['complete'])
+        for host, part in zip(self.hosts, verdict['machines'][1:]):
+            there = f'{host.folder}/.ros/tracing/t-{host.name}'
+            self.assertEqual((part['machine'], part['complete'], part['left_there']), (host.name, False, there))
+            self.assertRegex(part['problem'], f"^the recording of machine '{host.name}' could not be fetched: the connection to machine "
+                                              f"'{host.name}' is lost: .*; it is in '{there}' there$")
+            self.assertNotIn('folder', part)
+            self.assertTrue((Path(there) / 'verdict.json').is_file())
+            self.assert_no_session(host)
+        self.assertEqual(sorted(path.name for path in (self.traces / 't').iterdir()), ['local', 'verdict.json'])
+        self.assertIn('the trace of all machines is incomplete', '\n'.join(launch.lines.seen))
+
+    def test_a_launch_that_is_killed_while_files_come_leaves_nothing_that_looks_whole(self):
+        launch = self.start_nodes('<trace session-name="t"/>', keepalive=1000, cable=self.cable('stall'))
+        launchers = self.descendants(launch.pid)
+        launch.send_signal(signal.SIGINT)
+        launch.lines.wait_for("fetching the recording of machine 'arm': ")
+        for pid in launchers:
+            os.kill(pid, signal.SIGKILL)
+        launch.wait(PATIENCE)
+        self.assert_nothing_left('killed launcher')
+        verdict = self.verdict()
+        self.assertFalse(verdict['complete'])
+        for host in self.hosts:
+            there = f'{host.folder}/.ros/tracing/t-{host.name}'
+            self.assertIn(f"the launch has not ended the recording of machine '{host.name}', which is in '{there}' there", verdict['absent'])
+            self.assertFalse((self.traces / 't' / host.name).exists())
+            self.assertTrue((Path(there) / 'verdict.json').is_file())
+            self.assert_no_session(host)
+
+    def test_a_second_interrupt_leaves_the_recordings_there(self):
+        launch = self.start_nodes('<trace session-name="t"/>', keepalive=1000, cable=self.cable('stall'))
+        launch.send_signal(signal.SIGINT)
+        launch.lines.wait_for("fetching the recording of machine 'arm': ")
+        self.interrupt(launch)
+        verdict = self.verdict()
+        self.assertFalse(verdict['complete'])
+        for host in self.hosts:
+            there = f'{host.folder}/.ros/tracing/t-{host.name}'
+            self.assertIn(f"the recording of machine '{host.name}' could not be fetched: the launch was to end at once; it is in '{there}' there",
+                          verdict['absent'])
+            self.assertFalse((self.traces / 't' / host.name).exists())
+
+    def agents(self, host):
+        return [int(entry.name) for entry in Path('/proc').iterdir() if entry.name.isdigit() and self.is_agent(entry, host)]
+
+    @staticmethod
+    def is_agent(entry, host):
+        try:
+            return (os.readlink(entry / 'exe').endswith('/launch-agent')
+                    and os.readlink(entry / 'ns/uts') == os.readlink(f'/proc/{host._first}/ns/uts'))
+        except OSError:
+            return False
+
+    def kill_agent(self, host):
+        for pid in self.agents(host):
+            os.kill(pid, signal.SIGKILL)
+
+    def test_sessions_end_when_the_launcher_is_killed(self):
+        launch = self.start_nodes('<trace session-name="t"/>')
+        self.kill_and_look(launch, self.descendants(launch.pid))
+
+    def test_sessions_end_when_launcher_guardian_and_agents_are_killed(self):
+        launch = self.start_nodes('<trace session-name="t"/>')
+        self.kill_and_look(launch, [launch.pid, *self.descendants(launch.pid), *self.agents(self.hosts[0]), *self.agents(self.hosts[1])])
+
+    def kill_and_look(self, launch, processes):
+        for pid in processes:
+            try:
+                os.kill(pid, signal.SIGKILL)
+            except ProcessLookupError:
+                continue
+        self.assert_nothing_left('killed launch')
+        launch.wait(PATIENCE)
+        for host in self.hosts:
+            self.assert_no_session(host)
+            self.wait_for_verdict(host)
+        self.assertFalse(self.verdict()['complete'])
+
+    @staticmethod
+    def descendants(pid):
+        """The processes below it that are launch itself."""
+        found = []
+        for entry in Path('/proc').iterdir():
+            try:
+                if entry.name.isdigit() and os.readlink(entry / 'exe').endswith('/launch'):
+                    above = int(entry.name)
+                    while above > 1 and above != pid:
+                        above = int((Path('/proc') / str(above) / 'stat').read_text().rpartition(')')[2].split()[1])
+                    if above == pid and int(entry.name) != pid:
+                        found.append(int(entry.name))
+            except OSError:
+                continue
+        return found
+
+
+if __name__ == '__main__':
+    unittest.main()

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// The verdict of a trace of several machines: never more optimistic than that of its worst part.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tracing {
+
+// The recording of one machine.
+struct MachinePart {
+  std::string machine;
+  std::string folder = {};      // below the directory of the trace, with a verdict of its own; empty: it is not there
+  std::string problem = {};     // a sentence; empty: none
+  std::string left_there = {};  // the directory on the machine, if it was not fetched
+  bool nothing = false;         // nothing was recorded there, and nothing was to be
+  // No process ran there that was to be recorded: that its recording has no event is no problem then.
+  bool expects_nothing = false;
+};
+
+struct MachinesVerdict {
+  bool complete = false;
+};
+
+// Writes kVerdictFile into the directory, which is made if need be: session, complete, absent (the problems), machines
+// with what their own verdicts say. A part without a verdict is not complete. Throws TraceError.
+MachinesVerdict write_machines_verdict(const std::filesystem::path& directory, const std::string& session_name,
+                                       const std::vector<MachinePart>& parts);
+
+// Adds problems to the verdict of a recording, which is not complete then. Throws TraceError.
+void note_problems(const std::filesystem::path& directory, const std::vector<std::string>& problems);
+
+}  // namespace tracing
