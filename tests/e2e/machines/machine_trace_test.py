@@ -3,6 +3,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import time
@@ -217,6 +218,46 @@ class MachineTrace(MachinesTest):
             self.assertIn(f"the recording of machine '{host.name}' could not be fetched: the launch was to end at once; it is in '{there}' there",
                           verdict['absent'])
             self.assertFalse((self.traces / 't' / host.name).exists())
+
+    def latency_of_chatter(self):
+        report = self.report()
+        heard = next(one for one in report['subscriptions'] if (one['topic'], one['node']) == ('/chatter', '/listener'))
+        return report['clocks'], heard['latency']
+
+    def test_times_are_those_of_the_clock_of_the_launch(self):
+        """The hosts share a clock. So the truth is known when the one of a recording is moved, as if it had been set wrong there."""
+        self.hosts[0].link(self.hosts[1])
+        launch = self.start_nodes('<trace session-name="t"/>')
+        launch.lines.wait_for('[base:listener-2] [INFO]')
+        self.assertEqual(self.interrupt(launch), 0, launch.lines.seen)
+        clocks, truth = self.latency_of_chatter()
+        self.assertEqual(clocks, [])
+        self.assertGreater(truth['count'], 0)
+        self.move_clock('arm', 3_700_000_000)
+        self.move_clock('base', -8_000_000_000)
+        clocks, latency = self.latency_of_chatter()
+        self.assertEqual(len(clocks), 2, clocks)
+        self.assertRegex(clocks[0], r'^the clock of arm was 3\.(699|700)\d{3} s ahead of that of the launch')
+        self.assertRegex(clocks[1], r'^the clock of base was (7\.999|8\.000)\d{3} s behind that of the launch')
+        self.assertEqual(latency['count'], truth['count'])
+        files = [self.traces / 't' / host.name / 'clock.json' for host in self.hosts]
+        error = sum(json.loads(file.read_text())['uncertainty_ns'] for file in files)
+        for figure in ('min_ns', 'max_ns'):
+            self.assertLessEqual(abs(latency[figure] - truth[figure]), error, (latency, truth))
+        for file in files:
+            file.unlink()
+        clocks, latency = self.latency_of_chatter()  # as recorded
+        self.assertEqual(clocks, [])
+        self.assertNotEqual(latency, truth)
+
+    def move_clock(self, machine, nanoseconds):
+        """Of the recording, which says when the clock of its events began."""
+        for path in (self.traces / 't' / machine).rglob('metadata'):
+            text = path.read_bytes()
+            moved = re.sub(rb'(\n\s*offset = )(\d+);', lambda found: found[1] + str(int(found[2]) + nanoseconds).encode() + b';', text)
+            self.assertNotEqual(moved, text)
+            self.assertEqual(len(moved), len(text))
+            path.write_bytes(moved)
 
     def agents(self, host):
         return [int(entry.name) for entry in Path('/proc').iterdir() if entry.name.isdigit() and self.is_agent(entry, host)]

@@ -27,11 +27,13 @@ class TraceReader {
     kBabeltrace,  // libbabeltrace2
   };
 
-  // The times of a session of which several traces were recorded, while the wall clock of the machine was set.
+  // The times of a session of which several traces were recorded, while the wall clock of the machine was set; and
+  // those of several machines, whose clocks a launch has compared.
   enum class Clocks {
     kAsRecorded,  // as babeltrace2 shows them: each trace has the distance from the epoch that LTTng has measured for
                   // it
-    kOne,         // all traces of the session have the same, with our own decoder
+    kOne,         // all traces of the session have the same, and those of other machines are on the clock of the
+                  // launch; with our own decoder
   };
 
   // Finds the traces. Throws TraceReadError when there is none.

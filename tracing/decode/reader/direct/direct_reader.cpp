@@ -12,6 +12,7 @@
 #include "tracing/decode/ctf/streams/stream_cursor.hpp"
 #include "tracing/decode/ctf/trace_class.hpp"
 #include "tracing/decode/reader/direct/declarations.hpp"
+#include "tracing/decode/reader/direct/machine_clock.hpp"
 #include "tracing/decode/reader/direct/one_clock.hpp"
 #include "tracing/decode/reader/direct/packet_counting.hpp"
 #include "tracing/decode/reader/direct/stream_class.hpp"
@@ -70,8 +71,7 @@ struct DirectReader::Trace {
   std::vector<std::unique_ptr<ctf::StreamFile>> files;
 };
 
-// A stream that is being read.
-struct DirectReader::OpenStream {
+struct DirectReader::OpenStream {  // that is being read
   OpenStream(Trace& of, const StreamClass& is, Stream as, std::vector<ctf::Packet> packets)
       : trace(of), stream_class(is), description(std::move(as)), cursor(is.layout(), std::move(packets)) {}
 
@@ -137,9 +137,7 @@ DirectReader::DirectReader(const fs::path& directory, const std::vector<fs::path
     }
     Trace& trace = *traces_[known->second];
     descriptions_[known->second].directories.push_back(path);
-    if (is_open) {
-      trace.is_open = true;
-    }
+    trace.is_open = trace.is_open || is_open;
     // The metadata of a session only grow, so the longest text is the newest.
     if (size >= length[known->second]) {
       trace.declarations = std::move(declarations);
@@ -150,10 +148,11 @@ DirectReader::DirectReader(const fs::path& directory, const std::vector<fs::path
   std::vector<ClockOfTrace> clocks;
   for (const auto& trace : traces_) {
     trace->recording = recording_of_trace(trace->declarations);
-    clocks.push_back({trace->recording, trace->declarations});
+    clocks.push_back({trace->recording, trace->declarations, descriptions_[trace->number].directories.front()});
   }
   if (one_clock) {
     clock_notes_ = put_on_one_clock(clocks);
+    put_on_clock_of_launch(clocks, clock_notes_);
   }
   std::size_t next_class = 0;
   for (const auto& each : traces_) {

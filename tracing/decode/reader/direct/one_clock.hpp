@@ -5,6 +5,7 @@
 // after a robot has started. Private to the reader.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,8 @@ namespace tracing {
 
 struct ClockOfTrace {
   const Recording& recording;
-  ctf::TraceClass& declarations;  // whose clock is changed
+  ctf::TraceClass& declarations;         // whose clock is changed
+  std::filesystem::path directory = {};  // of the trace
 };
 
 // Gives all traces of a session the largest distance among them, if the distances differ by more than the measurements
