@@ -56,10 +56,7 @@ MachineConnection::MachineConnection(EventLoop& loop, Settings settings, Tell te
   outgoing_ = std::make_unique<Outgoing>(command_->take_input());
   output_source_ = loop_.on_readable(command_->output(), [this] { receive(); });
   error_source_ = loop_.on_readable(command_->error(), [this] {
-    const auto tell_line = [this](std::string_view line) {
-      tell_(LogLevel::kInfo, fmt::format("machine '{}': {}", settings_.name, line));
-    };
-    if (!command_->read_error(hello_ ? tell_line : std::function<void(std::string_view)>())) {
+    if (!command_->read_error(hello_ ? teller() : nullptr)) {
       error_source_.reset();
     }
   });
@@ -77,9 +74,6 @@ MachineConnection::~MachineConnection() {
     // The guardian there ends what is left, and the command ends when it has.
     outgoing_->add(encode(ToAgent::kEnd));
     const Clock::time_point end = Clock::now() + kPatienceAtEnd;
-    const auto tell_line = [this](std::string_view line) {
-      tell_(LogLevel::kInfo, fmt::format("machine '{}': {}", settings_.name, line));
-    };
     constexpr int kOften = 100;  // milliseconds
     std::array<char, 4096> bytes{};
     bool agent_is_there = true;  // its guardian may still be at work
@@ -89,13 +83,18 @@ MachineConnection::~MachineConnection() {
                                    {outgoing_->waiting() > 0 ? outgoing_->fd() : -1, POLLOUT, 0}}};
       ::poll(waits.data(), waits.size(), kOften);
       agent_is_there = agent_is_there && ::read(command_->output(), bytes.data(), bytes.size()) != 0;
-      command_->read_error(tell_line);
+      command_->read_error(teller());
       outgoing_->flush();
     }
-    command_->read_error(tell_line);
+    command_->read_error(teller());
   }
   outgoing_->close();
   command_->end(greeted_ && !lost_ ? milliseconds(500) : milliseconds(0));
+}
+
+std::function<void(std::string_view line)> MachineConnection::teller() const {
+  return
+      [this](std::string_view line) { tell_(LogLevel::kInfo, fmt::format("machine '{}': {}", settings_.name, line)); };
 }
 
 void MachineConnection::send(ToAgent kind, const WireWriter& content) {
@@ -388,9 +387,7 @@ void MachineConnection::lose(const std::string& reason, std::string help) {
     const std::string rest = labels.empty() ? "" : "; what ran there: " + labels + "; the agent there ends it";
     const std::string words = command_->last_lines().empty() ? "" : "; it wrote last: " + command_->last_lines().back();
     tell_(LogLevel::kError, *lost_ + words + rest);
-    if (observe_loss_) {
-      observe_loss_({settings_.name, why, labels});
-    }
+    observe_loss_({settings_.name, why, labels});
   }
   runs_.lose(*lost_);
   traces_.lose(*lost_);

@@ -95,13 +95,15 @@ class MachineConnection {
   void watch_silence();
   // The connection is no more. `reason` says why, if it is known better than by the end of the command.
   void lose(const std::string& reason, std::string help = {});
+  // Passes on a line that the command has written to its standard error.
+  std::function<void(std::string_view line)> teller() const;
   std::string last_words() const;
   [[noreturn]] void throw_lost() const;
 
   EventLoop& loop_;
   Settings settings_;
   Tell tell_;
-  std::function<void(const LostMachine&)> observe_loss_;
+  std::function<void(const LostMachine&)> observe_loss_ = [](const LostMachine&) {};
   std::unique_ptr<ConnectingCommand> command_;
   std::unique_ptr<Outgoing> outgoing_;
   RemoteRuns runs_;
