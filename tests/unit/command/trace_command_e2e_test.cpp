@@ -57,6 +57,16 @@ struct TraceCommandE2e : testing::Test {
     EXPECT_EQ(listed_sessions(), "");
   }
 
+  // From now on it accepts connections, and answers nothing. Returns its number.
+  static pid_t stop_session_daemon() {
+    const pid_t daemon = std::stoi(
+        test_support::read_file(geteuid() == 0 ? "/run/lttng/lttng-sessiond.pid"
+                                               : std::string(getenv("LTTNG_HOME")) + "/.lttng/lttng-sessiond.pid"));
+    kill(daemon, SIGSTOP);
+    EXPECT_EQ(waitpid(daemon, nullptr, WUNTRACED), daemon);  // it is an orphan now, so it is a child of the sandbox
+    return daemon;
+  }
+
   Sandbox sandbox;
   std::string trace = sandbox.trace_directory() / "run";
 };
@@ -162,11 +172,7 @@ TEST_F(TraceCommandE2e, AKilledInteractiveCommandLeavesAWholeTrace) {
 // A daemon that is stopped accepts connections, and answers nothing.
 TEST_F(TraceCommandE2e, NoVerbWaitsForAStoppedDaemonAndTheEndOfASessionContinuesIt) {
   EXPECT_EQ(run_command({TRACE_COMMAND, "start", "run"}).exit_code, 0);
-  const pid_t daemon = std::stoi(
-      test_support::read_file(geteuid() == 0 ? "/run/lttng/lttng-sessiond.pid"
-                                             : std::string(getenv("LTTNG_HOME")) + "/.lttng/lttng-sessiond.pid"));
-  kill(daemon, SIGSTOP);
-  ASSERT_EQ(waitpid(daemon, nullptr, WUNTRACED), daemon);  // it is an orphan now, so it is a child of the sandbox
+  const pid_t daemon = stop_session_daemon();
   const std::string pid = std::to_string(daemon);
   for (const std::vector<std::string>& verb : std::vector<std::vector<std::string>>{{"list"},
                                                                                     {"status"},
@@ -197,11 +203,7 @@ TEST_F(TraceCommandE2e, NoVerbWaitsForAStoppedDaemonAndTheEndOfASessionContinues
 // The guardian of a killed launcher asks how old the session is.
 TEST_F(TraceCommandE2e, AStoppedDaemonIsContinuedToTellTheAgeOfASession) {
   EXPECT_EQ(run_command({TRACE_COMMAND, "start", "run"}).exit_code, 0);
-  const pid_t daemon = std::stoi(
-      test_support::read_file(geteuid() == 0 ? "/run/lttng/lttng-sessiond.pid"
-                                             : std::string(getenv("LTTNG_HOME")) + "/.lttng/lttng-sessiond.pid"));
-  kill(daemon, SIGSTOP);
-  ASSERT_EQ(waitpid(daemon, nullptr, WUNTRACED), daemon);  // it is an orphan now, so it is a child of the sandbox
+  const pid_t daemon = stop_session_daemon();
   const CommandResult stop = run_command({TRACE_COMMAND, "stop", "run", "--created-since=0"});
   EXPECT_EQ(stop.exit_code, 0);
   EXPECT_EQ(stop.err, "launch trace stop: note: LTTng's session daemon (process " + std::to_string(daemon) +
