@@ -70,7 +70,7 @@ void MachinesTrace::expect(const std::vector<ProcessSpec>& processes) {
     std::copy_if(processes.begin(), processes.end(), std::back_inserter(of_here),
                  [](const ProcessSpec& spec) { return spec.machine.empty(); });
     session_ = session();
-    here_->config().session_name += std::string("/") + kFolderHere;
+    here_->config().part = kFolderHere;
     here_->expect_some(of_here);
   }
 }

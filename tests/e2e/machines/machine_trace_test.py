@@ -63,6 +63,12 @@ class MachineTrace(MachinesTest):
     def recordings_there(self, host):
         return sorted(path.name for path in (host.folder / '.ros/tracing').glob('*'))
 
+    def wait_for_file(self, path):
+        end = time.monotonic() + PATIENCE
+        while not path.exists():
+            self.assertLess(time.monotonic(), end, f'there is no {path}')
+            time.sleep(0.05)  # nobody tells of what guardians do when the launch is gone
+
     def wait_for_verdict(self, host):
         """Of the recording that stays there. The guardian writes it when the session has ended."""
         end = time.monotonic() + PATIENCE
@@ -294,6 +300,7 @@ class MachineTrace(MachinesTest):
             self.assert_no_session(host)
             self.wait_for_verdict(host)
         self.assertFalse(self.verdict()['complete'])
+        self.wait_for_file(self.traces / 't/local/verdict.json')
 
     @staticmethod
     def descendants(pid):

@@ -30,7 +30,10 @@ const std::vector<std::string>& default_context_fields() {
 }
 
 std::string TraceConfig::trace_directory() const {
-  const std::filesystem::path directory = std::filesystem::path(base_path) / session_name;
+  std::filesystem::path directory = std::filesystem::path(base_path) / session_name;
+  if (!part.empty()) {
+    directory /= part;
+  }
   if (dual_runtime) {
     return (directory / "runtime").string();
   }
@@ -63,7 +66,7 @@ std::string TraceConfig::lttng_session_name() const {
   if (dual_session) {
     return session_name + "-snapshot";
   }
-  return session_name.substr(0, session_name.find('/'));
+  return session_name;
 }
 
 std::string trace_base_path(const std::string& given, const std::map<std::string, std::string>& environment) {

@@ -61,9 +61,8 @@ struct TracetoolsUse {
 
 // Events are given as the text of an event rule (event_rule.hpp), in the simplest case the name.
 struct TraceConfig {
-  // Any time stamp already appended. NAME/FOLDER: the part of one machine in the directory NAME of a trace of several
-  // machines; the session is called NAME.
-  std::string session_name;
+  std::string session_name;    // any time stamp already appended
+  std::string part;            // folder of this machine below the directory of a trace of several machines; "": no part
   bool has_timestamp = false;  // a run may append a number (free_name.hpp)
   std::string base_path;       // absolute directory that will hold the trace directory
   bool append_trace = false;
@@ -108,7 +107,7 @@ struct TraceConfig {
   // Of the kernel's channel, for each processor.
   std::uint64_t subbuffer_count_kernel() const { return records_snapshots() ? 4 : 2; }
 
-  // base_path/session_name; for the halves of a dual session …/snapshot and …/runtime below it.
+  // base_path/session_name, and the part below it; for the halves of a dual session …/snapshot and …/runtime below it.
   std::string trace_directory() const;
   // The entries of all channels.
   std::vector<std::string> all_events_ust() const;

@@ -32,11 +32,6 @@ constexpr std::uint64_t kLargestSummarized = 100'000'000;
 // An event of the stack (docs/tracetools.md): the stack compares the times itself and fires only this.
 constexpr const char* kLateCallback = "ros2_deadline:callback";
 constexpr const char* kLateMessage = "ros2_deadline:message";
-// Of a trace of several machines, whose launch describes them together.
-bool is_part_of_a_trace(const TraceConfig& config) {
-  return config.session_name.find('/') != std::string::npos;
-}
-
 // The reason for a snapshot, for people.
 std::string snapshot_reason(const RunChoices& choices, const std::string& rule) {
   if (rule == kLateCallback && choices.callback_deadline != 0) {
@@ -149,7 +144,8 @@ std::string TracedRun::write_chains() const {
     return "";
   }
   try {
-    tracing::write_chains(choices_.chains, std::filesystem::path(config_.base_path) / config_.session_name);
+    tracing::write_chains(choices_.chains,
+                          std::filesystem::path(config_.base_path) / config_.session_name / config_.part);
     return "";
   } catch (const std::system_error& error) {
     return fmt::format("the report will not know the chains of the launch file: {}", error.what());
@@ -243,7 +239,7 @@ void TracedRun::finish(const Tell& tell) {
   if (!config_.records_snapshots() && !config_.over_network() && !hurry_) {
     summarize();
   }
-  if (choices_.report && !config_.over_network() && !hurry_ && !is_part_of_a_trace(config_)) {
+  if (choices_.report && !config_.over_network() && !hurry_ && config_.part.empty()) {
     make_report();
   }
   tell_result(tell);
@@ -322,11 +318,11 @@ void TracedRun::tell_result(const Tell& tell) const {
   const std::string report_command = "launch report " + launch::shell_quoted(config_.trace_directory());
   if (!report_.empty()) {
     tell(false, "report: " + report_);
-  } else if (choices_.report && !is_part_of_a_trace(config_)) {
+  } else if (choices_.report && config_.part.empty()) {
     tell(true, "no report: " + (config_.over_network() ? "the trace is on another machine"
                                 : hurry_               ? "the launch was to end at once"
                                                        : fmt::format("see what `{}` says", report_command)));
-  } else if (!config_.over_network() && !config_.records_snapshots() && !is_part_of_a_trace(config_)) {
+  } else if (!config_.over_network() && !config_.records_snapshots() && config_.part.empty()) {
     tell(false, "what is in it: " + report_command);
   }
 }
