@@ -49,9 +49,11 @@ std::vector<std::string> MachinesTrace::clean_up_command() {
 
 void MachinesTrace::expect(const std::vector<ProcessSpec>& processes) {
   std::set<std::string> machines;
-  if (settings_.only) {
+  if (recorders_ == nullptr) {
+    // Only planned: nobody connects.
+  } else if (settings_.only) {
     machines.insert(*settings_.only);
-  } else if (recorders_ != nullptr) {
+  } else {
     const std::vector<std::string> connected = recorders_->connected();
     machines.insert(connected.begin(), connected.end());
   }

@@ -65,6 +65,15 @@ TEST(Trace, TheLimitOfItsCostIsAPercentageOfAProcessor) {
   EXPECT_TRUE(std::get<Words>(unlimited.at("drop-order").value).empty());
 }
 
+TEST(Trace, OfAnotherMachineIsPlannedWithoutAConnection) {
+  const auto planned = plan_actions(R"xml(<machine name="arm" connect="ssh arm"/>
+    <trace session-name="all"/>
+    <trace session-name="one" machine="arm"/>
+    <executable cmd="a" machine="arm"/>)xml");
+  EXPECT_EQ(planned.error, "");
+  EXPECT_EQ(planned.plan.scopes.size(), 2u);
+}
+
 TEST(Trace, DeadlinesMakeItAFlightRecorderThatWatchesForThem) {
   const Planned planned = plan_actions(R"xml(
     <trace session-name="run" snapshot-on-late-callback="0.5" snapshot-on-late-message="20"/>
