@@ -193,7 +193,7 @@ void MachinesTrace::undo() {
   }
   for (const auto& part : parts_) {
     if (part->begun) {
-      part->recorder->end([this, &part = *part](const MachineRecorder::Outcome&) {
+      part->recorder->end(true, [this, &part = *part](const MachineRecorder::Outcome&) {
         part.recorder->leave(true);
         finished_one();
       });
@@ -224,11 +224,10 @@ void MachinesTrace::write_first_verdict() {
 std::vector<tracing::MachinePart> MachinesTrace::results() const {
   std::vector<tracing::MachinePart> all;
   if (here_) {
-    all.push_back({.machine = kLocalMachine, .folder = kFolderHere, .expects_nothing = !used_.contains(kLocalMachine)});
+    all.push_back({.machine = kLocalMachine, .folder = kFolderHere});
   }
   for (const auto& part : parts_) {
     all.push_back(part->result);
-    all.back().expects_nothing = !used_.contains(part->result.machine);
   }
   for (const auto& [machine, processes] : too_late_) {
     all.push_back(

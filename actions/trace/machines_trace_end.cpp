@@ -12,7 +12,6 @@
 #include "base/diagnostics/diagnostic.hpp"
 #include "base/text/quoted_text.hpp"
 #include "launcher/process/health_watch.hpp"
-#include "tracing/record/account/nothing_recorded.hpp"
 #include "tracing/record/lttng/installed_program.hpp"
 
 namespace launch {
@@ -51,18 +50,15 @@ void MachinesTrace::end(EventLoop& loop, Tell tell, Completion done) {
   }
   wait_for(parts_.size() + (here_ ? 1 : 0), [this] { finish(); });
   if (here_) {
-    const auto tell_here = [this](bool warning, const std::string& text) {
-      if (used_.contains(kLocalMachine) || text.find(tracing::kNothingRecorded) == std::string::npos) {
-        tell_(warning, text);
-      }
-    };
-    here_->end(loop, tell_here, [this](const std::exception_ptr& error) {
+    here_->config().nothing_to_record = !used_.contains(kLocalMachine);
+    here_->end(loop, tell_, [this](const std::exception_ptr& error) {
       note(error);
       finished_one();
     });
   }
   for (const auto& part : parts_) {
-    part->recorder->end([this, &part = *part](const MachineRecorder::Outcome& outcome) { on_ended(part, outcome); });
+    part->recorder->end(!used_.contains(part->result.machine),
+                        [this, &part = *part](const MachineRecorder::Outcome& outcome) { on_ended(part, outcome); });
   }
 }
 
@@ -100,7 +96,7 @@ void MachinesTrace::on_ended(Part& part, const MachineRecorder::Outcome& outcome
   const std::string& machine = part.result.machine;
   if (outcome.lost) {
     part.result.problem =
-        fmt::format("{}: its recording is not here; the agent there has ended it in '{}'", outcome.error, part.there);
+        fmt::format("{}: its recording is not here; what there is of it is in '{}' there", outcome.error, part.there);
     finished_one();
     return;
   }
@@ -110,8 +106,9 @@ void MachinesTrace::on_ended(Part& part, const MachineRecorder::Outcome& outcome
     part.result.problem = fmt::format("machine '{}': {}", machine, outcome.error);
   }
   if (outcome.directory.empty()) {
-    if (part.result.problem.empty()) {
-      part.result.nothing = true;
+    part.result.nothing = part.result.problem.empty() && !used_.contains(machine);
+    if (part.result.problem.empty() && !part.result.nothing) {
+      part.result.problem = fmt::format("machine '{}' has recorded nothing, though processes ran there", machine);
     }
     part.recorder->leave(false);
     finished_one();
@@ -166,9 +163,9 @@ void MachinesTrace::on_fetched(Part& part, const MachineRecorder::Outcome& outco
 void MachinesTrace::finish() {
   fetching_.reset();
   const std::vector<tracing::MachinePart> all = results();
-  tracing::MachinesVerdict verdict;
+  bool complete = false;
   try {
-    verdict = tracing::write_machines_verdict(directory(), session(), all);
+    complete = tracing::write_machines_verdict(directory(), session(), all);
   } catch (const std::exception& error) {
     note(std::make_exception_ptr(LaunchError(error.what(), origin_)));
   }
@@ -178,7 +175,7 @@ void MachinesTrace::finish() {
     }
   }
   const bool describes = !hurried_;
-  worker_ = std::thread([this, verdict, describes, count = all.size()] {
+  worker_ = std::thread([this, complete, describes, count = all.size()] {
     const std::string program = settings_.prefix + "/lib/launch/launch-report";
     std::string text;
     std::string page;
@@ -191,11 +188,10 @@ void MachinesTrace::finish() {
         tracing::program_output(program, {directory(), "--html", page});
       }
     }
-    loop_->post([this, verdict, count, text, page] {
+    loop_->post([this, complete, count, text, page] {
       tell_(false, fmt::format("trace of {} machines written to: {}{}", count, directory(),
                                text.empty() ? "" : fmt::format(" ({})", text)));
-      tell_(!verdict.complete,
-            fmt::format("the trace of all machines is {}", verdict.complete ? "complete" : "incomplete"));
+      tell_(!complete, fmt::format("the trace of all machines is {}", complete ? "complete" : "incomplete"));
       std::error_code none;
       if (!page.empty() && fs::exists(page, none)) {
         tell_(false, "report: " + page);
@@ -204,7 +200,7 @@ void MachinesTrace::finish() {
               fmt::format("{}: launch report {}", request_.choices.report ? "no report; see" : "what is in it",
                           shell_quoted(directory())));
       }
-      fail_on_loss(verdict.complete);
+      fail_on_loss(complete);
       std::exchange(done_, nullptr)(error_);
     });
   });

@@ -54,8 +54,8 @@ class RemoteTraces::Recorder final : public MachineRecorder {
     ask(Trace::Waits::kForBegin, ToAgent::kTraceBegin, content, std::move(done));
   }
 
-  void end(Done done) override {
-    ask(Trace::Waits::kForEnd, ToAgent::kTraceEnd, WireWriter().u32(number_), std::move(done));
+  void end(bool nothing_to_record, Done done) override {
+    ask(Trace::Waits::kForEnd, ToAgent::kTraceEnd, WireWriter().u32(number_).flag(nothing_to_record), std::move(done));
   }
 
   void hurry() override {

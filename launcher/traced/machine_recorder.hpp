@@ -27,8 +27,8 @@ class MachineRecorder {
   virtual const std::string& machine() const = 0;
   // Begins a session there. `request`: a MachineTrace as bytes. Warnings of the session go to `warn`, until the end.
   virtual void begin(const std::string& request, std::function<void(const std::string& text)> warn, Done done) = 0;
-  // Ends it, if it has begun.
-  virtual void end(Done done) = 0;
+  // Ends it, if it has begun. `nothing_to_record`: no process ran there that was to be recorded.
+  virtual void end(bool nothing_to_record, Done done) = 0;
   // An end or a fetch under way must be done soon, with the data that is there.
   virtual void hurry() = 0;
   // After end(): copies the recording into this directory, which must not exist, and makes sure that it is the same.

@@ -50,6 +50,7 @@ struct AgentTraces::Trace {
   TracedProcesses processes;
   State state = State::kBeginning;
   bool ends = false;  // asked for while it begins or while it is looked around
+  bool nothing_to_record = false;
   bool busy = false;  // a thread is in the run
   std::int32_t clean_up = 0;
   EventLoop::SourcePtr look_around;
@@ -82,10 +83,11 @@ void AgentTraces::receive(ToAgent kind, WireReader& reader) {
   const std::shared_ptr<Trace> trace = found->second;
   switch (kind) {
     case ToAgent::kTraceEnd:
-      reader.end();
       if (trace->ends) {
         throw WireError("it ends a trace twice");
       }
+      trace->nothing_to_record = reader.flag();
+      reader.end();
       trace->ends = true;
       end(trace);
       return;
@@ -177,6 +179,7 @@ void AgentTraces::end(const std::shared_ptr<Trace>& trace) {
   trace->state = Trace::State::kEnding;
   trace->busy = true;
   trace->run.config().tracetools = trace->processes.uses();
+  trace->run.config().nothing_to_record = trace->nothing_to_record;
   const auto told = [this, lives = lives_, number = trace->number](bool warning, const std::string& text) {
     if (warning) {
       loop_.post([this, lives, number, text] {

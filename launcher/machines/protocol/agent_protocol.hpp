@@ -40,7 +40,7 @@ enum class ToAgent : std::uint8_t {
   kEnd = 10,     // nothing follows: end what is left
   // The number of a trace is chosen by the launcher, each greater than the one before.
   kTraceBegin = 11,  // u32 trace, MachineTrace (launcher/traced/machine_trace.hpp): record the machine
-  kTraceEnd = 12,    // u32 trace: end it
+  kTraceEnd = 12,    // u32 trace, flag whether no process was to be recorded: end it
   kTraceHurry = 13,  // u32 trace: end it with the data that is there
   kTraceFetch = 14,  // u32 trace, u32 bytes: of its files so many more may be sent
   kTraceLeave = 15   // u32 trace, flag: nothing more is wanted of it; remove its files there, or leave them

@@ -96,6 +96,12 @@ TEST(Absence, OfEverythingIsToldOnce) {
           "the session daemon"));
 }
 
+TEST(Absence, OfEverythingIsRightWhereNothingWasToBeRecorded) {
+  EXPECT_THAT(absent_events(rules({"ros2:rcl_init", "launch:*"}), {"launch:exec"}, true), IsEmpty());
+  EXPECT_THAT(texts(absent_events(rules({"ros2:rcl_inti"}), {}, true)),
+              ElementsAre(testing::HasSubstr("no program that ran has an event 'ros2:rcl_inti'")));
+}
+
 TEST(Absence, IsNotLookedForWithoutRulesOfTheUser) {
   EXPECT_THAT(absent_events(rules({"launch:cut", "ros2_session:no_state_dump"}), {}), IsEmpty());
 }

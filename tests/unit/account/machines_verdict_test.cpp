@@ -7,12 +7,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "tests/support/sandbox.hpp"
-#include "tracing/record/account/nothing_recorded.hpp"
-#include "tracing/record/account/verdict.hpp"
 #include "tracing/record/plan/trace_error.hpp"
 
 namespace {
@@ -26,7 +23,7 @@ class MachinesVerdictTest : public testing::Test {
     std::ofstream(sandbox.directory() / folder / "verdict.json") << text;
   }
   bool judge(const std::vector<MachinePart>& parts) {
-    const bool complete = tracing::write_machines_verdict(sandbox.directory(), "walk", parts).complete;
+    const bool complete = tracing::write_machines_verdict(sandbox.directory(), "walk", parts);
     std::ifstream file(sandbox.directory() / "verdict.json");
     written = nlohmann::json::parse(file);
     EXPECT_EQ(written["complete"], complete);
@@ -77,42 +74,6 @@ TEST_F(MachinesVerdictTest, AProblemMakesAVerdictIncomplete) {
   EXPECT_EQ(nlohmann::json::parse(std::ifstream(file)),
             nlohmann::json::parse(R"({"complete": false, "absent": ["two"]})"));
   EXPECT_THROW(tracing::note_problems(sandbox.directory() / "leg", {"two"}), tracing::TraceError);
-}
-
-// As by a guardian, when the session of this machine is no longer there.
-TEST_F(MachinesVerdictTest, TheVerdictOfOneMachineDoesNotTakeItsPlace) {
-  EXPECT_FALSE(judge({{.machine = "arm", .problem = "the launch has not ended it"}}));
-  tracing::write_verdict({}, "walk", sandbox.directory());
-  std::ifstream file(sandbox.directory() / "verdict.json");
-  EXPECT_EQ(nlohmann::json::parse(file), written);
-}
-
-TEST_F(MachinesVerdictTest, WhereNothingWasToBeRecordedNothingIsMissing) {
-  using nlohmann::json;
-  const auto verdict_with = [](bool complete, const json& absent) {
-    return json{{"complete", complete}, {"absent", absent},      {"damage", ""},
-                {"cut_short", false},   {"discarded_events", 0}, {"lost_packets", 0}};
-  };
-  const json absent = json::array({tracing::kNothingRecorded});
-  give("local", verdict_with(false, absent).dump());
-  EXPECT_FALSE(judge({{.machine = "local", .folder = "local"}}));
-  EXPECT_TRUE(judge({{.machine = "local", .folder = "local", .expects_nothing = true}}));
-  json expected = verdict_with(true, json::array());
-  expected["nothing_to_record"] = true;
-  std::ifstream file(sandbox.directory() / "local/verdict.json");
-  EXPECT_EQ(json::parse(file), expected);
-  const std::vector<std::pair<std::string, json>> faults = {
-      {"absent", json::array({tracing::kNothingRecorded, "more"})},
-      {"damage", "a file is gone"},
-      {"cut_short", true},
-      {"discarded_events", 1},
-      {"lost_packets", 1}};
-  for (const auto& [field, value] : faults) {
-    json worse = verdict_with(false, absent);
-    worse[field] = value;
-    give("local", worse.dump());
-    EXPECT_FALSE(judge({{.machine = "local", .folder = "local", .expects_nothing = true}})) << field;
-  }
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ TEST_F(RemoteTracesTest, BeginsAndEnds) {
   EXPECT_EQ(begun[0].directory, "/there/t-arm");
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_EQ(warnings[0].find('\x1b'), std::string::npos);
-  recorder->end(into(ended));
+  recorder->end(false, into(ended));
   say(FromAgent::kTraceEnded, WireWriter().u32(1).flag(false).text("no daemon").text("start it").text(""));
   ASSERT_EQ(ended.size(), 1U);
   EXPECT_FALSE(ended[0].well);

@@ -8,7 +8,6 @@
 #include "base/text/names.hpp"
 #include "tracing/decode/ctf/metadata_text.hpp"
 #include "tracing/decode/ctf/trace_class.hpp"
-#include "tracing/record/account/nothing_recorded.hpp"
 #include "tracing/record/account/stream_packets.hpp"
 #include "tracing/record/plan/ros_events.hpp"
 
@@ -127,7 +126,8 @@ std::optional<std::set<std::string>> declared_events(const fs::path& recording) 
   return names;
 }
 
-std::vector<Absence> absent_events(const RecordedEvents& events, const std::set<std::string>& declared) {
+std::vector<Absence> absent_events(const RecordedEvents& events, const std::set<std::string>& declared,
+                                   bool nothing_to_record) {
   std::vector<Absence> absences = absent_launcher(events, declared);
   if (events.python && !declared.contains(kPythonEvent)) {
     absences.push_back(
@@ -162,8 +162,10 @@ std::vector<Absence> absent_events(const RecordedEvents& events, const std::set<
                                       did_you_mean(rule->pattern, ros_event_names()))});
     }
   }
-  if (nothing && has_known_rule) {
-    absences.push_back({kNothingRecorded});
+  if (nothing && has_known_rule && !nothing_to_record) {
+    absences.push_back(
+        {"no userspace event was recorded: no program that ran has events of the session and was registered with "
+         "the session daemon"});
   }
   return absences;
 }

@@ -35,7 +35,9 @@ std::optional<std::set<std::string>> declared_events(const std::filesystem::path
 
 // Rules of the session that no program had an event for, if their events are none of ROS 2's; programs of older
 // versions lack some of these. One sentence if nothing at all could be recorded. The rules that the launcher adds by
-// itself do not count there, but its own events must not be missing.
-std::vector<Absence> absent_events(const RecordedEvents& events, const std::set<std::string>& declared);
+// itself do not count there, but its own events must not be missing. `nothing_to_record`: that nothing was recorded is
+// right.
+std::vector<Absence> absent_events(const RecordedEvents& events, const std::set<std::string>& declared,
+                                   bool nothing_to_record = false);
 
 }  // namespace tracing

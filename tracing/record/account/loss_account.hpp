@@ -137,6 +137,7 @@ struct LossAccount {
   std::string damage = {};                          // a sentence on data that is missing and was not counted, or ""
   std::string directory = {};           // of the recording or of the snapshots; "" if it is not on this machine
   bool wrote_nothing = false;           // that directory is not there
+  bool nothing_to_record = false;       // TraceConfig::nothing_to_record
   bool of_snapshots = false;            // the session kept the newest events only, so its losses mean nothing
   std::string unwritten_verdict = {};   // why verdict.json could not be written
   std::vector<SessionStep> steps = {};  // of the end: "stop", "last data", "destroy", …

@@ -42,6 +42,7 @@ LossesByProcess::LossesByProcess(const TraceConfig& config, LossAccount& losses)
   } catch (const TraceError&) {
     unknown_ = true;
   }
+  losses.nothing_to_record = config.nothing_to_record;
   losses.launch_processes = read_launch_processes(counters_, counts_);
   losses.absences = absent_processes(counts_);
   losses.processes = account_processes(counts_, events_, static_cast<std::uint64_t>(launch::monotonic_time()));
@@ -52,7 +53,7 @@ void LossesByProcess::look_for_absent_events(const std::string& recording) {
   if (unknown_ || !declared) {
     return;
   }
-  for (Absence& absence : absent_events(events_, *declared)) {
+  for (Absence& absence : absent_events(events_, *declared, losses_.nothing_to_record)) {
     losses_.absences.push_back(std::move(absence));
   }
 }

@@ -9,7 +9,6 @@
 #include <system_error>
 
 #include "base/files/replace_file.hpp"
-#include "tracing/record/account/nothing_recorded.hpp"
 #include "tracing/record/account/verdict.hpp"
 #include "tracing/record/plan/trace_error.hpp"
 
@@ -45,27 +44,11 @@ bool says_true(const Json& verdict, const char* field) {
   return verdict.contains(field) && verdict[field].is_boolean() && verdict[field].get<bool>();
 }
 
-// Takes back that nothing was recorded, if nothing else is wrong.
-void allow_nothing(const fs::path& directory) {
-  Json verdict = verdict_in(directory);
-  const auto is = [&verdict](const char* field, const Json& value) {
-    return verdict.contains(field) && verdict[field] == value;
-  };
-  if (verdict.is_null() || !is("absent", Json::array({kNothingRecorded})) || !is("damage", "") ||
-      !is("cut_short", false) || !is("discarded_events", 0) || !is("lost_packets", 0)) {
-    return;
-  }
-  verdict["complete"] = true;
-  verdict["absent"] = Json::array();
-  verdict["nothing_to_record"] = true;
-  write(directory, verdict);
-}
-
 }  // namespace
 
-MachinesVerdict write_machines_verdict(const fs::path& directory, const std::string& session_name,
-                                       const std::vector<MachinePart>& parts) {
-  MachinesVerdict result{.complete = true};
+bool write_machines_verdict(const fs::path& directory, const std::string& session_name,
+                            const std::vector<MachinePart>& parts) {
+  bool all_complete = true;
   Json machines = Json::array();
   Json absent = Json::array();
   for (const MachinePart& part : parts) {
@@ -74,9 +57,6 @@ MachinesVerdict write_machines_verdict(const fs::path& directory, const std::str
     std::string problem = part.problem;
     if (!part.folder.empty()) {
       entry["folder"] = part.folder;
-      if (part.expects_nothing) {
-        allow_nothing(directory / part.folder);
-      }
       const Json verdict = verdict_in(directory / part.folder);
       complete = says_true(verdict, "complete") && !says_true(verdict, "cut_short");
       if (verdict.is_null() && problem.empty()) {
@@ -97,18 +77,18 @@ MachinesVerdict write_machines_verdict(const fs::path& directory, const std::str
       absent.push_back(problem);
     }
     entry["complete"] = complete;
-    result.complete = result.complete && complete;
+    all_complete = all_complete && complete;
     machines.push_back(std::move(entry));
   }
   const Json json = {{"session", session_name},
-                     {"complete", result.complete},
+                     {"complete", all_complete},
                      {"damage", ""},
                      {"absent", absent},
                      {"machines", machines}};
   std::error_code failed;
   fs::create_directories(directory, failed);
   write(directory, json);
-  return result;
+  return all_complete;
 }
 
 void note_problems(const fs::path& directory, const std::vector<std::string>& problems) {

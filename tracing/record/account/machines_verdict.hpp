@@ -15,18 +15,13 @@ struct MachinePart {
   std::string problem = {};     // a sentence; empty: none
   std::string left_there = {};  // the directory on the machine, if it was not fetched
   bool nothing = false;         // nothing was recorded there, and nothing was to be
-  // No process ran there that was to be recorded: that its recording has no event is no problem then.
-  bool expects_nothing = false;
-};
-
-struct MachinesVerdict {
-  bool complete = false;
 };
 
 // Writes kVerdictFile into the directory, which is made if need be: session, complete, absent (the problems), machines
-// with what their own verdicts say. A part without a verdict is not complete. Throws TraceError.
-MachinesVerdict write_machines_verdict(const std::filesystem::path& directory, const std::string& session_name,
-                                       const std::vector<MachinePart>& parts);
+// with what their own verdicts say. A part without a verdict is not complete. Returns whether all are. Throws
+// TraceError.
+bool write_machines_verdict(const std::filesystem::path& directory, const std::string& session_name,
+                            const std::vector<MachinePart>& parts);
 
 // Adds problems to the verdict of a recording, which is not complete then. Throws TraceError.
 void note_problems(const std::filesystem::path& directory, const std::vector<std::string>& problems);

@@ -264,17 +264,14 @@ std::string verdict_as_json(const LossAccount& account, const std::string& sessi
   if (!account.launch_processes.empty()) {
     json["launch_processes"] = account.launch_processes;
   }
+  if (account.nothing_to_record) {
+    json["nothing_to_record"] = true;
+  }
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 void write_verdict(const LossAccount& account, const std::string& session_name,
                    const std::filesystem::path& directory) {
-  // That of several machines stays, when the launch was killed after the session of this one had ended.
-  std::ifstream file(directory / kVerdictFile);
-  const nlohmann::json there = nlohmann::json::parse(file, nullptr, false);
-  if (there.is_object() && there.contains("machines")) {
-    return;
-  }
   write_file(directory, verdict_as_json(account, session_name));
 }
 

@@ -66,7 +66,8 @@ struct TraceConfig {
   bool has_timestamp = false;  // a run may append a number (free_name.hpp)
   std::string base_path;       // absolute directory that will hold the trace directory
   bool append_trace = false;
-  bool fail_on_loss = false;  // lost events are a failure of the run
+  bool fail_on_loss = false;       // lost events are a failure of the run
+  bool nothing_to_record = false;  // known when the session ends: no process ran that was to be recorded
   std::vector<std::string> events_ust = default_ros_events();
   std::vector<std::string> events_python;  // names of loggers
   std::vector<std::string> events_kernel;
