@@ -37,7 +37,7 @@ class Host:
         home = self.folder.relative_to('/tmp') if self.folder.is_relative_to('/tmp') else 'home'
         script = (f'hostname {name}; mkdir -p {self.folder}/tmp/{home}; mount --bind {self.folder} {self.folder}/tmp/{home}; '
                   f'mount --rbind {self.folder}/tmp /tmp; mount -t tmpfs tmpfs /dev/shm; '
-                  '[ ! -d /run/lttng ] || mount -t tmpfs tmpfs /run/lttng; ip link set lo up; echo ready; exec sleep infinity')
+                  'mkdir -p /run/lttng 2>/dev/null; [ ! -d /run/lttng ] || mount -t tmpfs tmpfs /run/lttng; ip link set lo up; echo ready; exec sleep infinity')
         self._keeper = subprocess.Popen(namespaces('sh', '-c', script), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                         stderr=subprocess.PIPE, text=True)
         if self._keeper.stdout.readline() != 'ready\n':
