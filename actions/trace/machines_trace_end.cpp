@@ -95,6 +95,7 @@ void MachinesTrace::fail_on_loss(bool complete) {
 void MachinesTrace::on_ended(Part& part, const MachineRecorder::Outcome& outcome) {
   const std::string& machine = part.result.machine;
   if (outcome.lost) {
+    part.result.left_there = part.there;
     part.result.problem =
         fmt::format("{}: its recording is not here; what there is of it is in '{}' there", outcome.error, part.there);
     finished_one();

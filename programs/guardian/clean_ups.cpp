@@ -16,6 +16,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <string_view>
+#include <utility>
 
 #include "base/files/unique_fd.hpp"
 #include "base/processes/ending_signals.hpp"
@@ -55,11 +56,15 @@ int start(const std::vector<std::string>& command, pid_t& pid) {
     argv.push_back(const_cast<char*>(word.c_str()));  // exec does not write, C has no way to say so
   }
   argv.push_back(nullptr);
-  // The guardian has blocked its signals; a program expects none to be blocked or ignored.
+  // The guardian has blocked its signals; a program expects none to be ignored. Those that ask for an end stay blocked:
+  // the guardian of a launch around this one asks everything below it to end, and the command is that end.
   sigset_t signals;
   posix_spawnattr_t attributes;
   ::posix_spawnattr_init(&attributes);
   sigemptyset(&signals);
+  for (const int signal : kEndingSignals) {
+    sigaddset(&signals, signal);
+  }
   ::posix_spawnattr_setsigmask(&attributes, &signals);
   sigfillset(&signals);
   ::posix_spawnattr_setsigdefault(&attributes, &signals);
@@ -119,12 +124,14 @@ std::uint64_t work_done(pid_t command) {
   return time;
 }
 
-// Whether the process ends by itself, as it should.
+// Whether the process ends by itself, as it should. When a user asks for the end it is asked to hurry, as the command
+// that ends a trace can. A second wish ends the wait.
 bool ends_in_time(pid_t pid, int process, int signals) {
   using Clock = std::chrono::steady_clock;
   constexpr std::uint64_t kProgress = 1'000'000;  // what a sleeping process does for its timers is less in a second
   const Clock::time_point begin = Clock::now();
   Clock::time_point progress = begin;
+  bool hurried = false;
   std::uint64_t done = work_done(pid);
   std::array<pollfd, 2> descriptors{{{process, POLLIN, 0}, {signals, POLLIN, 0}}};  // poll(2) skips a negative one
   while (true) {
@@ -137,8 +144,13 @@ bool ends_in_time(pid_t pid, int process, int signals) {
       done = work;
       progress = now;
     }
-    if (now - progress >= kLimit || now - begin >= kLongest ||
-        (descriptors[1].revents != 0 && is_asked_to_end(signals))) {
+    if (descriptors[1].revents != 0 && is_asked_to_end(signals)) {
+      if (std::exchange(hurried, true)) {
+        return false;
+      }
+      ::kill(pid, SIGTERM);
+    }
+    if (now - progress >= kLimit || now - begin >= kLongest) {
       return false;
     }
   }

@@ -44,6 +44,12 @@ void ask_to_end(const UniqueFd& launcher) {
   send_signal(launcher, SIGCONT);
 }
 
+// One that is stopped would not see that its launch has gone, and nobody there would end what it has started.
+bool is_agent(pid_t launcher) {
+  const std::optional<FoundProcess> process = read_process(launcher);
+  return process && process->name == "launch-agent";
+}
+
 bool is_stopped(pid_t pid) {
   const std::optional<FoundProcess> process = read_process(pid);
   return process && process->state == 'T';
@@ -112,6 +118,8 @@ void SpareBetween::reap() {
       ::kill(pid, SIGCONT);
     } else if (pid == launch_.launcher && WSTOPSIG(status) != SIGSTOP) {
       tell_guardian(kLauncherStopped, 0);
+    } else if (pid == launch_.launcher && is_agent(pid)) {
+      ::kill(pid, SIGCONT);
     }
   }
   if (status_ && pid < 0 && !has_told_) {

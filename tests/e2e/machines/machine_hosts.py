@@ -3,7 +3,7 @@
 Machines for tests of launches over several machines.
 
 A host has namespaces of its own for processes, mounts, network and host name. It lives until the test ends, whoever
-connects, as a real machine does: a connecting command enters it, and what it leaves there stays.
+connects, as a real machine does: a connecting command has something run there by its door, and what that leaves there stays.
 """
 
 import os
@@ -19,6 +19,7 @@ from pathlib import Path
 from own_launches import LAUNCH, PATIENCE, Lines
 
 MARK = 'TEST_OF_MACHINES'
+DOOR = f"/usr/bin/python3 {Path(__file__).with_name('machine_door.py')}"
 
 
 def namespaces(*words):
@@ -37,7 +38,8 @@ class Host:
         home = self.folder.relative_to('/tmp') if self.folder.is_relative_to('/tmp') else 'home'
         script = (f'hostname {name}; mkdir -p {self.folder}/tmp/{home}; mount --bind {self.folder} {self.folder}/tmp/{home}; '
                   f'mount --rbind {self.folder}/tmp /tmp; mount -t tmpfs tmpfs /dev/shm; '
-                  'mkdir -p /run/lttng 2>/dev/null; [ ! -d /run/lttng ] || mount -t tmpfs tmpfs /run/lttng; ip link set lo up; echo ready; exec sleep infinity')
+                  'mkdir -p /run/lttng 2>/dev/null; [ ! -d /run/lttng ] || mount -t tmpfs tmpfs /run/lttng; ip link set lo up; '
+                  f'exec {DOOR} serve {self.folder}/door')
         self._keeper = subprocess.Popen(namespaces('sh', '-c', script), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                         stderr=subprocess.PIPE, text=True)
         if self._keeper.stdout.readline() != 'ready\n':
@@ -48,12 +50,18 @@ class Host:
 
     def connect(self, *environment):
         """The connecting command. What runs there has the environment of a login, with these variables added."""
-        return ' '.join(self._words(*environment))
+        return f'{DOOR} enter {self.folder}/door ' + ' '.join(self._login(*environment))
 
-    def _words(self, *environment):
+    def enter(self):
+        """A connecting command of another kind: what runs there is a child of the process that connects."""
+        return ' '.join(self._words())
+
+    def _login(self, *environment):
+        return ['env', '-i', f'HOME={self.folder}', f'PATH={Path(LAUNCH).parent}:/usr/bin:/bin', *environment]
+
+    def _words(self):
         user = () if os.geteuid() == 0 else ('-U', '--preserve-credentials')
-        return ['nsenter', '-t', self._first, *user, '-p', '-m', '-u', '-n', '-i', '--', 'env', '-i', f'HOME={self.folder}',
-                f'PATH={Path(LAUNCH).parent}:/usr/bin:/bin', *environment]
+        return ['nsenter', '-t', self._first, *user, '-p', '-m', '-u', '-n', '-i', '--', *self._login()]
 
     def run(self, *command):
         """What the command prints there."""

@@ -10,7 +10,7 @@ import time
 import unittest
 from pathlib import Path
 
-from machine_hosts import LAUNCH, MARK, PATIENCE, MachinesTest
+from machine_hosts import LAUNCH, MARK, PATIENCE, Host, MachinesTest
 
 
 # A connection that does something when the first file of a recording comes through it.
@@ -36,9 +36,9 @@ class MachineTrace(MachinesTest):
         self.name = f'walk{self.mark[:12]}'  # others use the session daemon of this machine, too
         self.environment['ROS_TRACE_DIR'] = str(self.traces)
 
-    def start_nodes(self, trace, more='', keepalive=5, cable=''):
+    def start_nodes(self, trace, more='', keepalive=5, cable='', connect=Host.connect):
         """A talker on one machine and a listener on the other; the talker has said something when this returns."""
-        text = ''.join(f'<machine name="{host.name}" connect="{cable} {host.connect()}" keepalive="{keepalive}"/>\n' for host in self.hosts)
+        text = ''.join(f'<machine name="{host.name}" connect="{cable} {connect(host)}" keepalive="{keepalive}"/>\n' for host in self.hosts)
         launch = self.start(self.file(
             f'{text}<set_env name="{MARK}" value="{self.mark}"/>\n{trace}\n'
             '<node pkg="demo_nodes_cpp" exec="talker" machine="arm" output="screen"/>\n'
@@ -75,9 +75,13 @@ class MachineTrace(MachinesTest):
         end = time.monotonic() + PATIENCE
         while not (found := list((host.folder / '.ros/tracing').glob(f'{self.name}-*/verdict.json'))):
             if time.monotonic() > end:
-                self.fail(f'there is no verdict on {host.name}')
+                self.fail(f'there is no verdict on {host.name}, only {self.left_in(host)}')
             time.sleep(0.05)  # nothing tells of what happens on another machine
         return found
+
+    @staticmethod
+    def left_in(host):
+        return sorted(str(path.relative_to(host.folder)) for path in (host.folder / '.ros').rglob('*') if path.is_file())
 
     def assert_no_session(self, host):
         end = time.monotonic() + PATIENCE
@@ -166,6 +170,7 @@ class MachineTrace(MachinesTest):
         self.assertFalse(verdict['complete'])
         parts = {part['machine']: part for part in verdict['machines']}
         self.assertNotIn('folder', parts['arm'])
+        self.assertEqual(parts['arm']['left_there'], f'{self.hosts[0].folder}/.ros/tracing/{self.name}-arm')
         self.assertIn("the connection to machine 'arm' is lost: ", parts['arm']['problem'])
         self.assertIn(f'{self.hosts[0].folder}/.ros/tracing/{self.name}-arm', parts['arm']['problem'])
         self.assertEqual(parts['base']['folder'], 'base')
@@ -180,13 +185,13 @@ class MachineTrace(MachinesTest):
         return f'/usr/bin/python3 {path} {does}'
 
     def test_a_connection_that_is_cut_while_files_come_leaves_nothing_that_looks_whole(self):
-        launch = self.start_nodes(f'<trace session-name="{self.name}"/>', cable=self.cable('cut'))
+        launch = self.start_nodes(f'<trace session-name="{self.name}"/>', keepalive=1000, cable=self.cable('cut'))
         self.interrupt(launch)
         verdict = self.verdict()
         self.assertFalse(verdict['complete'])
         for host, part in zip(self.hosts, verdict['machines'][1:]):
             there = f'{host.folder}/.ros/tracing/{self.name}-{host.name}'
-            self.assertEqual((part['machine'], part['complete'], part['left_there']), (host.name, False, there))
+            self.assertEqual((part['machine'], part['complete'], part.get('left_there')), (host.name, False, there), launch.lines.seen)
             self.assertRegex(part['problem'], f"^the recording of machine '{host.name}' could not be fetched: the connection to machine "
                                               f"'{host.name}' is lost: .*; it is in '{there}' there$")
             self.assertNotIn('folder', part)
@@ -287,6 +292,11 @@ class MachineTrace(MachinesTest):
 
     def test_sessions_end_when_launcher_guardian_and_agents_are_killed(self):
         launch = self.start_nodes(f'<trace session-name="{self.name}"/>')
+        self.kill_and_look(launch, [launch.pid, *self.descendants(launch.pid), *self.agents(self.hosts[0]), *self.agents(self.hosts[1])])
+
+    def test_a_recording_is_judged_when_the_guardian_of_the_launch_ends_its_session_daemon(self):
+        """As with `sudo -u` or `ip netns exec`: what the connecting command starts is below the launch, whose guardian ends it."""
+        launch = self.start_nodes(f'<trace session-name="{self.name}"/>', connect=Host.enter)
         self.kill_and_look(launch, [launch.pid, *self.descendants(launch.pid), *self.agents(self.hosts[0]), *self.agents(self.hosts[1])])
 
     def kill_and_look(self, launch, processes):

@@ -174,6 +174,16 @@ TEST_F(GuardianTest, ACleanUpThatGetsOnHasItsTime) {
   EXPECT_EQ(read_file(done), "clean\n");
 }
 
+TEST_F(GuardianTest, ACleanUpIsNotCutShortByWhatAsksForAnEnd) {
+  const std::string done = directory.path() + "/done";
+  start({"--clean-up",
+         fmt::format("for signal in HUP INT QUIT TERM; do kill -s $signal $$; done; echo clean > {}", done), kSleeper},
+        1);
+  ::kill(launcher, SIGKILL);
+  EXPECT_EQ(end(), -SIGKILL);
+  EXPECT_EQ(read_file(done), "clean\n");
+}
+
 TEST_F(GuardianTest, ACleanUpThatHangsIsKilled) {
   const std::string log = directory.path() + "/launch.log";
   std::ofstream(log) << "";
