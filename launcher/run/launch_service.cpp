@@ -112,6 +112,9 @@ int LaunchService::run(const LaunchDescription& description) {
         context_.message(LogLevel::kWarning, "launch",
                          fmt::format("{}: no process of the launch fits this", to_string(assignment->where)));
       }
+      for (const std::string& sentence : context_.machines().unused_commands()) {
+        context_.message(LogLevel::kWarning, "launch", sentence);
+      }
       timing_.push_back({"visit", loop_.now() - before});
     });
   });

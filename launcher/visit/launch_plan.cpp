@@ -46,7 +46,7 @@ EventValues made_up_event(const EventHandler& handler) {
 
 class Planner {
  public:
-  explicit Planner(LaunchContext& context) : context_(context) {}
+  Planner(LaunchContext& context, PlannedScopes prepares) : context_(context), prepares_(prepares) {}
 
   // The requests since the last call, with everything that follows from them.
   LaunchPlan plan_requests() {
@@ -89,7 +89,9 @@ class Planner {
   void collect(LaunchPlan& plan, std::multimap<Duration, TimerRequest>& timers, Duration now) {
     Requests requests = context_.take_requests();
     for (const auto& scope : requests.scopes) {
-      scope->expect(requests.processes);
+      if (prepares_ == PlannedScopes::kCarriedOut) {
+        scope->expect(requests.processes);
+      }
       scopes_.push_back(scope.get());
     }
     append(plan.left_to_run, requests.left_to_run);
@@ -108,8 +110,7 @@ class Planner {
                          [&](LoadRequest& load) { plan.loads.push_back(std::move(load)); },
                          [&](TransitionRequest& transition) { plan.transitions.push_back(std::move(transition)); },
                          [&](ProcessSpec& spec) {
-                           std::for_each(scopes_.begin(), scopes_.end(),
-                                         [&](const RunScope* scope) { scope->prepare(spec); });
+                           prepare(spec);
                            plan.processes.push_back(std::move(spec));
                            plan.delays.push_back(now);
                          },
@@ -127,6 +128,12 @@ class Planner {
     append(plan.logs, requests.logs);
     append(plan.python_includes, requests.python_includes);
     plan.includes += requests.includes;
+  }
+
+  void prepare(ProcessSpec& spec) const {
+    if (prepares_ == PlannedScopes::kCarriedOut) {
+      std::for_each(scopes_.begin(), scopes_.end(), [&](const RunScope* scope) { scope->prepare(spec); });
+    }
   }
 
   // Finds the processes that the requests name.
@@ -157,6 +164,7 @@ class Planner {
   }
 
   LaunchContext& context_;
+  PlannedScopes prepares_;
   ProcessTable table_;
   bool any_left_ = false;                // a function was left to a run
   std::vector<const RunScope*> scopes_;  // scopes that are active at this point
@@ -164,10 +172,10 @@ class Planner {
 
 }  // namespace
 
-LaunchPlan plan_launch(LaunchContext& context, const LaunchDescription& description) {
+LaunchPlan plan_launch(LaunchContext& context, const LaunchDescription& description, PlannedScopes scopes) {
   context.plan_only();
   context.visit(description);
-  return Planner(context).plan_requests();
+  return Planner(context, scopes).plan_requests();
 }
 
 }  // namespace launch

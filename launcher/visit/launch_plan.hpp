@@ -15,9 +15,13 @@ struct LaunchPlan : Requests {
   std::vector<LaunchPlan> reactions;
 };
 
+// Whether the processes of a plan are as its scopes, such as a trace, make them.
+enum class PlannedScopes { kCarriedOut, kLeftOut };
+
 // Visits the description; timers fire without waiting, in the order of their due times, and after them every event
 // handler. Functions of the launch file that timers and handlers would call are not called: `left_to_run` names them.
 // Throws LaunchError.
-LaunchPlan plan_launch(LaunchContext& context, const LaunchDescription& description);
+LaunchPlan plan_launch(LaunchContext& context, const LaunchDescription& description,
+                       PlannedScopes scopes = PlannedScopes::kCarriedOut);
 
 }  // namespace launch

@@ -91,6 +91,7 @@ void Machines::set_commands(std::map<std::string, std::string> commands) {
                         "it is a command that leads there, such as 'ssh robot', or local");
     }
     declare({.name = name, .connect = command, .where = {}, .connect_where = {}});
+    unused_commands_.insert(name);
   }
 }
 
@@ -106,6 +107,7 @@ void Machines::declare(MachineDeclaration machine) {
   }
   if (const auto command = commands_.find(machine.name); command != commands_.end()) {
     machine.connect = command->second;
+    unused_commands_.erase(machine.name);
   }
   const auto known = declared_.find(machine.name);
   if (known != declared_.end() && known->second.where && !known->second.same_as(machine)) {
@@ -119,8 +121,9 @@ void Machines::declare(MachineDeclaration machine) {
   }
 }
 
-void Machines::require_declared(const std::string& name, const SourceRange& where) const {
+void Machines::require_declared(const std::string& name, const SourceRange& where) {
   if (declared_.contains(name)) {
+    unused_commands_.erase(name);
     return;
   }
   std::vector<std::string> names = {kLocalMachine};
@@ -179,6 +182,22 @@ const MachineAssignment* Machines::assigned(const AssignableProcess& process) {
   }
   found->used = true;
   return &*found;
+}
+
+std::vector<std::string> Machines::unused_commands() const {
+  std::vector<std::string> known;
+  for (const auto& [name, declaration] : declared_) {
+    if (!unused_commands_.contains(name)) {
+      known.push_back(name);
+    }
+  }
+  std::vector<std::string> sentences;
+  for (const std::string& name : unused_commands_) {
+    const std::string help = did_you_mean(name, known);
+    sentences.push_back(
+        fmt::format("--machine {0}: so far the launch has no machine '{0}'{1}", name, help.empty() ? "" : "; " + help));
+  }
+  return sentences;
 }
 
 std::vector<const MachineAssignment*> Machines::unused_assignments() const {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -92,7 +93,9 @@ class Machines {
   // Throws LaunchError for a name that another declaration has given to another machine, or that is none.
   void declare(MachineDeclaration machine);
   // Throws LaunchError for a name that no declaration has.
-  void require_declared(const std::string& name, const SourceRange& where) const;
+  void require_declared(const std::string& name, const SourceRange& where);
+  // What set_commands() named in vain so far, each in a sentence: nothing declares such a machine or runs on it.
+  std::vector<std::string> unused_commands() const;
   // The machine of this name, connected; null for this one. Throws LaunchError: at `where` for an unknown name, at the
   // place of its declaration if there is no connection.
   std::shared_ptr<MachineView> find(const std::string& name, const SourceRange& where);
@@ -136,6 +139,7 @@ class Machines {
   std::string refusal_;
   std::map<std::string, MachineDeclaration> declared_;
   std::map<std::string, std::string> commands_;  // of the command line
+  std::set<std::string> unused_commands_;        // their names
   std::map<std::string, std::shared_ptr<MachineView>> views_;
   std::vector<MachineAssignment> assignments_;
   std::map<std::shared_ptr<MachineView>, std::vector<ExpectedFile>> files_;

@@ -76,6 +76,12 @@ std::optional<int> parse_serve_options(const std::vector<std::string>& words, Se
   if (options.tls_certificate.empty() != options.tls_key.empty()) {
     return wrong("--tls-cert and --tls-key belong together");
   }
+  try {
+    parse_listen_address(options.listen);
+  } catch (const ServeError& error) {
+    fmt::print(stderr, "{}", command_error(kCommand, error.what(), error.help()));
+    return kWrongCommandLine;
+  }
   return std::nullopt;
 }
 

@@ -78,7 +78,8 @@ struct ExportWords {
     }
     for (const std::string& machine : machines) {
       if (const std::size_t equals = machine.find('=');
-          equals == std::string::npos || equals == 0 || equals + 1 == machine.size()) {
+          equals == std::string::npos || equals == 0 ||
+          machine.find_first_not_of(" \t", equals + 1) == std::string::npos) {
         return fmt::format("--machine {} is no machine, expected NAME=COMMAND, such as 'arm=ssh robot2'", machine);
       }
     }
@@ -221,7 +222,7 @@ LaunchPlan plan_with_machines(LaunchContext& context, const LaunchDescription& d
   if (!offline) {
     context.machines().use_connector(machines);
   }
-  LaunchPlan plan = plan_launch(context, description);
+  LaunchPlan plan = plan_launch(context, description, PlannedScopes::kLeftOut);
   context.machines().check_files();
   for (const ProcessSpec& process : plan.processes) {
     if (!process.machine.empty() && !shells.contains(process.machine)) {

@@ -159,7 +159,7 @@ std::variant<CommandLine, ExitNow> parse_command_line(const std::vector<std::str
   }
   for (const std::string& given : machines) {
     const std::size_t equals = given.find('=');
-    if (equals == std::string::npos || equals == 0 || equals + 1 == given.size()) {
+    if (equals == std::string::npos || equals == 0 || given.find_first_not_of(" \t", equals + 1) == std::string::npos) {
       return wrong_use(
           fmt::format("--machine {} is no machine, expected NAME=COMMAND, such as 'arm=ssh robot2'", given));
     }

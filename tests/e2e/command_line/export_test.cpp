@@ -67,6 +67,20 @@ TEST_F(Export, UnitsRunInTheirOrderAndEndTogether) {
   EXPECT_EQ(read_file(path("end")), "gentle\n");
 }
 
+TEST_F(Export, LeavesNothingOfATraceInTheEnvironment) {
+  const std::string file = write(R"xml(
+<trace session-name="run"/>
+<executable name="node" cmd="sleep 1000"/>)xml");
+  const CommandResult exported = export_launch({"--systemd", "units", file});
+  ASSERT_EQ(exported.exit_code, 0) << exported.err;
+  EXPECT_THAT(exported.out, HasSubstr("not exported: the trace"));
+  const std::string unit = read_file(path("units/robot-node.service"));
+  EXPECT_THAT(unit, HasSubstr("ExecStart="));
+  for (const char* const variable : {"LTTNG_UST_", "TRACETOOLS_", "LD_PRELOAD"}) {
+    EXPECT_THAT(unit, testing::Not(HasSubstr(variable)));
+  }
+}
+
 TEST_F(Export, AnalysisOfSystemdFindsNothingWrong) {
   if (run_command({"sh", "-c", "command -v systemd-analyze"}).exit_code != 0) {
     GTEST_SKIP() << "skipped, because systemd-analyze is not installed";

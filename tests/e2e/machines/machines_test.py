@@ -126,6 +126,16 @@ class Machines(MachinesTest):
                              f'arm={self.base.connect()}')
         self.assertIn('[arm:one-1] I am base', done.stdout)
 
+    def test_a_machine_of_the_command_line_that_nothing_uses_is_told(self):
+        warning = "[WARNING] [launch]: --machine rm: so far the launch has no machine 'rm'; did you mean 'arm'?"
+        one = '<executable name="one" machine="arm" output="screen" cmd="true"/>'
+        done = self.run_file(one, '--machine', 'rm=local')
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn(warning, done.stdout)
+        self.assertNotIn('--machine arm', self.run_file(one, '--machine', 'arm=local').stdout)
+        # The command line alone declares it.
+        self.assertNotIn('so far', self.run_file(one.replace('"arm"', '"leg"'), '--machine', 'leg=local').stdout)
+
     def test_another_file_spreads_the_processes(self):
         self.file(self.declared + '''
             <assign_machine machine="arm" process="o*"/>

@@ -160,7 +160,7 @@ class Serve(Served):
             1, 'launch serve: error: does not listen on 0.0.0.0:0 without TLS: others could read the token\n'
                "      = help: give --tls-cert and --tls-key, reach 127.0.0.1 through 'ssh -L', or say --insecure on a network of your own\n"))
         self.assertEqual(error(*token, '--listen', 'robot'), (
-            1, "launch serve: error: --listen 'robot' is no ADDRESS:PORT\n"
+            2, "launch serve: error: --listen 'robot' is no ADDRESS:PORT\n"
                '      = help: an address is a number, such as 127.0.0.1:7411, 0.0.0.0:7411 or [::1]:7411\n'))
         self.assertEqual(error(*token, '--tls-cert', 'x'), (2, 'launch serve: error: --tls-cert and --tls-key belong together\n'
                                                                "      = help: see 'launch serve --help'\n"))

@@ -241,7 +241,10 @@ std::string executor_table(const TraceResults& results, const ReportOptions& opt
     return "";
   }
   ResultTable<ExecutorResult> table("Executors", "total");
-  table.column("busy", [](const ExecutorResult& executor) { return percent_cell(executor.utilisation); });
+  table.column("busy", [](const ExecutorResult& executor) {
+    // Of a thread that ran one callback, and told of no wait, nothing else is known.
+    return executor.callbacks > 1 || executor.waited_ns ? percent_cell(executor.utilisation) : Cell{"-"};
+  });
   table.count("callbacks", &ExecutorResult::callbacks);
   table.column("longest busy", [](const ExecutorResult& executor) {
     return executor.longest_busy_ns > 0 ? Cell{format_duration(static_cast<double>(executor.longest_busy_ns))}
