@@ -31,7 +31,11 @@ MachinesTrace::MachinesTrace(TraceRequest request, std::unique_ptr<TraceScope> h
       here_(std::move(here)),
       recorders_(recorders),
       settings_(std::move(settings)),
-      origin_(std::move(origin)) {}
+      origin_(std::move(origin)) {
+  if (!here_) {
+    block_snapshot_signal(request_.choices);
+  }
+}
 
 MachinesTrace::~MachinesTrace() {
   if (worker_.joinable()) {
@@ -73,6 +77,14 @@ void MachinesTrace::expect(const std::vector<ProcessSpec>& processes) {
                  [](const ProcessSpec& spec) { return spec.machine.empty(); });
     session_ = session();
     here_->config().part = kFolderHere;
+    if (takes_snapshots()) {
+      // From any thread. Before all have begun, there is nobody to ask.
+      here_->leave_snapshots_to([this](const std::string& reason, const std::string&) {
+        if (loop_ != nullptr) {
+          loop_->post([this, reason] { want_by_event(reason); });
+        }
+      });
+    }
     here_->expect_some(of_here);
   }
 }
@@ -148,6 +160,7 @@ void MachinesTrace::begin(EventLoop& loop, Tell tell, Completion done) {
     part->recorder->begin(
         part->request,
         [this, machine](const std::string& text) { tell_(true, fmt::format("machine '{}': {}", machine, text)); },
+        [this, machine](const MachineRecorder::Reason& reason) { want_of(machine, reason); },
         [this, &part = *part](const MachineRecorder::Outcome& outcome) {
           part.begun = outcome.well;
           part.there = outcome.directory;
@@ -163,11 +176,14 @@ void MachinesTrace::begin(EventLoop& loop, Tell tell, Completion done) {
 
 void MachinesTrace::on_begun() {
   if (!error_) {
-    write_first_verdict();
+    write_what_is_known();
   }
   if (error_) {
     undo();
     return;
+  }
+  if (takes_snapshots()) {
+    begin_snapshots();
   }
   std::vector<std::string> machines;
   for (const auto& part : parts_) {
@@ -201,7 +217,7 @@ void MachinesTrace::undo() {
   }
 }
 
-void MachinesTrace::write_first_verdict() {
+void MachinesTrace::write_what_is_known() {
   std::vector<tracing::MachinePart> all = results();
   for (tracing::MachinePart& part : all) {
     if (part.machine != kLocalMachine) {
@@ -212,8 +228,10 @@ void MachinesTrace::write_first_verdict() {
     }
   }
   try {
-    tracing::write_machines_verdict(directory(), session(), all);
-    if (!here_ && !request_.choices.chains.empty()) {
+    if (!takes_snapshots()) {  // each of which has a verdict of its own
+      tracing::write_machines_verdict(directory(), session(), all);
+    }
+    if ((!here_ || takes_snapshots()) && !request_.choices.chains.empty()) {
       tracing::write_chains(request_.choices.chains, directory());
     }
   } catch (const std::exception& error) {
@@ -229,6 +247,14 @@ std::vector<tracing::MachinePart> MachinesTrace::results() const {
   for (const auto& part : parts_) {
     all.push_back(part->result);
   }
+  for (tracing::MachinePart& part : unrecorded()) {
+    all.push_back(std::move(part));
+  }
+  return all;
+}
+
+std::vector<tracing::MachinePart> MachinesTrace::unrecorded() const {
+  std::vector<tracing::MachinePart> all;
   for (const auto& [machine, processes] : too_late_) {
     all.push_back(
         {.machine = machine,
@@ -241,6 +267,9 @@ std::vector<tracing::MachinePart> MachinesTrace::results() const {
 
 void MachinesTrace::hurry() {
   hurried_ = true;
+  if (snapshots_) {
+    snapshots_->hurry();
+  }
   if (here_) {
     here_->hurry();
   }
@@ -276,18 +305,6 @@ void MachinesTrace::prepare(ProcessSpec& spec) const {
   }
   if (std::find(processes.begin(), processes.end(), spec.name) == processes.end()) {
     processes.push_back(spec.name);
-  }
-}
-
-void MachinesTrace::record(const LaunchRecord& record) {
-  if (here_) {
-    here_->record(record);
-  }
-}
-
-void MachinesTrace::observe_snapshots(SnapshotObserver observer) {
-  if (here_) {
-    here_->observe_snapshots(std::move(observer));
   }
 }
 

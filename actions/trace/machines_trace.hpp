@@ -4,6 +4,7 @@
 // machine alone has a TraceScope, as if this were not there.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -12,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "actions/trace/snapshot_rounds.hpp"
 #include "actions/trace/trace_scope.hpp"
 #include "actions/trace/trace_settings.hpp"
 #include "launcher/traced/machine_recorder.hpp"
@@ -65,6 +67,16 @@ class MachinesTrace : public RunScope {
     return !session_.empty() ? session_ : here_ ? here_->config().session_name : request_.config.session_name;
   }
   std::string directory() const { return request_.config.base_path + "/" + session(); }
+  bool takes_snapshots() const { return request_.config.records_snapshots(); }
+  void begin_snapshots();
+  void take_request();
+  void want_by_event(const std::string& reason);  // of this machine
+  void want_of(const std::string& machine, const MachineRecorder::Reason& reason);
+  void end_sessions();
+  void finish_snapshots();
+  std::string make_page() const;
+  void tell_page(const std::string& page);
+  std::vector<tracing::MachinePart> unrecorded() const;
   bool is_to_be_recorded(const ProcessSpec& spec) const;
   void add_part(const std::string& machine, const std::vector<ProcessSpec>& processes);
   void note(const std::exception_ptr& error);
@@ -77,8 +89,8 @@ class MachinesTrace : public RunScope {
   // Tells now and then how much of the recordings has come.
   void watch_fetching();
   void finish();
-  // In the verdict, until the recordings are here.
-  void write_first_verdict();
+  // The chains; and in the verdict what counts until the recordings are here.
+  void write_what_is_known();
   std::vector<tracing::MachinePart> results() const;
   // Calls `next` when so many things are done. finished_one() tells of each.
   void wait_for(std::size_t count, std::function<void()> next);
@@ -103,6 +115,11 @@ class MachinesTrace : public RunScope {
   std::function<void()> next_;
   std::thread worker_;
   EventLoop::SourcePtr fetching_;
+  SnapshotObserver snapshot_observer_;
+  EventLoop::SourcePtr snapshot_signal_;  // if this machine is not recorded
+  UniqueFd snapshot_requests_;            // those by hand
+  EventLoop::SourcePtr snapshot_requests_source_;
+  std::unique_ptr<SnapshotRounds> snapshots_;
   mutable std::set<std::string> used_;                                // machines where a process was to be recorded
   mutable std::map<std::string, std::vector<std::string>> too_late_;  // processes of machines that are not recorded
 };

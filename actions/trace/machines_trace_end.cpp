@@ -48,10 +48,21 @@ void MachinesTrace::end(EventLoop& loop, Tell tell, Completion done) {
     });
     return;
   }
-  wait_for(parts_.size() + (here_ ? 1 : 0), [this] { finish(); });
+  snapshot_signal_.reset();
+  snapshot_requests_source_.reset();
+  snapshot_requests_ = UniqueFd();
+  if (snapshots_) {
+    snapshots_->end([this] { end_sessions(); });
+  } else {
+    end_sessions();
+  }
+}
+
+void MachinesTrace::end_sessions() {
+  wait_for(parts_.size() + (here_ ? 1 : 0), [this] { takes_snapshots() ? finish_snapshots() : finish(); });
   if (here_) {
     here_->config().nothing_to_record = !used_.contains(kLocalMachine);
-    here_->end(loop, tell_, [this](const std::exception_ptr& error) {
+    here_->end(*loop_, tell_, [this](const std::exception_ptr& error) {
       note(error);
       finished_one();
     });
@@ -72,7 +83,9 @@ void MachinesTrace::end_of_this_machine_alone() {
   }
   if (!problems.empty()) {
     try {
-      tracing::note_problems(here_->config().trace_directory(), problems);
+      if (!takes_snapshots()) {  // they have verdicts of their own
+        tracing::note_problems(here_->config().trace_directory(), problems);
+      }
     } catch (const std::exception& error) {
       note(std::make_exception_ptr(LaunchError(error.what(), origin_)));
     }
@@ -94,6 +107,21 @@ void MachinesTrace::fail_on_loss(bool complete) {
 
 void MachinesTrace::on_ended(Part& part, const MachineRecorder::Outcome& outcome) {
   const std::string& machine = part.result.machine;
+  if (takes_snapshots()) {
+    if (outcome.lost) {
+      tell_(true, fmt::format("{}: what it still has of snapshots is in '{}' there", outcome.error, part.there));
+    } else {
+      if (!outcome.well) {
+        note(std::make_exception_ptr(
+            LaunchError(fmt::format("machine '{}': {}", machine, outcome.error), origin_, outcome.help)));
+      } else if (!outcome.directory.empty() && settings_.collects) {
+        tell_(true, fmt::format("what was not fetched from machine '{}' is in '{}' there", machine, part.there));
+      }
+      part.recorder->leave(false);
+    }
+    finished_one();
+    return;
+  }
   if (outcome.lost) {
     part.result.left_there = part.there;
     part.result.problem =
@@ -161,6 +189,48 @@ void MachinesTrace::on_fetched(Part& part, const MachineRecorder::Outcome& outco
   finished_one();
 }
 
+void MachinesTrace::finish_snapshots() {
+  const std::size_t taken = snapshots_ ? snapshots_->taken() : 0;
+  std::error_code none;
+  if (here_) {
+    fs::remove(here_->config().trace_directory(), none);  // if it is empty
+  }
+  if (taken == 0) {
+    fs::remove(directory(), none);
+    tell_(false, "no trace was written: no snapshot was taken");
+    std::exchange(done_, nullptr)(error_);
+    return;
+  }
+  tell_(false, fmt::format("snapshots are in: {}", directory()));
+  worker_ = std::thread([this] {
+    const std::string page = request_.choices.report && !hurried_ ? make_page() : "";
+    loop_->post([this, page] {
+      if (request_.choices.report) {
+        tell_page(page);
+      }
+      std::exchange(done_, nullptr)(error_);
+    });
+  });
+}
+
+// On the thread.
+std::string MachinesTrace::make_page() const {
+  std::string page = directory() + "/report.html";
+  tracing::program_output(settings_.prefix + "/lib/launch/launch-report", {directory(), "--html", page});
+  return page;
+}
+
+void MachinesTrace::tell_page(const std::string& page) {
+  std::error_code none;
+  if (!page.empty() && fs::exists(page, none)) {
+    tell_(false, "report: " + page);
+  } else {
+    tell_(request_.choices.report,
+          fmt::format("{}: launch report {}", request_.choices.report ? "no report; see" : "what is in it",
+                      shell_quoted(directory())));
+  }
+}
+
 void MachinesTrace::finish() {
   fetching_.reset();
   const std::vector<tracing::MachinePart> all = results();
@@ -185,22 +255,14 @@ void MachinesTrace::finish() {
         text = tracing::program_output(program, {"--summary", directory()});
       }
       if (request_.choices.report) {
-        page = directory() + "/report.html";
-        tracing::program_output(program, {directory(), "--html", page});
+        page = make_page();
       }
     }
     loop_->post([this, complete, count, text, page] {
       tell_(false, fmt::format("trace of {} machines written to: {}{}", count, directory(),
                                text.empty() ? "" : fmt::format(" ({})", text)));
       tell_(!complete, fmt::format("the trace of all machines is {}", complete ? "complete" : "incomplete"));
-      std::error_code none;
-      if (!page.empty() && fs::exists(page, none)) {
-        tell_(false, "report: " + page);
-      } else {
-        tell_(request_.choices.report,
-              fmt::format("{}: launch report {}", request_.choices.report ? "no report; see" : "what is in it",
-                          shell_quoted(directory())));
-      }
+      tell_page(page);
       fail_on_loss(complete);
       std::exchange(done_, nullptr)(error_);
     });

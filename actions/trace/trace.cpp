@@ -214,19 +214,10 @@ class Trace : public Action {
       context.machines().require_only_this_machine(where);
     };
     const tracing::TraceConfig& config = request.config;
-    const TraceChoices& choices = request.choices;
-    const std::pair<const char*, bool> used[] = {{"snapshot-on-crash", choices.snapshot_on_crash},
-                                                 {"snapshot-on-signal", choices.snapshot_on_signal != 0},
-                                                 {"snapshot-on-events", !choices.snapshot_on_events.empty()},
-                                                 {"snapshot-on-late-callback", choices.callback_deadline != 0},
-                                                 {"snapshot-on-late-message", choices.message_deadline != 0},
-                                                 {"snapshot-mode", config.snapshot_mode},
-                                                 {"dual-session", config.dual_session},
-                                                 {"url", !config.url.empty()},
-                                                 {"live-timer", config.live_timer != 0},
-                                                 {"events-kernel", !config.events_kernel.empty()},
-                                                 {"syscalls", !config.syscalls.empty()},
-                                                 {"append-trace", config.append_trace}};
+    const std::pair<const char*, bool> used[] = {
+        {"dual-session", config.dual_session},  {"url", !config.url.empty()},
+        {"live-timer", config.live_timer != 0}, {"events-kernel", !config.events_kernel.empty()},
+        {"syscalls", !config.syscalls.empty()}, {"append-trace", config.append_trace}};
     for (const auto& [setting, is_used] : used) {
       if (is_used && fields_.has(setting)) {
         refuse(fields_.where(setting));

@@ -32,19 +32,35 @@ TraceScope::TraceScope(TraceRequest request, std::unique_ptr<tracing::Tracer> tr
       choices_(std::move(request.choices)),
       run_(std::move(request.config), std::move(tracer), std::move(prefix), choices_),
       processes_(run_, choices_) {
-  if (choices_.snapshot_on_signal != 0) {
-    // The first of several traces starts threads. If the signal is not blocked in them, it ends the launcher.
+  block_snapshot_signal(choices_);
+}
+
+void block_snapshot_signal(const TraceChoices& choices) {
+  if (choices.snapshot_on_signal != 0) {
     sigset_t signal;
     ::sigemptyset(&signal);
-    ::sigaddset(&signal, choices_.snapshot_on_signal);
+    ::sigaddset(&signal, choices.snapshot_on_signal);
     ::pthread_sigmask(SIG_BLOCK, &signal, nullptr);
   }
 }
 
 TraceScope::~TraceScope() {
-  if (worker_.joinable()) {
-    worker_.join();
+  for (std::thread* const thread : {&worker_, &snapshot_worker_}) {
+    if (thread->joinable()) {
+      thread->join();
+    }
   }
+}
+
+void TraceScope::take_part_of_snapshot(EventLoop& loop, tracing::SnapshotOrder order,
+                                       std::function<void(const tracing::TakenSnapshot&)> done) {
+  if (snapshot_worker_.joinable()) {
+    snapshot_worker_.join();
+  }
+  snapshot_worker_ = std::thread([this, &loop, order = std::move(order), done = std::move(done)]() mutable {
+    const tracing::TakenSnapshot taken = run_.take_snapshot(std::move(order));
+    loop.post([done = std::move(done), taken] { done(taken); });
+  });
 }
 
 void TraceScope::in_background(EventLoop& loop, std::string context, std::function<void()> work, Completion finished) {
@@ -119,12 +135,16 @@ void TraceScope::record(const LaunchRecord& record) {
   // Whatever it ended of: at an exit() other threads may be within an event, and a shell tells the death of its child
   // by an exit code.
   run_.process_ended(record.name, record.pid, record.value != 0);
-  if (!choices_.snapshot_on_crash || record.value == 0 || record.asked_for) {
-    return;
+  if (choices_.snapshot_on_crash && !leaves_snapshots_ && record.value != 0 && !record.asked_for) {
+    run_.request_snapshot(end_as_reason(record.name, record.value), record.name);
   }
-  run_.request_snapshot(record.value < 0 ? fmt::format("{} died of SIG{}", record.name, ::sigabbrev_np(-record.value))
-                                         : fmt::format("{} ended with exit code {}", record.name, record.value),
-                        record.name);
+}
+
+std::string end_as_reason(const std::string& process, std::int32_t code) {
+  const char* const signal = code < 0 ? ::sigabbrev_np(-code) : nullptr;
+  return signal != nullptr ? fmt::format("{} died of SIG{}", process, signal)
+         : code < 0        ? fmt::format("{} died of signal {}", process, -code)
+                           : fmt::format("{} ended with exit code {}", process, code);
 }
 
 void TraceScope::end(EventLoop& loop, Tell tell, Completion done) {

@@ -3,9 +3,12 @@
 // What the session does is tracing::TracedRun; here are its thread, its signal and the processes that it records.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "actions/trace/trace_settings.hpp"
@@ -15,6 +18,12 @@
 #include "tracing/record/session/traced_run.hpp"
 
 namespace launch {
+
+// The end of a process as the reason for a snapshot. `code`: its exit code, -N for signal N.
+std::string end_as_reason(const std::string& process, std::int32_t code);
+
+// Must be called before anything starts a thread: in one that does not block the signal, it would end the launcher.
+void block_snapshot_signal(const TraceChoices& choices);
 
 class TraceScope : public RunScope {
  public:
@@ -28,6 +37,14 @@ class TraceScope : public RunScope {
   void expect(const std::vector<ProcessSpec>& processes) override { processes_.expect(processes, true); }
   // The same, of a launch that has other processes on other machines.
   void expect_some(const std::vector<ProcessSpec>& processes) { processes_.expect(processes, false); }
+  // As tracing::TracedRun::leave_snapshots_to(). Ends of processes are no reasons then.
+  void leave_snapshots_to(tracing::TracedRun::SnapshotWish wish) {
+    leaves_snapshots_ = true;
+    run_.leave_snapshots_to(std::move(wish));
+  }
+  // Takes one, between begin() and end(). `done` is called in the loop, once.
+  void take_part_of_snapshot(EventLoop& loop, tracing::SnapshotOrder order,
+                             std::function<void(const tracing::TakenSnapshot&)> done);
   void begin(EventLoop& loop, Tell tell, Completion done) override;
   void end(EventLoop& loop, Tell tell, Completion done) override;
   void hurry() override { run_.hurry(); }
@@ -56,7 +73,9 @@ class TraceScope : public RunScope {
   SnapshotObserver snapshot_observer_;
   EventLoop::SourcePtr signals_;
   EventLoop::SourcePtr look_around_;
+  bool leaves_snapshots_ = false;
   std::thread worker_;
+  std::thread snapshot_worker_;
 };
 
 }  // namespace launch

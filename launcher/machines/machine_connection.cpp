@@ -105,7 +105,7 @@ void MachineConnection::send(ToAgent kind, const WireWriter& content) {
     return;  // the end of its output comes, too, and tells why
   }
   watch_output();
-  if (kind == ToAgent::kTraceBegin || kind == ToAgent::kTraceEnd) {
+  if (kind == ToAgent::kTraceBegin || kind == ToAgent::kTraceEnd || kind == ToAgent::kTraceSnapshot) {
     more_pings_ = kPingsForATrace;
     ping();
   }
@@ -320,7 +320,7 @@ void MachineConnection::dispatch(const Frame& frame) {
     default:
       break;
   }
-  if (kind >= FromAgent::kTraceTold && kind <= FromAgent::kTraceFailed) {
+  if (kind >= FromAgent::kTraceTold && kind <= FromAgent::kTraceWish) {
     traces_.receive(kind, reader);
     return;
   }

@@ -7,6 +7,7 @@
 
 #include "base/text/quoted_text.hpp"
 #include "launcher/machines/fetched_files.hpp"
+#include "launcher/traced/machine_trace.hpp"
 
 namespace launch {
 namespace {
@@ -21,70 +22,52 @@ std::string sentence(WireReader& reader) {
 }  // namespace
 
 struct RemoteTraces::Trace {
-  enum class Waits { kForNothing, kForBegin, kForEnd, kForFiles };
+  enum class Waits { kForNothing, kForBegin, kForSnapshot, kForEnd, kForFiles };
 
   Waits waits = Waits::kForNothing;
   MachineRecorder::Done done;
   std::function<void(const std::string&)> warn;
+  MachineRecorder::Wish wish;
   std::unique_ptr<FetchedFiles> files;
   std::uint32_t credit = 0;  // bytes that the agent may still send
   std::uint32_t taken = 0;   // for which no credit has gone back yet
   bool dropped = false;      // what comes of files is no longer of interest
 };
 
-class RemoteTraces::Recorder final : public MachineRecorder {
+// A trace, or a snapshot of one.
+template <typename Interface>
+class RemoteTraces::Recording : public Interface {
  public:
-  explicit Recorder(RemoteTraces& traces) : traces_(traces), number_(++traces.numbers_) {
+  using Outcome = MachineRecording::Outcome;
+  using Done = MachineRecording::Done;
+
+  explicit Recording(RemoteTraces& traces) : traces_(traces), number_(++traces.numbers_) {
     traces_.traces_.emplace(number_, std::make_unique<Trace>());
   }
-  ~Recorder() override { traces_.traces_.erase(number_); }
-
-  const std::string& machine() const override { return traces_.machine_; }
-
-  void begin(const std::string& request, std::function<void(const std::string&)> warn, Done done) override {
-    Trace& trace = *traces_.traces_.at(number_);
-    trace.warn = std::move(warn);
-    WireWriter content;
-    content.u32(number_).rest(request);
-    if (content.bytes().size() > kLongestFrame) {
-      trace.done = std::move(done);
-      traces_.answer(trace, {.well = false, .error = "the settings are longer than a connection takes"});
-      return;
-    }
-    ask(Trace::Waits::kForBegin, ToAgent::kTraceBegin, content, std::move(done));
-  }
-
-  void end(bool nothing_to_record, Done done) override {
-    ask(Trace::Waits::kForEnd, ToAgent::kTraceEnd, WireWriter().u32(number_).flag(nothing_to_record), std::move(done));
-  }
+  ~Recording() override { traces_.traces_.erase(number_); }
 
   void hurry() override {
-    Trace& trace = *traces_.traces_.at(number_);
-    if (trace.waits == Trace::Waits::kForFiles) {
-      trace.dropped = true;
-      traces_.answer(trace, {.well = false, .error = "the launch was to end at once"});
-    } else if (!traces_.lost_ && trace.waits == Trace::Waits::kForEnd) {
+    if (trace().waits == Trace::Waits::kForFiles) {
+      trace().dropped = true;
+      traces_.answer(trace(), {.well = false, .error = "the launch was to end at once"});
+    } else if (!traces_.lost_ && trace().waits == Trace::Waits::kForEnd) {
       traces_.send_(ToAgent::kTraceHurry, WireWriter().u32(number_));
     }
   }
 
   void fetch(const std::string& directory, Done done) override {
-    Trace& trace = *traces_.traces_.at(number_);
     try {
-      trace.files = std::make_unique<FetchedFiles>(directory);
+      trace().files = std::make_unique<FetchedFiles>(directory);
     } catch (const std::system_error& error) {
-      trace.done = std::move(done);
-      traces_.answer(trace, {.well = false, .error = error.what()});
+      trace().done = std::move(done);
+      traces_.answer(trace(), {.well = false, .error = error.what()});
       return;
     }
-    trace.credit = kTraceWindow;
+    trace().credit = kTraceWindow;
     ask(Trace::Waits::kForFiles, ToAgent::kTraceFetch, WireWriter().u32(number_).u32(kTraceWindow), std::move(done));
   }
 
-  std::uint64_t fetched() const override {
-    const Trace& trace = *traces_.traces_.at(number_);
-    return trace.files ? trace.files->bytes() : 0;
-  }
+  std::uint64_t fetched() const override { return trace().files ? trace().files->bytes() : 0; }
 
   void leave(bool remove) override {
     if (!traces_.lost_) {
@@ -92,13 +75,13 @@ class RemoteTraces::Recorder final : public MachineRecorder {
     }
   }
 
- private:
-  void ask(Trace::Waits waits, ToAgent kind, const WireWriter& content, Done done) {
-    Trace& trace = *traces_.traces_.at(number_);
-    trace.done = std::move(done);
-    trace.waits = waits;
+ protected:
+  Trace& trace() const { return *traces_.traces_.at(number_); }
+  void ask(typename Trace::Waits waits, ToAgent kind, const WireWriter& content, Done done) {
+    trace().done = std::move(done);
+    trace().waits = waits;
     if (traces_.lost_) {
-      traces_.answer(trace, {.well = false, .lost = true, .error = *traces_.lost_});
+      traces_.answer(trace(), {.well = false, .lost = true, .error = *traces_.lost_});
     } else {
       traces_.send_(kind, content);
     }
@@ -106,6 +89,52 @@ class RemoteTraces::Recorder final : public MachineRecorder {
 
   RemoteTraces& traces_;
   std::uint32_t number_;
+};
+
+class RemoteTraces::Snapshot final : public Recording<MachineRecording> {
+ public:
+  using Recording::Recording;
+
+  void take(std::uint32_t trace_number, tracing::SnapshotOrder order, Done done) {
+    const auto clock = traces_.clock_.measured();
+    order.moment = order.moment == 0 || !clock ? 0 : order.moment + clock->offset_ns;
+    ask(Trace::Waits::kForSnapshot, ToAgent::kTraceSnapshot,
+        WireWriter().u32(trace_number).u32(number_).rest(to_wire(order)), std::move(done));
+  }
+};
+
+class RemoteTraces::Recorder final : public Recording<MachineRecorder> {
+ public:
+  using Recording::Recording;
+
+  const std::string& machine() const override { return traces_.machine_; }
+  std::int64_t clock_ahead() const override {
+    const auto clock = traces_.clock_.measured();
+    return clock ? clock->wall_offset_ns : 0;
+  }
+
+  void begin(const std::string& request, std::function<void(const std::string&)> warn, Wish wish, Done done) override {
+    trace().warn = std::move(warn);
+    trace().wish = std::move(wish);
+    WireWriter content;
+    content.u32(number_).rest(request);
+    if (content.bytes().size() > kLongestFrame) {
+      trace().done = std::move(done);
+      traces_.answer(trace(), {.well = false, .error = "the settings are longer than a connection takes"});
+      return;
+    }
+    ask(Trace::Waits::kForBegin, ToAgent::kTraceBegin, content, std::move(done));
+  }
+
+  std::unique_ptr<MachineRecording> take_snapshot(tracing::SnapshotOrder order, Done done) override {
+    auto snapshot = std::make_unique<Snapshot>(traces_);
+    snapshot->take(number_, std::move(order), std::move(done));
+    return snapshot;
+  }
+
+  void end(bool nothing_to_record, Done done) override {
+    ask(Trace::Waits::kForEnd, ToAgent::kTraceEnd, WireWriter().u32(number_).flag(nothing_to_record), std::move(done));
+  }
 };
 
 RemoteTraces::RemoteTraces(EventLoop& loop, std::string machine, ClockOffset& clock, Send send)
@@ -150,10 +179,24 @@ void RemoteTraces::receive(FromAgent kind, WireReader& reader) {
       }
       return;
     }
+    case FromAgent::kTraceWish: {
+      MachineRecorder::Reason reason;
+      reason.kind =
+          reader.flag() ? MachineRecorder::Reason::Kind::kEndOfProcess : MachineRecorder::Reason::Kind::kEvent;
+      reason.text = sentence(reader);
+      reason.code = reader.i32();
+      reader.end();
+      if (!trace.wish) {
+        throw WireError("it wants a snapshot of a trace that has not begun");
+      }
+      trace.wish(reason);
+      return;
+    }
     case FromAgent::kTraceBegun:
     case FromAgent::kTraceEnded: {
       const bool begins = kind == FromAgent::kTraceBegun;
-      if (trace.waits != (begins ? Trace::Waits::kForBegin : Trace::Waits::kForEnd)) {
+      if (begins ? trace.waits != Trace::Waits::kForBegin
+                 : trace.waits != Trace::Waits::kForEnd && trace.waits != Trace::Waits::kForSnapshot) {
         throw WireError("a trace begins or ends unasked");
       }
       MachineRecorder::Outcome outcome;
@@ -248,6 +291,10 @@ void RemoteTraces::take_file(Trace& trace, FromAgent kind, WireReader& reader) {
 void RemoteTraces::lose(const std::string& why) {
   lost_ = why;
   for (auto& [number, trace] : traces_) {
+    if (trace->wish) {
+      loop_.post(
+          [wish = std::exchange(trace->wish, nullptr)] { wish({.kind = MachineRecorder::Reason::Kind::kLost}); });
+    }
     if (trace->waits != Trace::Waits::kForNothing) {
       answer(*trace, {.well = false, .lost = true, .error = why});
     }

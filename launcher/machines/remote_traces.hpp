@@ -35,7 +35,10 @@ class RemoteTraces {
   void lose(const std::string& why);
 
  private:
+  template <typename Interface>
+  class Recording;
   class Recorder;
+  class Snapshot;
   struct Trace;
 
   Trace& open(std::uint32_t number);

@@ -132,14 +132,43 @@ void pass_trace(Pass& pass, Trace& trace) {
   pass(config.further_events_ust);
   pass(config.max_overhead);
   pass(config.drop_order);
+  pass(config.snapshot_mode);
+  pass(config.snapshot_size);
   auto& choices = trace.choices;
+  pass(choices.snapshot_on_crash);
+  pass(choices.snapshot_on_events);
+  pass(choices.callback_deadline);
+  pass(choices.message_deadline);
   pass(choices.nodes);
   pass.choice(choices.tracetools, TracetoolsMode::kTheirs);
   pass(choices.python_nodes);
   pass(choices.auto_buffers);
 }
 
+template <typename Pass, typename Order>
+void pass_order(Pass& pass, Order& order) {
+  pass(order.reasons);
+  pass(order.died);
+  pass(order.moment);
+}
+
 }  // namespace
+
+std::string to_wire(const tracing::SnapshotOrder& order) {
+  WireWriter writer;
+  Putter put(writer);
+  pass_order(put, order);
+  return writer.bytes();
+}
+
+tracing::SnapshotOrder parse_snapshot_order(std::string_view bytes) {
+  WireReader reader(bytes);
+  Getter get(reader);
+  tracing::SnapshotOrder order;
+  pass_order(get, order);
+  reader.end();
+  return order;
+}
 
 std::string to_wire(const MachineTrace& trace) {
   WireWriter writer;

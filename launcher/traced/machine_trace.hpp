@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an agent has to know to record its machine, as bytes: what the launcher has evaluated, and the processes that
-// are to start there. Snapshots, kernel events and relay daemons are not among it.
+// are to start there; and the order for a snapshot. Kernel events and relay daemons are not among it, and no signal to
+// the launcher.
 #pragma once
 
 #include <string>
@@ -11,6 +12,7 @@
 #include "launcher/process/process_spec.hpp"
 #include "launcher/traced/process_choices.hpp"
 #include "tracing/record/plan/trace_config.hpp"
+#include "tracing/record/session/flight_recorder.hpp"
 
 namespace launch {
 
@@ -23,5 +25,9 @@ struct MachineTrace {
 std::string to_wire(const MachineTrace& trace);
 // Throws WireError.
 MachineTrace parse_machine_trace(std::string_view bytes);
+
+std::string to_wire(const tracing::SnapshotOrder& order);
+// Throws WireError.
+tracing::SnapshotOrder parse_snapshot_order(std::string_view bytes);
 
 }  // namespace launch

@@ -150,6 +150,7 @@ void Agent::dispatch(const Frame& frame) {
     case ToAgent::kTraceHurry:
     case ToAgent::kTraceFetch:
     case ToAgent::kTraceLeave:
+    case ToAgent::kTraceSnapshot:
       traces_.receive(kind, reader);
       return;
   }
@@ -266,7 +267,7 @@ void Agent::on_exit(std::uint32_t number) {
     exit.out_of_memory = runner_.was_ended_by_kernel(run.process, run.started);
   }
   run.exit = exit;
-  traces_.ended(run.label, run.process.pid, exit.code != 0);
+  traces_.ended(run.label, run.process.pid, exit.code, run.signalled);
   // What it has written before comes first.
   for (std::size_t which = 0; which < run.streams.size(); ++which) {
     pump(number, which);

@@ -35,7 +35,25 @@ std::vector<std::string> without_output(const std::vector<std::string>& command)
   return words;
 }
 
+// Nothing, if there is no directory, or one without a snapshot, which is removed.
+std::string what_is_written(const tracing::TraceConfig& config) {
+  const std::string directory = config.trace_directory();
+  std::error_code none;
+  if (config.records_snapshots()) {
+    std::filesystem::remove(directory, none);  // if it is empty
+  }
+  return std::filesystem::is_directory(directory, none) ? directory : "";
+}
+
 }  // namespace
+
+// What can be fetched: a trace that has ended, or a snapshot.
+struct AgentTraces::Recording {
+  std::uint32_t number = 0;
+  std::string directory;
+  std::unique_ptr<TraceFiles> files = nullptr;
+  bool sending = false;
+};
 
 struct AgentTraces::Trace {
   enum class State { kBeginning, kRecording, kEnding, kEnded };
@@ -51,11 +69,10 @@ struct AgentTraces::Trace {
   State state = State::kBeginning;
   bool ends = false;  // asked for while it begins or while it is looked around
   bool nothing_to_record = false;
-  bool busy = false;  // a thread is in the run
+  bool busy = false;          // a thread is in the run
+  std::size_t snapshots = 0;  // being taken
   std::int32_t clean_up = 0;
   EventLoop::SourcePtr look_around;
-  std::unique_ptr<TraceFiles> files;
-  bool sending = false;
 };
 
 AgentTraces::AgentTraces(EventLoop& loop, Guardian& guardian, Send send)
@@ -74,6 +91,22 @@ void AgentTraces::receive(ToAgent kind, WireReader& reader) {
   const std::uint32_t number = reader.u32();
   if (kind == ToAgent::kTraceBegin) {
     begin(number, reader);
+    return;
+  }
+  if (kind == ToAgent::kTraceFetch || kind == ToAgent::kTraceLeave) {
+    const auto found = recordings_.find(number);
+    if (found == recordings_.end()) {
+      throw WireError("it asks for a recording that is not there");
+    }
+    if (kind == ToAgent::kTraceFetch) {
+      const std::uint32_t credit = reader.u32();
+      reader.end();
+      fetch(found->second, credit);
+    } else {
+      const bool remove = reader.flag();
+      reader.end();
+      leave(number, remove);
+    }
     return;
   }
   const auto found = traces_.find(number);
@@ -95,31 +128,47 @@ void AgentTraces::receive(ToAgent kind, WireReader& reader) {
       reader.end();
       trace->run.hurry();
       return;
-    case ToAgent::kTraceFetch: {
-      const std::uint32_t credit = reader.u32();
-      reader.end();
-      fetch(trace, credit);
+    case ToAgent::kTraceSnapshot:
+      take_snapshot(trace, reader);
       return;
-    }
-    case ToAgent::kTraceLeave: {
-      const bool remove = reader.flag();
-      reader.end();
-      if (trace->state != Trace::State::kEnded) {
-        throw WireError("it leaves a trace that has not ended");
-      }
-      leave(number, remove);
-      return;
-    }
     default:
       throw WireError("it sends a message of an unknown kind");
   }
 }
 
-void AgentTraces::begin(std::uint32_t number, WireReader& reader) {
+std::uint32_t AgentTraces::take_number(std::uint32_t number) {
   if (number <= last_) {
     throw WireError("the number of a trace has been used");
   }
   last_ = number;
+  return number;
+}
+
+void AgentTraces::take_snapshot(const std::shared_ptr<Trace>& trace, WireReader& reader) {
+  const std::uint32_t number = take_number(reader.u32());
+  tracing::SnapshotOrder order = parse_snapshot_order(reader.rest());
+  if (trace->ends || trace->state != Trace::State::kRecording || !trace->run.config().records_snapshots()) {
+    throw WireError("it wants a snapshot of a trace that takes none");
+  }
+  ++trace->snapshots;
+  const auto taken = std::make_shared<tracing::TakenSnapshot>();
+  in_background([trace, taken, order = std::move(order)] { *taken = trace->run.take_snapshot(order); },
+                [this, trace, taken, number](bool, const std::string&, const std::string&) {
+                  --trace->snapshots;
+                  tell_ended(number, taken->error.empty(), taken->error, "", taken->directory);
+                  end(trace);
+                });
+}
+
+// What is written can be fetched from now on.
+void AgentTraces::tell_ended(std::uint32_t number, bool well, const std::string& error, const std::string& remedy,
+                             const std::string& directory) {
+  recordings_.emplace(number, std::make_shared<Recording>(Recording{.number = number, .directory = directory}));
+  send_(FromAgent::kTraceEnded, WireWriter().u32(number).flag(well).text(error).text(remedy).text(directory));
+}
+
+void AgentTraces::begin(std::uint32_t number, WireReader& reader) {
+  take_number(number);
   MachineTrace what = parse_machine_trace(reader.rest());
   const std::vector<ProcessSpec> processes = std::move(what.processes);
   what.config.base_path = tracing::trace_base_path("", environment_);
@@ -127,6 +176,15 @@ void AgentTraces::begin(std::uint32_t number, WireReader& reader) {
   traces_.emplace(number, trace);
   trace->clean_up = guardian_.add_clean_up(without_output(trace->run.clean_up_command()));
   trace->processes.expect(processes, false);
+  if (trace->run.config().records_snapshots()) {
+    trace->run.leave_snapshots_to([this, lives = lives_, number](const std::string& reason, const std::string&) {
+      loop_.post([this, lives, number, reason] {
+        if (*lives) {
+          send_(FromAgent::kTraceWish, WireWriter().u32(number).flag(false).text(reason).i32(0));
+        }
+      });
+    });
+  }
   trace->busy = true;
   const auto told = [this, lives = lives_, number](bool warning, const std::string& text) {
     if (warning) {  // what else it tells, the launcher tells of all machines together
@@ -172,7 +230,7 @@ void AgentTraces::begin(std::uint32_t number, WireReader& reader) {
 
 // When it was asked for, and nothing else is at work.
 void AgentTraces::end(const std::shared_ptr<Trace>& trace) {
-  if (!trace->ends || trace->busy || trace->state != Trace::State::kRecording) {
+  if (!trace->ends || trace->busy || trace->snapshots > 0 || trace->state != Trace::State::kRecording) {
     return;
   }
   trace->look_around.reset();
@@ -189,68 +247,60 @@ void AgentTraces::end(const std::shared_ptr<Trace>& trace) {
       });
     }
   };
-  in_background(
-      [trace, told] { trace->run.finish(told); },
-      [this, trace](bool well, const std::string& error, const std::string& remedy) {
-        trace->busy = false;
-        trace->state = Trace::State::kEnded;
-        guardian_.remove_clean_up(trace->clean_up);
-        const std::string directory = trace->run.config().trace_directory();
-        std::error_code none;
-        const bool written = std::filesystem::is_directory(directory, none);
-        send_(FromAgent::kTraceEnded,
-              WireWriter().u32(trace->number).flag(well).text(error).text(remedy).text(written ? directory : ""));
-      });
+  in_background([trace, told] { trace->run.finish(told); },
+                [this, trace](bool well, const std::string& error, const std::string& remedy) {
+                  trace->busy = false;
+                  trace->state = Trace::State::kEnded;
+                  guardian_.remove_clean_up(trace->clean_up);
+                  tell_ended(trace->number, well, error, remedy, what_is_written(trace->run.config()));
+                });
 }
 
-void AgentTraces::fetch(const std::shared_ptr<Trace>& trace, std::uint32_t credit) {
-  if (trace->state != Trace::State::kEnded) {
-    throw WireError("it fetches a trace that has not ended");
-  }
-  if (credit > kTraceWindow || (trace->files && trace->files->credit() + credit > kTraceWindow)) {
+void AgentTraces::fetch(const std::shared_ptr<Recording>& recording, std::uint32_t credit) {
+  if (credit > kTraceWindow || (recording->files && recording->files->credit() + credit > kTraceWindow)) {
     throw WireError("a credit is too high");
   }
   try {
-    if (!trace->files) {
-      trace->files = std::make_unique<TraceFiles>(trace->number, trace->run.config().trace_directory());
+    if (!recording->files) {
+      recording->files = std::make_unique<TraceFiles>(recording->number, recording->directory);
     }
   } catch (const std::exception& error) {
-    send_(FromAgent::kTraceFailed, WireWriter().u32(trace->number).text(error.what()));
+    send_(FromAgent::kTraceFailed, WireWriter().u32(recording->number).text(error.what()));
     return;
   }
-  trace->files->add_credit(credit);
-  if (!trace->sending) {
-    send_files(trace);
+  recording->files->add_credit(credit);
+  if (!recording->sending) {
+    send_files(recording);
   }
 }
 
 // A piece in each turn of the loop, so that output and exits go on meanwhile.
-void AgentTraces::send_files(const std::shared_ptr<Trace>& trace) {
+void AgentTraces::send_files(const std::shared_ptr<Recording>& recording) {
   try {
-    trace->sending = trace->files->send_some(send_);
+    recording->sending = recording->files->send_some(send_);
   } catch (const std::exception& error) {
-    trace->sending = false;
-    send_(FromAgent::kTraceFailed, WireWriter().u32(trace->number).text(error.what()));
+    recording->sending = false;
+    send_(FromAgent::kTraceFailed, WireWriter().u32(recording->number).text(error.what()));
     return;
   }
-  if (trace->sending) {
-    loop_.post([this, lives = lives_, trace] {
+  if (recording->sending) {
+    loop_.post([this, lives = lives_, recording] {
       if (*lives) {
-        send_files(trace);
+        send_files(recording);
       }
     });
   }
 }
 
 void AgentTraces::leave(std::uint32_t number, bool remove) {
-  const std::shared_ptr<Trace> trace = traces_.at(number);
+  const std::string directory = recordings_.at(number)->directory;
+  recordings_.erase(number);
   traces_.erase(number);
-  if (remove) {
+  if (remove && !directory.empty()) {
     std::error_code failed;
-    std::filesystem::remove_all(trace->run.config().trace_directory(), failed);
+    std::filesystem::remove_all(directory, failed);
     if (failed) {
-      fmt::print(stderr, "launch agent: cannot remove '{}': {}\n", trace->run.config().trace_directory(),
-                 failed.message());
+      fmt::print(stderr, "launch agent: cannot remove '{}': {}\n", directory, failed.message());
     }
   }
 }
@@ -300,9 +350,12 @@ void AgentTraces::started(pid_t pid) {
   }
 }
 
-void AgentTraces::ended(const std::string& name, pid_t pid, bool died) {
+void AgentTraces::ended(const std::string& name, pid_t pid, std::int32_t code, bool asked_for) {
   for (const auto& [number, trace] : traces_) {
-    trace->run.process_ended(name, pid, died);
+    trace->run.process_ended(name, pid, code != 0);
+    if (trace->run.choices().snapshot_on_crash && code != 0 && !asked_for && trace->state == Trace::State::kRecording) {
+      send_(FromAgent::kTraceWish, WireWriter().u32(number).flag(true).text(name).i32(code));
+    }
   }
 }
 

@@ -38,15 +38,22 @@ class AgentTraces {
   // Changes the spec of a process that is about to start.
   void prepare(ProcessSpec& spec);
   void started(pid_t pid);
-  void ended(const std::string& name, pid_t pid, bool died);
+  // `code`: its exit code, -N for signal N. `asked_for`: the launcher has sent it a signal.
+  void ended(const std::string& name, pid_t pid, std::int32_t code, bool asked_for);
 
  private:
+  struct Recording;
   struct Trace;
 
   void begin(std::uint32_t number, WireReader& reader);
   void end(const std::shared_ptr<Trace>& trace);
-  void fetch(const std::shared_ptr<Trace>& trace, std::uint32_t credit);
-  void send_files(const std::shared_ptr<Trace>& trace);
+  // Throws WireError if it is one of before. The numbers grow.
+  std::uint32_t take_number(std::uint32_t number);
+  void take_snapshot(const std::shared_ptr<Trace>& trace, WireReader& reader);
+  void tell_ended(std::uint32_t number, bool well, const std::string& error, const std::string& remedy,
+                  const std::string& directory);
+  void fetch(const std::shared_ptr<Recording>& recording, std::uint32_t credit);
+  void send_files(const std::shared_ptr<Recording>& recording);
   void leave(std::uint32_t number, bool remove);
   // Runs `work` on a thread of its own, then `finished` in the loop, with what is wrong and what helps.
   void in_background(std::function<void()> work, std::function<void(bool well, std::string, std::string)> finished);
@@ -58,6 +65,7 @@ class AgentTraces {
   std::shared_ptr<bool> lives_ = std::make_shared<bool>(true);  // read and written in the loop alone
   std::uint32_t last_ = 0;
   std::map<std::uint32_t, std::shared_ptr<Trace>> traces_;
+  std::map<std::uint32_t, std::shared_ptr<Recording>> recordings_;
 };
 
 }  // namespace launch

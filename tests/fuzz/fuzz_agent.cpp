@@ -40,7 +40,8 @@ void read_as_launcher(std::string_view bytes) {
   RemoteTraces traces(loop, "arm", clock, [](ToAgent, const WireWriter&) {});
   const auto recorder = traces.recorder();
   recorder->begin(
-      "", [](const std::string&) {}, [](const MachineRecorder::Outcome&) {});
+      "", [](const std::string&) {}, [](const MachineRecorder::Reason&) {}, [](const MachineRecorder::Outcome&) {});
+  const auto snapshot = recorder->take_snapshot({}, [](const MachineRecorder::Outcome&) {});
   Frames frames;
   frames.add(bytes);
   is_path_of_fetched_file(bytes);
@@ -73,6 +74,10 @@ void read_as_agent(std::string_view bytes) {
       } else if (static_cast<ToAgent>(frame->kind) == ToAgent::kTraceBegin) {
         reader.u32();
         parse_machine_trace(reader.rest());
+      } else if (static_cast<ToAgent>(frame->kind) == ToAgent::kTraceSnapshot) {
+        reader.u32();
+        reader.u32();
+        parse_snapshot_order(reader.rest());
       }
     }
   });

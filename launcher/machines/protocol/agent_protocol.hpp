@@ -43,7 +43,9 @@ enum class ToAgent : std::uint8_t {
   kTraceEnd = 12,    // u32 trace, flag whether no process was to be recorded: end it
   kTraceHurry = 13,  // u32 trace: end it with the data that is there
   kTraceFetch = 14,  // u32 trace, u32 bytes: of its files so many more may be sent
-  kTraceLeave = 15   // u32 trace, flag: nothing more is wanted of it; remove its files there, or leave them
+  kTraceLeave = 15,  // u32 trace, flag: nothing more is wanted of it; remove its files there, or leave them
+  // A snapshot has a number as a trace has, and is fetched and left as one that has ended.
+  kTraceSnapshot = 16  // u32 trace, u32 number of the snapshot, SnapshotOrder (machine_trace.hpp): take one
 };
 
 // From the agent.
@@ -60,12 +62,15 @@ enum class FromAgent : std::uint8_t {
   kRefused = 10,     // text: why the agent can't do its work; the connection ends
   kTraceTold = 11,   // u32 trace, text: a warning of it
   kTraceBegun = 12,  // u32 trace, flag whether it went well, text: what is wrong, text: what helps, text: the directory
-  kTraceEnded = 13,  // u32 trace, flag whether it went well, texts as before; no directory: nothing is written
-  kTraceFile = 14,   // u32 trace, text: a path below the directory, u64: its bytes, which follow
-  kTraceBytes = 15,  // u32 trace, bytes of the file
-  kTraceSum = 16,    // u32 trace, u64: sum_of() all bytes of the file, which ends here
-  kTraceAll = 17,    // u32 trace, u32: how many files, u64: how many bytes it were
-  kTraceFailed = 18  // u32 trace, text: its files can't be sent
+  // Of a trace, or of a snapshot that is taken.
+  kTraceEnded = 13,   // u32 trace, flag whether it went well, texts as before; no directory: nothing is written
+  kTraceFile = 14,    // u32 trace, text: a path below the directory, u64: its bytes, which follow
+  kTraceBytes = 15,   // u32 trace, bytes of the file
+  kTraceSum = 16,     // u32 trace, u64: sum_of() all bytes of the file, which ends here
+  kTraceAll = 17,     // u32 trace, u32: how many files, u64: how many bytes it were
+  kTraceFailed = 18,  // u32 trace, text: its files can't be sent
+  // A reason for a snapshot.
+  kTraceWish = 19  // u32 trace, flag whether a process has ended, text: its label, or what has happened, i32 exit code
 };
 
 // The longest content of a frame. Specs with parameters and the list of packages are the long ones.

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "base/diagnostics/command_error.hpp"
+#include "launcher/traced/snapshot_socket.hpp"
 #include "programs/launch/trace/session_end.hpp"
 #include "programs/launch/trace/session_text.hpp"
 #include "programs/launch/trace/trace_options.hpp"
@@ -20,6 +21,7 @@
 #include "tracing/record/account/event_cost.hpp"
 #include "tracing/record/account/loss_account.hpp"
 #include "tracing/record/account/loss_text.hpp"
+#include "tracing/record/account/verdict.hpp"
 #include "tracing/record/lttng/daemons_kept_going.hpp"
 #include "tracing/record/plan/trace_config.hpp"
 #include "tracing/record/plan/trace_error.hpp"
@@ -112,7 +114,20 @@ void print_account(const TraceOptions& options, const LossAccount& losses) {
   }
 }
 
-void record_snapshot(const std::string& session_name, Tracer& tracer) {
+// A session of a launch on several machines is asked of the launch, which has all of them take one.
+void record_snapshot(const TraceOptions& options, Tracer& tracer) {
+  const std::string session_name = options.config.lttng_session_name();
+  if (const std::optional<launch::SnapshotAnswer> taken = launch::ask_for_snapshot(session_name)) {
+    if (!taken->error.empty()) {
+      throw TraceError(taken->error);
+    }
+    print_line("snapshot written to: " + taken->directory);
+    if (!taken->complete) {
+      fmt::print(stderr, "{}: warning: the snapshot is incomplete, see {}/{}\n", options.command, taken->directory,
+                 kVerdictFile);
+    }
+    return;
+  }
   const std::string directory = tracer.record_snapshot(session_name);
   if (!directory.empty()) {
     print_line("snapshot written to: " + directory);
@@ -276,7 +291,7 @@ void run_verb(const TraceOptions& options, Tracer& tracer) {
       return tracer.load(session_name, options.directory);
     case TraceVerb::kRecordSnapshot:
       print_line("recording snapshot of tracing session");
-      return record_snapshot(session_name, tracer);
+      return record_snapshot(options, tracer);
   }
 }
 

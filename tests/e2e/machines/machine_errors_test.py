@@ -103,7 +103,7 @@ class MachineErrors(MachinesTest):
         process = '<executable cmd="true" machine="arm"/>'
         machine = f'<machine name="arm" connect="{self.plain()}"/>'
         for text, words, error in (
-                (f'{machine}<trace session-name="t" snapshot-mode="true"/>{process}', (),
+                (f'{machine}<trace session-name="t" dual-session="true"/>{process}', (),
                  'works on this machine only'),
                 (f'{machine}{process}<trace session-name="t" syscalls="openat"/>', (),
                  "error: this setting of <trace> works on this machine only, and processes run on machine 'arm'"),

@@ -53,7 +53,11 @@ class RemoteTracesTest : public testing::Test {
   FakeEventLoop loop;
   std::vector<ToAgent> sent;
   ClockOffset clock;
-  RemoteTraces traces{loop, "arm", clock, [this](ToAgent kind, const WireWriter&) { sent.push_back(kind); }};
+  std::vector<std::string> contents;
+  RemoteTraces traces{loop, "arm", clock, [this](ToAgent kind, const WireWriter& content) {
+                        sent.push_back(kind);
+                        contents.push_back(content.bytes());
+                      }};
   std::unique_ptr<MachineRecorder> recorder = traces.recorder();
   std::vector<MachineRecorder::Outcome> fetched;
 };
@@ -63,7 +67,8 @@ TEST_F(RemoteTracesTest, BeginsAndEnds) {
   std::vector<MachineRecorder::Outcome> ended;
   std::vector<std::string> warnings;
   recorder->begin(
-      "what", [&](const std::string& text) { warnings.push_back(text); }, into(begun));
+      "what", [&](const std::string& text) { warnings.push_back(text); }, [](const MachineRecorder::Reason&) {},
+      into(begun));
   say(FromAgent::kTraceTold, WireWriter().u32(1).text("the disk\x1b[31m is full"));
   say(FromAgent::kTraceBegun, WireWriter().u32(1).flag(true).text("").text("").text("/there/t-arm"));
   ASSERT_EQ(begun.size(), 1U);
@@ -78,6 +83,57 @@ TEST_F(RemoteTracesTest, BeginsAndEnds) {
   EXPECT_EQ(ended[0].error, "no daemon");
   EXPECT_EQ(ended[0].help, "start it");
   EXPECT_THAT(sent, ElementsAre(ToAgent::kTraceBegin, ToAgent::kTraceEnd));
+}
+
+TEST_F(RemoteTracesTest, TakesSnapshotsThatAreFetchedAsTraces) {
+  std::vector<MachineRecorder::Reason> reasons;
+  recorder->begin(
+      "what", [](const std::string&) {}, [&](const MachineRecorder::Reason& reason) { reasons.push_back(reason); },
+      [](const MachineRecorder::Outcome&) {});
+  say(FromAgent::kTraceBegun, WireWriter().u32(1).flag(true).text("").text("").text("/there/t-arm"));
+  say(FromAgent::kTraceWish, WireWriter().u32(1).flag(false).text("event\nx").i32(0));
+  say(FromAgent::kTraceWish, WireWriter().u32(1).flag(true).text("talker-1").i32(-11));
+  ASSERT_EQ(reasons.size(), 2U);
+  EXPECT_EQ(reasons[0].kind, MachineRecorder::Reason::Kind::kEvent);
+  EXPECT_EQ(reasons[0].text.find('\n'), std::string::npos);
+  EXPECT_EQ(reasons[1].kind, MachineRecorder::Reason::Kind::kEndOfProcess);
+  EXPECT_EQ(reasons[1].text, "talker-1");
+  EXPECT_EQ(reasons[1].code, -11);
+
+  clock.add(1000, {.epoch_ns = 1'000'000, .monotonic_ns = 500'000}, {.epoch_ns = 1'000'000, .monotonic_ns = 700'000});
+  std::vector<MachineRecorder::Outcome> taken;
+  auto snapshot = recorder->take_snapshot({.reasons = {"event"}, .moment = 400'000}, into(taken));
+  ASSERT_EQ(sent.back(), ToAgent::kTraceSnapshot);
+  WireReader order(contents.back());
+  EXPECT_EQ(order.u32(), 1U);
+  EXPECT_EQ(order.u32(), 2U);
+  const tracing::SnapshotOrder ordered = parse_snapshot_order(order.rest());
+  EXPECT_THAT(ordered.reasons, ElementsAre("event"));
+  EXPECT_NEAR(static_cast<double>(ordered.moment), 600'000, 1000);  // by the clock there
+  say(FromAgent::kTraceEnded, WireWriter().u32(2).flag(true).text("").text("").text("/there/t-arm/snapshot-1"));
+  ASSERT_EQ(taken.size(), 1U);
+  EXPECT_EQ(taken[0].directory, "/there/t-arm/snapshot-1");
+  snapshot->fetch(directory(), into(fetched));
+  say(FromAgent::kTraceAll, WireWriter().u32(2).u32(0).u64(0));
+  ASSERT_EQ(fetched.size(), 1U);
+  EXPECT_TRUE(fetched[0].well);
+  EXPECT_TRUE(std::filesystem::exists(directory() + "/clock.json"));
+  snapshot->leave(true);
+  snapshot.reset();
+  say(FromAgent::kTraceFailed, WireWriter().u32(2).text("late"));  // passed over
+
+  auto lost = recorder->take_snapshot({.reasons = {"event"}}, into(taken));
+  traces.lose("it is silent");
+  loop.run_until_idle();
+  ASSERT_EQ(taken.size(), 2U);
+  EXPECT_TRUE(taken[1].lost);
+  EXPECT_EQ(reasons.back().kind, MachineRecorder::Reason::Kind::kLost);
+}
+
+TEST_F(RemoteTracesTest, ATraceThatHasNotBegunWantsNothing) {
+  const WireWriter message = WireWriter().u32(1).flag(false).text("event").i32(0);
+  WireReader reader(message.bytes());
+  EXPECT_THROW(traces.receive(FromAgent::kTraceWish, reader), WireError);
 }
 
 TEST_F(RemoteTracesTest, FilesComeHome) {
@@ -211,6 +267,12 @@ TEST(MachineTraceWire, IsReadAsItWasWritten) {
   trace.choices.nodes = {"talker", "/li*"};
   trace.choices.tracetools = TracetoolsMode::kTheirs;
   trace.choices.python_nodes = true;
+  trace.config.snapshot_mode = true;
+  trace.config.snapshot_size = 1 << 22;
+  trace.choices.snapshot_on_crash = true;
+  trace.choices.snapshot_on_events = {"mine:late if by > 5"};
+  trace.choices.callback_deadline = 2.5;
+  trace.choices.message_deadline = 0.5;
   ProcessSpec spec;
   spec.name = "talker";
   spec.argv = {"/bin/talker", "-v"};
@@ -222,6 +284,10 @@ TEST(MachineTraceWire, IsReadAsItWasWritten) {
   EXPECT_EQ(to_wire(read), bytes);
   EXPECT_EQ(read.config.channels.at(0).read_timer, 9U);
   EXPECT_EQ(read.config.max_overhead, 0.02);
+  EXPECT_TRUE(read.config.records_snapshots());
+  EXPECT_EQ(read.config.snapshot_size, 1U << 22);
+  EXPECT_EQ(read.choices.watched_events(), trace.choices.watched_events());
+  EXPECT_EQ(read.choices.message_deadline, 0.5);
   EXPECT_EQ(read.choices.nodes, trace.choices.nodes);
   EXPECT_FALSE(read.processes.at(0).traced);
   EXPECT_EQ(read.processes.at(0).environment.size(), 1U);

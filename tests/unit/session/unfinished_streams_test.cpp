@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <filesystem>
 #include <list>
 #include <memory>
@@ -15,12 +16,14 @@
 #include <utility>
 #include <vector>
 
+#include "base/monotonic_clock.hpp"
 #include "tests/support/command.hpp"
 #include "tests/unit/session/lttng_tracer_fixture.hpp"
 #include "tests/unit/session/trace_reading.hpp"
 #include "tracing/record/account/loss_account.hpp"
 #include "tracing/record/lttng/answer_limit.hpp"
 #include "tracing/record/plan/trace_config.hpp"
+#include "tracing/record/session/flight_recorder.hpp"
 #include "tracing/record/session/snapshot.hpp"
 
 namespace {
@@ -342,6 +345,32 @@ TEST_F(UnfinishedStreams, AreNotSaidOfIdleOnes) {
       app.end();
     }
   }
+}
+
+// Other machines take their snapshots a little later.
+TEST_F(UnfinishedStreams, AreNotTakenForASnapshotThatBeginsAfterItsReason) {
+  TraceConfig config = config_named("run");
+  config.snapshot_mode = true;
+  config.ust.subbuffer_size = 4096;
+  config.ust.subbuffer_count = 2;
+  tracer->start(config);
+  const std::int64_t before = launch::monotonic_time();
+  trace_test::TracedApp app(1000, 1000);
+  for (const auto& [moment, is_held] :
+       {std::pair(before, false), std::pair(launch::monotonic_time(), true), std::pair(std::int64_t{0}, true)}) {
+    const tracing::TakenSnapshot taken = tracing::take_snapshot(config, {.reasons = {"late"}, .moment = moment});
+    ASSERT_EQ(taken.error, "");
+    EXPECT_EQ(taken.damage, "");
+    const nlohmann::json verdict = verdict_in(taken.directory);
+    EXPECT_EQ(verdict["complete"], is_held) << verdict.dump(2);
+    if (!is_held) {
+      EXPECT_THAT(verdict["absent"].dump(),
+                  ContainsRegex("the snapshot begins 0[.][0-9]+ s after its reason: the buffers did "
+                                "not hold more"));
+    }
+  }
+  app.end();
+  tracer->finish(config, never);
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ bool says_true(const Json& verdict, const char* field) {
 }  // namespace
 
 bool write_machines_verdict(const fs::path& directory, const std::string& session_name,
-                            const std::vector<MachinePart>& parts) {
+                            const std::vector<MachinePart>& parts, const SnapshotReasons* snapshot) {
   bool all_complete = true;
   Json machines = Json::array();
   Json absent = Json::array();
@@ -80,11 +80,12 @@ bool write_machines_verdict(const fs::path& directory, const std::string& sessio
     all_complete = all_complete && complete;
     machines.push_back(std::move(entry));
   }
-  const Json json = {{"session", session_name},
-                     {"complete", all_complete},
-                     {"damage", ""},
-                     {"absent", absent},
-                     {"machines", machines}};
+  Json json = {{"session", session_name}};
+  if (snapshot != nullptr) {
+    json["reasons"] = snapshot->reasons;
+    json["time_ns"] = snapshot->time_ns;
+  }
+  json.update({{"complete", all_complete}, {"damage", ""}, {"absent", absent}, {"machines", machines}});
   std::error_code failed;
   fs::create_directories(directory, failed);
   write(directory, json);

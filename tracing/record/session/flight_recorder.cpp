@@ -50,28 +50,40 @@ void FlightRecorder::work() {
     std::vector<std::string> reasons = std::exchange(requested_, {});
     std::vector<std::string> died = std::exchange(died_, {});
     lock.unlock();
-    told_(take(std::move(reasons), std::move(died)));
+    told_(take({.reasons = std::move(reasons), .died = std::move(died)}));
     lock.lock();
   }
 }
 
-TakenSnapshot FlightRecorder::take(std::vector<std::string> reasons, std::vector<std::string> died) {
-  TakenSnapshot taken{.reasons = std::move(reasons), .directory = {}, .damage = {}, .error = {}};
+TakenSnapshot FlightRecorder::take(SnapshotOrder order) const {
+  TakenSnapshot taken = take_snapshot(config_, std::move(order));
+  if (taken.error.empty() && !config_.over_network()) {
+    const std::vector<fs::path> snapshots = snapshots_in(config_.trace_directory());
+    try {
+      for (std::size_t oldest = 0; snapshots.size() - oldest > config_.snapshot_limit; ++oldest) {
+        fs::remove_all(snapshots[oldest]);
+      }
+    } catch (const std::exception& error) {
+      taken.error = error.what();
+    }
+  }
+  return taken;
+}
+
+TakenSnapshot take_snapshot(const TraceConfig& config, SnapshotOrder order) {
+  TakenSnapshot taken{.reasons = std::move(order.reasons), .directory = {}, .damage = {}, .error = {}};
   try {
-    const std::uint64_t asked = record_snapshot(config_.lttng_session_name());
-    if (config_.over_network()) {
+    const std::uint64_t asked = record_snapshot(config.lttng_session_name());
+    if (config.over_network()) {
       return taken;
     }
-    std::vector<fs::path> snapshots = snapshots_in(config_.trace_directory());
+    const std::vector<fs::path> snapshots = snapshots_in(config.trace_directory());
     if (snapshots.empty()) {
       throw TraceError("LTTng has written no snapshot");
     }
     taken.directory = snapshots.back();
-    taken.damage = judge_snapshot(taken.directory, config_.lttng_session_name(), config_.event_counters, taken.reasons,
-                                  {.asked = asked, .died = std::move(died)});
-    for (std::size_t oldest = 0; snapshots.size() - oldest > config_.snapshot_limit; ++oldest) {
-      fs::remove_all(snapshots[oldest]);
-    }
+    taken.damage = judge_snapshot(taken.directory, config.lttng_session_name(), config.event_counters, taken.reasons,
+                                  {.asked = asked, .died = std::move(order.died), .of_reason = order.moment});
   } catch (const std::exception& error) {
     taken.error = error.what();
   }

@@ -22,6 +22,16 @@ struct TakenSnapshot {
   std::string error;
 };
 
+struct SnapshotOrder {
+  std::vector<std::string> reasons;
+  std::vector<std::string> died = {};  // the processes whose deaths are among them
+  std::int64_t moment = 0;  // of the first reason (CLOCK_MONOTONIC, ns), which the snapshot should hold; 0: unknown
+};
+
+// Takes a snapshot of the session that `config` describes, and judges it. Blocks for as long as LTTng needs. What is
+// wrong is in the result. The others stay, however many there are.
+TakenSnapshot take_snapshot(const TraceConfig& config, SnapshotOrder order);
+
 class FlightRecorder {
  public:
   // The session that `config` describes must exist. `told` is called from a thread of the recorder's own.
@@ -39,7 +49,7 @@ class FlightRecorder {
 
  private:
   void work();
-  TakenSnapshot take(std::vector<std::string> reasons, std::vector<std::string> died);
+  TakenSnapshot take(SnapshotOrder order) const;
 
   TraceConfig config_;
   std::function<void(const TakenSnapshot&)> told_;

@@ -63,6 +63,21 @@ std::uint64_t record(const std::string& name, bool clear) {
   return asked;
 }
 
+// Of a processor whose oldest events were overwritten before the snapshot: what happened at the moment is not in it.
+std::string missing_at_begin(const std::vector<Stream>& streams, std::int64_t moment) {
+  std::uint64_t begins = 0;
+  for (const Stream& stream : streams) {
+    if (!stream.packets.empty() && stream.packets.front().sequence_number.value_or(0) > 0) {
+      begins = std::max(begins, stream.packets.front().begin);
+    }
+  }
+  if (moment <= 0 || begins <= static_cast<std::uint64_t>(moment)) {
+    return {};
+  }
+  return fmt::format("the snapshot begins {:.3f} s after its reason: the buffers did not hold more",
+                     to_seconds(begins - static_cast<std::uint64_t>(moment)));
+}
+
 }  // namespace
 
 void add_snapshot_output(const TraceConfig& config) {
@@ -142,6 +157,9 @@ std::string judge_snapshot(const fs::path& snapshot, const std::string& name, co
       ended.push_back({"each process has buffers of its own: programs that had ended are not in the snapshot"});
     }
     std::move(ended.begin(), ended.end(), std::back_inserter(account.absences));
+  }
+  if (std::string missing = missing_at_begin(streams, moment.of_reason); !missing.empty()) {
+    account.absences.push_back({std::move(missing)});
   }
   account.unwritten = unfinished_streams(streams, moment.asked);
   for (UnwrittenRange& range : account.unwritten) {

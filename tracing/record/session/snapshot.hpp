@@ -30,6 +30,9 @@ std::string recorder_directory(const std::string& lttng_session_name);
 struct SnapshotMoment {
   std::uint64_t asked = 0;             // the result of record_snapshot()
   std::vector<std::string> died = {};  // the processes whose deaths are its reasons
+  // When the first reason was there (CLOCK_MONOTONIC, ns): a snapshot that does not reach back so far is incomplete.
+  // 0: unknown.
+  std::int64_t of_reason = 0;
 };
 
 // Writes the verdict of a snapshot into its directory. `counters` is where the processes of the session count their

@@ -43,7 +43,8 @@ std::string snapshot_reason(const RunChoices& choices, const std::string& rule) 
   return "event " + rule;
 }
 
-// The names of the events whose rules are among the reasons.
+}  // namespace
+
 std::vector<std::string> late_events(const RunChoices& choices, const std::vector<std::string>& reasons) {
   std::vector<std::string> names;
   for (const std::string& rule : choices.watched_events()) {
@@ -54,7 +55,13 @@ std::vector<std::string> late_events(const RunChoices& choices, const std::vecto
   return names;
 }
 
-}  // namespace
+std::vector<std::string> reasons_by_events(const RunChoices& choices) {
+  std::vector<std::string> reasons;
+  for (const std::string& rule : choices.watched_events()) {
+    reasons.push_back(snapshot_reason(choices, rule));
+  }
+  return reasons;
+}
 
 std::vector<std::string> RunChoices::watched_events() const {
   std::vector<std::string> rules = snapshot_on_events;
@@ -140,7 +147,7 @@ void TracedRun::end_failed_session() {
 }
 
 std::string TracedRun::write_chains() const {
-  if (choices_.chains.empty() || config_.over_network()) {
+  if (choices_.chains.empty() || config_.over_network() || (config_.records_snapshots() && wish_)) {
     return "";
   }
   try {
@@ -165,21 +172,24 @@ void TracedRun::look_around(const Tell& tell) {
 
 // The session daemon takes a millisecond for these registrations.
 void TracedRun::start_flight_recorder(const Tell& tell, const SnapshotObserver& observer) {
-  auto recorder =
-      std::make_shared<FlightRecorder>(config_, [tell, observer, choices = choices_](const TakenSnapshot& taken) {
-        const std::string reasons = fmt::format("{}", fmt::join(taken.reasons, ", "));
-        if (!taken.error.empty()) {
-          tell(true, fmt::format("no snapshot ({}): {}", reasons, taken.error));
-          return;
-        }
-        if (observer) {
-          observer(taken, late_events(choices, taken.reasons));
-        }
-        tell(false, fmt::format("snapshot written to: {} ({})", taken.directory.string(), reasons));
-        if (!taken.damage.empty()) {
-          tell(true, fmt::format("the snapshot is incomplete: {}", taken.damage));
-        }
-      });
+  std::shared_ptr<FlightRecorder> recorder;
+  if (!wish_) {
+    recorder =
+        std::make_shared<FlightRecorder>(config_, [tell, observer, choices = choices_](const TakenSnapshot& taken) {
+          const std::string reasons = fmt::format("{}", fmt::join(taken.reasons, ", "));
+          if (!taken.error.empty()) {
+            tell(true, fmt::format("no snapshot ({}): {}", reasons, taken.error));
+            return;
+          }
+          if (observer) {
+            observer(taken, late_events(choices, taken.reasons));
+          }
+          tell(false, fmt::format("snapshot written to: {} ({})", taken.directory.string(), reasons));
+          if (!taken.damage.empty()) {
+            tell(true, fmt::format("the snapshot is incomplete: {}", taken.damage));
+          }
+        });
+  }
   if (const std::vector<std::string> rules = choices_.watched_events(); !rules.empty()) {
     event_watch_ = std::make_unique<EventWatch>(config_.lttng_session_name(), rules, [this](const std::string& rule) {
       request_snapshot(snapshot_reason(choices_, rule));
@@ -198,6 +208,10 @@ void TracedRun::stop_flight_recorder() {
 }
 
 void TracedRun::request_snapshot(const std::string& reason, const std::string& died) {
+  if (wish_) {
+    wish_(reason, died);
+    return;
+  }
   const std::lock_guard lock(watchers_mutex_);
   if (flight_recorder_) {
     flight_recorder_->request(reason, died);
@@ -291,6 +305,9 @@ bool TracedRun::has_no_snapshot() const {
 }
 
 void TracedRun::tell_result(const Tell& tell) const {
+  if (config_.records_snapshots() && wish_) {
+    return;  // the owner of the run has told of each snapshot
+  }
   if (has_no_snapshot()) {
     tell(false, "no trace was written: no snapshot was taken");
     return;

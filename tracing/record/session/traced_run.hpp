@@ -47,6 +47,11 @@ struct RunChoices {
   std::vector<std::string> watched_events() const;
 };
 
+// The reasons for a snapshot that events give.
+std::vector<std::string> reasons_by_events(const RunChoices& choices);
+// The names of the events whose rules are among the reasons.
+std::vector<std::string> late_events(const RunChoices& choices, const std::vector<std::string>& reasons);
+
 class TracedRun {
  public:
   // Tells something to the user; called from several threads.
@@ -68,6 +73,13 @@ class TracedRun {
   const std::vector<std::string>& preload() const { return preload_; }
   // Where processes count their events; null before clean_up_command(), and when there is no room.
   const CounterDirectory* counters() const { return counters_.get(); }
+  // Called from several threads, from start() to finish(), when there is a reason for a snapshot; `died` as of
+  // FlightRecorder::request().
+  using SnapshotWish = std::function<void(const std::string& reason, const std::string& died)>;
+  // The owner of the run decides when snapshots are taken, by take_snapshot(), and has the chains; the run only passes
+  // on the reasons, and
+  // removes no snapshot. Call it before start().
+  void leave_snapshots_to(SnapshotWish wish) { wish_ = std::move(wish); }
   // Adds a warning that start() tells. Call it before.
   void warn(std::string warning) { setup_.warnings.push_back(std::move(warning)); }
 
@@ -84,6 +96,8 @@ class TracedRun {
   void look_around(const Tell& tell);
   // Does nothing if there is no flight recorder at the time. `died`: as of FlightRecorder::request().
   void request_snapshot(const std::string& reason, const std::string& died = "");
+  // Takes one now, of a session of snapshots that has begun. Blocks; not after finish() has begun.
+  TakenSnapshot take_snapshot(SnapshotOrder order) const { return tracing::take_snapshot(config_, std::move(order)); }
   // A process of the run has begun, in the trace or not.
   void process_started(pid_t pid);
   // A process of the run has ended just now: find out whether it has died within an event, at once or at the end.
@@ -127,6 +141,7 @@ class TracedRun {
   std::atomic<bool> hurry_ = false;
   std::mutex watchers_mutex_;  // of the pointers to the flight recorder and to the watch of the run
   std::shared_ptr<FlightRecorder> flight_recorder_;
+  SnapshotWish wish_;
   std::unique_ptr<EventWatch> event_watch_;
   std::unique_ptr<OverheadGuard> overhead_guard_;
   std::unique_ptr<RunWatch> run_watch_;
