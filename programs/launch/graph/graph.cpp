@@ -131,11 +131,6 @@ class GraphBuilder {
         lines.push_back(fmt::format("after {} s", std::chrono::duration<double>(delays[process]).count()));
       }
     };
-    const auto remark_machine = [](const ProcessSpec& spec, std::vector<std::string>& lines) {
-      if (!spec.machine.empty()) {
-        lines.push_back("on machine " + spec.machine);
-      }
-    };
     std::vector<std::string> ids(processes.size());
     for (const NodeDescription& node : nodes) {
       const ProcessSpec& spec = processes[node.process];
@@ -144,19 +139,17 @@ class GraphBuilder {
       if (!node.name) {
         lines.emplace_back("named by the program");
       }
-      remark_machine(spec, lines);
       remark_delay(node.process, lines);
       ids[node.process] = add_node(node.name.value_or(spec.name), node.name_space.value_or("/"), lines, spec.origin,
-                                   remaps_of(spec.argv));
+                                   remaps_of(spec.argv), spec.machine);
     }
     for (std::size_t i = 0; i < processes.size(); ++i) {
       if (ids[i].empty()) {
         ids[i] = fmt::format("process {}", graph_.processes.size());
         std::vector<std::string> lines = {processes[i].name};
-        remark_machine(processes[i], lines);
         remark_delay(i, lines);
         remark_left_out(lines);
-        graph_.processes.push_back({ids[i], std::move(lines), left_out_});
+        graph_.processes.push_back({ids[i], std::move(lines), left_out_, processes[i].machine});
         asked_by(processes[i].origin, ids[i]);
       }
     }
@@ -178,9 +171,21 @@ class GraphBuilder {
       }
       const std::string id = add_node(component.name.empty() ? component.plugin : component.name,
                                       component.name_space.empty() ? "/" : component.name_space, lines,
-                                      component.origin, component.remaps);
+                                      component.origin, component.remaps, machine_of(target));
       graph_.edges.push_back({target, id, Relation::kLoads, "loads"});
     }
+  }
+
+  // Of a container; a component runs there.
+  std::string machine_of(const std::string& container) const {
+    for (const auto& [name_space, nodes] : graph_.nodes) {
+      const auto found =
+          std::find_if(nodes.begin(), nodes.end(), [&](const LaunchGraph::Box& node) { return node.id == container; });
+      if (found != nodes.end()) {
+        return found->machine;
+      }
+    }
+    return {};
   }
 
   // A process is drawn with an arrow; anything else that is waited for is a line of the box.
@@ -203,7 +208,8 @@ class GraphBuilder {
   }
 
   std::string add_node(const std::string& name, std::string name_space, std::vector<std::string> lines,
-                       const SourceRange& origin, const std::vector<std::pair<std::string, std::string>>& remaps) {
+                       const SourceRange& origin, const std::vector<std::pair<std::string, std::string>>& remaps,
+                       const std::string& machine) {
     if (name_space.empty() || name_space.front() != '/') {
       name_space = "/" + name_space;
     }
@@ -215,7 +221,7 @@ class GraphBuilder {
     }
     lines.insert(lines.begin(), full_name);
     remark_left_out(lines);
-    graph_.nodes[name_space].push_back({id, std::move(lines), left_out_});
+    graph_.nodes[name_space].push_back({id, std::move(lines), left_out_, machine});
     asked_by(origin, id);
     for (const auto& [from, to] : remaps) {
       const std::string topic = resolved_name(to, name_space, full_name);
@@ -254,6 +260,23 @@ class GraphBuilder {
 };
 
 }  // namespace
+
+std::vector<std::string> LaunchGraph::machines() const {
+  std::set<std::string> found;
+  for (const auto& [name_space, boxes] : nodes) {
+    for (const Box& node : boxes) {
+      found.insert(node.machine);
+    }
+  }
+  for (const Box& process : processes) {
+    found.insert(process.machine);
+  }
+  return {found.begin(), found.end()};
+}
+
+std::string title_of_machine(const std::string& machine) {
+  return machine.empty() ? "this machine" : "machine " + machine;
+}
 
 LaunchGraph graph_of(const LaunchPlan& plan, const std::vector<Requests>& left_out) {
   return GraphBuilder().build(plan, left_out);

@@ -17,6 +17,7 @@ struct LaunchGraph {
     std::string id;
     std::vector<std::string> lines;  // its text
     bool left_out = false;           // by a condition
+    std::string machine{};           // of a node or another process; empty: this machine
   };
   enum class Relation {
     kIncludes,  // a file to a file
@@ -40,13 +41,20 @@ struct LaunchGraph {
   std::vector<Box> handlers;                      // event handlers
   std::vector<Box> topics;                        // topics that something is remapped to, sorted
   std::vector<Edge> edges;                        // in the order of the plan
+
+  // The machines of nodes and other processes, sorted, this one first. One alone gets no box.
+  std::vector<std::string> machines() const;
 };
+
+// The text of the box of a machine: "machine arm".
+std::string title_of_machine(const std::string& machine);
 
 // `left_out` are the requests of actions that their conditions leave out.
 LaunchGraph graph_of(const LaunchPlan& plan, const std::vector<Requests>& left_out = {});
 
 // In Graphviz's language. Boxes with a folded corner are launch files, with an arrow to what each includes and asks
-// for. Ellipses are nodes inside their namespace; boxes are other processes. A remap is a line from the node to the new
+// for. Ellipses are nodes inside their namespace; boxes are other processes; those of several machines stand in a box
+// for each machine. A remap is a line from the node to the new
 // name, labelled with the old one.
 std::string graph_as_dot(const LaunchGraph& graph);
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <cstddef>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "programs/launch/graph/graph.hpp"
 
@@ -56,6 +59,28 @@ std::string edge_style(const LaunchGraph::Edge& edge) {
   return "";
 }
 
+// The nodes in their namespaces, and the other processes, of one machine. `number` is that of the next cluster.
+std::string boxes_of(const LaunchGraph& graph, const std::string& machine, std::size_t& number) {
+  std::string text;
+  for (const auto& [name_space, nodes] : graph.nodes) {
+    std::string lines;
+    for (const LaunchGraph::Box& node : nodes) {
+      if (node.machine == machine) {
+        lines += fmt::format("  {} [{}label={}];\n", as_id(node.id), style_of(node), label_of(node));
+      }
+    }
+    text += name_space == "/" || lines.empty()
+                ? lines
+                : fmt::format("  subgraph cluster_{} {{\n  label={};\n{}  }}\n", number++, as_id(name_space), lines);
+  }
+  for (const LaunchGraph::Box& process : graph.processes) {
+    if (process.machine == machine) {
+      text += fmt::format("  {} [shape=box, {}label={}];\n", as_id(process.id), style_of(process), label_of(process));
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string graph_as_dot(const LaunchGraph& graph) {
@@ -65,17 +90,13 @@ std::string graph_as_dot(const LaunchGraph& graph) {
     text += fmt::format("  {} [shape=note, color=gray, label={}];\n", as_id(file.id), label_of(file));
   }
   std::size_t number = 0;
-  for (const auto& [name_space, nodes] : graph.nodes) {
-    std::string lines;
-    for (const LaunchGraph::Box& node : nodes) {
-      lines += fmt::format("  {} [{}label={}];\n", as_id(node.id), style_of(node), label_of(node));
-    }
-    text += name_space == "/"
-                ? lines
-                : fmt::format("  subgraph cluster_{} {{\n  label={};\n{}  }}\n", number++, as_id(name_space), lines);
-  }
-  for (const LaunchGraph::Box& process : graph.processes) {
-    text += fmt::format("  {} [shape=box, {}label={}];\n", as_id(process.id), style_of(process), label_of(process));
+  const std::vector<std::string> machines = graph.machines();
+  const bool framed = machines.size() > 1 || (!machines.empty() && !machines.front().empty());
+  for (const std::string& machine : machines) {
+    const std::string inside = boxes_of(graph, machine, number);
+    text += framed ? fmt::format("  subgraph cluster_{} {{\n  label={};\n  style=rounded;\n{}  }}\n", number++,
+                                 as_id(title_of_machine(machine)), inside)
+                   : inside;
   }
   for (const LaunchGraph::Box& handler : graph.handlers) {
     text += fmt::format("  {} [shape=cds, color=orange, label={}];\n", as_id(handler.id), label_of(handler));

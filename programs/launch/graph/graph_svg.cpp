@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "base/text/quoted_text.hpp"
 #include "programs/launch/graph/graph.hpp"
@@ -60,7 +63,8 @@ class Picture {
         "font-family=\"sans-serif\" font-size=\"{2}\">\n"
         "<style>rect{{fill:#fff;stroke:#444}} .file{{stroke:#999;stroke-dasharray:4 2}} "
         ".namespace{{fill:#f4f6fa;stroke:"
-        "#bcd}} .topic{{stroke:none;fill:#eef4ff}} path{{fill:none;stroke:#aaa}} .remaps{{stroke:#36c}} "
+        "#bcd}} .machine{{fill:#fbfaf5;stroke:#987;stroke-width:2}} .topic{{stroke:none;fill:#eef4ff}} "
+        "path{{fill:none;stroke:#aaa}} .remaps{{stroke:#36c}} "
         ".loads{{stroke:#444;stroke-dasharray:2 3}} .waits{{stroke:#444;stroke-dasharray:6 3}} "
         ".left-out{{stroke:#bbb;stroke-dasharray:4 3}} "
         ".handler{{fill:#fff6e6;stroke:#e90}} .handles{{stroke:#e90}} .note{{fill:#36c;font-size:10px}}</style>\n"
@@ -132,31 +136,73 @@ class Picture {
   }
 
   void place_nodes() {
-    for (const auto& [name_space, nodes] : graph_.nodes) {
-      const bool framed = name_space != "/";
+    const std::vector<std::string> machines = graph_.machines();
+    const bool framed = machines.size() > 1 || (!machines.empty() && !machines.front().empty());
+    for (const std::string& machine : machines) {
+      if (!framed) {
+        place_machine(machine);
+        continue;
+      }
+      const double left = column_;
       const double begin = next_;
-      next_ += framed ? kLine + kGap : 0;
-      double width = static_cast<double>(name_space.size()) * kCharacter;
-      for (const LaunchGraph::Box& node : nodes) {
-        place(node, framed ? kGap : 0, "node");
-        width = std::max(width, width_of(node));
-      }
-      if (framed) {
-        const Rectangle frame{column_, begin, width + 2 * kGap, next_ - begin};
-        backgrounds_ += fmt::format(
-            "<rect class=\"namespace\" x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.0f}\" height=\"{:.0f}\"/>\n"
-            "<text x=\"{:.0f}\" y=\"{:.0f}\" font-weight=\"bold\">{}</text>\n",
-            frame.x, frame.y, frame.width, frame.height, frame.x + kGap, frame.y + kLine, as_xml_text(name_space));
-        note_extent(frame);
-        next_ += kGap;
-      }
-    }
-    for (const LaunchGraph::Box& process : graph_.processes) {
-      place(process, 0, "process");
+      next_ += kLine + kGap;
+      column_ += kGap;
+      const std::string outside = std::exchange(backgrounds_, "");
+      const double inside = place_machine(machine);
+      const std::string title = title_of_machine(machine);
+      column_ = left;
+      // Behind the frames of its namespaces.
+      const std::string frames = std::exchange(backgrounds_, outside);
+      frame("machine", title, begin, std::max(inside, kCharacter * static_cast<double>(title.size())));
+      backgrounds_ += frames;
     }
     for (const LaunchGraph::Box& handler : graph_.handlers) {
       place(handler, 0, "handler");
     }
+  }
+
+  // The nodes and other processes of one machine. Returns how wide they are.
+  double place_machine(const std::string& machine) {
+    double widest = 0;
+    for (const auto& [name_space, nodes] : graph_.nodes) {
+      const bool framed = name_space != "/";
+      const double begin = next_;
+      double width = 0;
+      for (const LaunchGraph::Box& node : nodes) {
+        if (node.machine != machine) {
+          continue;
+        }
+        if (width == 0) {
+          next_ += framed ? kLine + kGap : 0;
+          width = framed ? static_cast<double>(name_space.size()) * kCharacter : 0;
+        }
+        place(node, framed ? kGap : 0, "node");
+        width = std::max(width, width_of(node));
+      }
+      if (framed && width > 0) {
+        frame("namespace", name_space, begin, width);
+        width += 2 * kGap;
+      }
+      widest = std::max(widest, width);
+    }
+    for (const LaunchGraph::Box& process : graph_.processes) {
+      if (process.machine == machine) {
+        place(process, 0, "process");
+        widest = std::max(widest, width_of(process));
+      }
+    }
+    return widest;
+  }
+
+  // Around what was placed in the column since `begin`.
+  void frame(std::string_view kind, std::string_view title, double begin, double width) {
+    const Rectangle around{column_, begin, width + 2 * kGap, next_ - begin};
+    backgrounds_ += fmt::format(
+        "<rect class=\"{}\" x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.0f}\" height=\"{:.0f}\"/>\n"
+        "<text x=\"{:.0f}\" y=\"{:.0f}\" font-weight=\"bold\">{}</text>\n",
+        kind, around.x, around.y, around.width, around.height, around.x + kGap, around.y + kLine, as_xml_text(title));
+    note_extent(around);
+    next_ += kGap;
   }
 
   void draw(const LaunchGraph::Edge& edge) {

@@ -104,6 +104,63 @@ TEST_F(WithoutRunning, GraphSaysWhatHandlersDoAndNamesContainersOfOthers) {
   }
 }
 
+TEST_F(WithoutRunning, GraphHasABoxForEachMachine) {
+  const std::string path = file("a.launch.xml", R"xml(<launch>
+  <machine name="arm" connect="ssh arm"/>
+  <machine name="unused" connect="ssh unused"/>
+  <node pkg="demo_nodes" exec="talker" name="mouth" namespace="/head" machine="arm"/>
+  <node pkg="demo_nodes" exec="listener" name="ear" namespace="/head"/>
+  <node pkg="demo_nodes" exec="listener" name="hand" machine="arm"/>
+  <node_container pkg="rclcpp_components" exec="component_container" name="box" namespace="" machine="arm">
+    <composable_node pkg="p" plugin="p::A" name="part"/>
+  </node_container>
+  <executable cmd="sleep 1" name="nap" machine="arm"/>
+  <executable cmd="sleep 1" name="rest"/>
+</launch>
+)xml");
+  const CommandResult result = launch({"graph", path});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const std::size_t begin = result.out.find("  subgraph");
+  EXPECT_EQ(result.out.substr(begin, result.out.find("  \"file", begin) - begin),
+            "  subgraph cluster_1 {\n"
+            "  label=\"this machine\";\n"
+            "  style=rounded;\n"
+            "  subgraph cluster_0 {\n"
+            "  label=\"/head\";\n"
+            "  \"/head/ear\" [label=\"/head/ear\\ndemo_nodes listener\"];\n"
+            "  }\n"
+            "  \"process 1\" [shape=box, label=\"rest\"];\n"
+            "  }\n"
+            "  subgraph cluster_3 {\n"
+            "  label=\"machine arm\";\n"
+            "  style=rounded;\n"
+            "  \"/hand\" [label=\"/hand\\ndemo_nodes listener\"];\n"
+            "  \"/box\" [label=\"/box\\nrclcpp_components component_container\"];\n"
+            "  \"/part\" [label=\"/part\\np::A in /box\"];\n"
+            "  subgraph cluster_2 {\n"
+            "  label=\"/head\";\n"
+            "  \"/head/mouth\" [label=\"/head/mouth\\ndemo_nodes talker\"];\n"
+            "  }\n"
+            "  \"process 0\" [shape=box, label=\"nap\"];\n"
+            "  }\n");
+  const std::string picture = launch({"graph", "--format", "svg", path}).out;
+  EXPECT_THAT(picture, HasSubstr("<rect class=\"machine\""));
+  // A frame is drawn before what stands in it.
+  EXPECT_LT(picture.find(">machine arm<"), picture.find(">/head/mouth<"));
+  EXPECT_LT(picture.find(">this machine<"), picture.find(">/head/ear<"));
+}
+
+TEST_F(WithoutRunning, GraphOfALaunchOnOneOtherMachineSaysSo) {
+  const std::string path = file("a.launch.xml", R"xml(<launch>
+  <machine name="arm" connect="ssh arm"/>
+  <executable cmd="sleep 1" name="nap" machine="arm"/>
+</launch>
+)xml");
+  EXPECT_THAT(launch({"graph", path}).out,
+              HasSubstr("  subgraph cluster_0 {\n  label=\"machine arm\";\n  style=rounded;\n"
+                        "  \"process 0\" [shape=box, label=\"nap\"];\n  }\n"));
+}
+
 TEST_F(WithoutRunning, GraphOfAnEventHandlerOfPythonIsOneBox) {
   const std::string path = file("a.launch.py", R"py(from launch import EventHandler, LaunchDescription
 from launch.actions import LogInfo, RegisterEventHandler
