@@ -113,6 +113,7 @@ std::string ConnectingCommand::end(std::chrono::milliseconds patience) {
     by_us = true;
     // Of all that the command has started for itself, such as a proxy.
     ::kill(-pid_, SIGTERM);
+    ::kill(-pid_, SIGCONT);  // one that is stopped would not end, and the launch would wait for it
     if (!ends_within(pid_, kAfterSigterm)) {
       ::kill(-pid_, SIGKILL);
     }
