@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <optional>
@@ -124,6 +125,7 @@ struct LiveReader::Implementation {
   std::size_t late_attachments = 0;
   bool is_at_end = false;
   bool has_given = false;  // an item, by next()
+  std::optional<std::int64_t> told_until_ns;
   std::optional<Clock::time_point> first_failure;
   Clock::time_point last_failure;
 };
@@ -205,6 +207,10 @@ bool LiveReader::attach() {
   return implementation_->attach() == Implementation::Attach::kDone;
 }
 
+std::optional<std::int64_t> LiveReader::told_until_ns() const {
+  return implementation_->told_until_ns;
+}
+
 std::size_t LiveReader::late_attachments() const {
   return implementation_->late_attachments;
 }
@@ -224,7 +230,12 @@ LiveReader::State LiveReader::next(TraceItem& item) {
     }
     Implementation::Connection& connection = *reader.connection;
     while (connection.next_message < connection.graph.messages().size()) {
-      item = connection.translator.translate(connection.graph.messages()[connection.next_message++].get());
+      const bt_message* const message = connection.graph.messages()[connection.next_message++].get();
+      item = connection.translator.translate(message);
+      if (const std::optional<std::int64_t> time =
+              item.event != nullptr ? item.event->timestamp_ns : time_of_inactivity(message)) {
+        reader.told_until_ns = std::max(reader.told_until_ns.value_or(*time), *time);
+      }
       if (!item) {
         continue;
       }

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "tracing/decode/reader/event.hpp"
@@ -53,6 +54,9 @@ class LiveReader {
   // The next item in the order of time; it is valid until the next call. Throws TraceReadError, also when the relay
   // daemon has died.
   State next(TraceItem& item);
+  // Everything up to this time of the trace was given, in nanoseconds since the epoch: the relay daemon also tells when
+  // nothing has happened. Nullopt as long as nothing was recorded at all.
+  std::optional<std::int64_t> told_until_ns() const;
 
  private:
   struct Implementation;

@@ -81,6 +81,12 @@ struct MessageTranslator::KnownClass {
   babeltrace::EventClassReference reference;  // keeps the key's address from being reused
 };
 
+std::optional<std::int64_t> time_of_inactivity(const bt_message* message) {
+  return bt_message_get_type(message) == BT_MESSAGE_TYPE_MESSAGE_ITERATOR_INACTIVITY
+             ? time_of(bt_message_message_iterator_inactivity_borrow_clock_snapshot_const(message))
+             : std::nullopt;
+}
+
 MessageTranslator::MessageTranslator() = default;
 MessageTranslator::~MessageTranslator() = default;
 

@@ -2,14 +2,19 @@
 // Turns libbabeltrace2's messages into events and losses. Private to the reader.
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 
 #include "tracing/decode/reader/babeltrace.hpp"
 #include "tracing/decode/reader/event.hpp"
 
 namespace tracing {
+
+// Until when nothing happens, if the message says so.
+std::optional<std::int64_t> time_of_inactivity(const bt_message* message);
 
 // Looks up the metadata of an event class once, at its first event. After that an event takes one look-up by address
 // and no allocation.
