@@ -38,7 +38,9 @@ namespace launch {
   ACTION(on_process_exit)              \
   ACTION(on_process_io)                \
   ACTION(on_process_start)             \
+  ACTION(on_rate)                      \
   ACTION(on_shutdown)                  \
+  ACTION(on_silence)                   \
   ACTION(on_start_limit)               \
   ACTION(on_state_transition)          \
   ACTION(publish)                      \

@@ -296,6 +296,25 @@ std::string ending_line(const std::string& reason) {
   return dump({{"time", now()}, {"event", "ending"}, {"reason", reason}});
 }
 
+std::string condition_line(const ConditionEvent& event) {
+  using tracing::LiveCondition;
+  const LiveCondition& condition = event.condition;
+  const bool is_topic = condition.subject == LiveCondition::Subject::kTopic;
+  Json place;
+  if (event.where) {
+    const SourceFile::Position position = event.where.file->position(event.where.begin);
+    place = {{"file", event.where.file->path()}, {"line", position.line}, {"column", position.column}};
+  }
+  return dump({{"time", now()},
+               {"event", "condition"},
+               {"condition", tracing::describe(condition)},
+               {is_topic ? "topic" : "node", condition.name},
+               {"holds", event.change.holds},
+               {condition.kind == LiveCondition::Kind::kSilence ? "silent_for" : "rate", event.change.figure},
+               {"processes", event.change.processes},
+               {"place", place}});
+}
+
 std::string output_line(const std::string& process, OutputStream stream, std::string_view text) {
   return dump({{"time", now()},
                {"event", "output"},

@@ -13,6 +13,7 @@
 #include "base/terminal/terminal.hpp"
 #include "launcher/process/output/output_router.hpp"
 #include "launcher/process/process_event.hpp"
+#include "launcher/run/handlers/condition_handlers.hpp"
 #include "launcher/run/user/steering.hpp"
 
 namespace launch {
@@ -79,6 +80,7 @@ std::string follow_line(std::size_t log_size);
 
 std::string event_line(const ProcessEvent& event);
 std::string ending_line(const std::string& reason);
+std::string condition_line(const ConditionEvent& event);
 std::string output_line(const std::string& process, OutputStream stream, std::string_view text);
 // The client has read too slowly.
 std::string dropped_line(std::size_t lines);

@@ -28,6 +28,9 @@ class LaunchControl {
   LaunchControl(const LaunchControl&) = delete;
   LaunchControl& operator=(const LaunchControl&) = delete;
 
+  // For LaunchService::observe_conditions().
+  void on_condition(const ConditionEvent& event) { tell_followers(condition_line(event)); }
+
  private:
   using ClientId = ControlServer::ClientId;
 

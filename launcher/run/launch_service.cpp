@@ -216,6 +216,16 @@ void LaunchService::on_lost_machine(const LostMachine& lost) {
   }
 }
 
+void LaunchService::use_condition_watch(ConditionWatch& watch) {
+  handlers_.use_condition_watch(
+      watch, {[this](LogLevel level, const std::string& text) { context_.message(level, "launch.condition", text); },
+              [this](const ConditionEvent& event) {
+                if (on_condition_) {
+                  on_condition_(event);
+                }
+              }});
+}
+
 void LaunchService::traverse(const SourceRange& where, Asker asker, const std::function<void()>& traversal) {
   const std::int64_t begin = monotonic_time();
   try {
@@ -242,8 +252,11 @@ void LaunchService::carry_out(Requests requests, Asker asker) {
     check_finished();
     return;
   }
+  has_trace_ = has_trace_ || std::any_of(requests.scopes.begin(), requests.scopes.end(),
+                                         [](const RunScopePtr& scope) { return scope->kind() == "trace"; });
   Round round;
   try {
+    check_conditions(requests.handlers, has_trace_);
     round = processes_.enter(std::move(requests));
   } catch (const LaunchError& error) {
     fail(error);

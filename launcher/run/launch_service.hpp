@@ -67,6 +67,11 @@ class LaunchService {
     health_.monitor.use_ros_client(client);
   }
 
+  // Who watches conditions on what nodes do. It must outlive the service.
+  void use_condition_watch(ConditionWatch& watch);
+  // Called when such a condition begins to hold, and when it holds no longer.
+  void observe_conditions(std::function<void(const ConditionEvent&)> observer) { on_condition_ = std::move(observer); }
+
   // By a source of the loop: the connection to a machine has been lost.
   void on_lost_machine(const LostMachine& lost);
 
@@ -164,6 +169,8 @@ class LaunchService {
   const Guardian* guardian_ = nullptr;
   bool guardian_missed_ = false;
   std::function<void()> on_started_;
+  std::function<void(const ConditionEvent&)> on_condition_;
+  bool has_trace_ = false;
   std::vector<TimedStep> timing_;
 
   Phase phase_ = Phase::kRunning;

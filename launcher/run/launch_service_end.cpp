@@ -97,6 +97,7 @@ void LaunchService::end_scopes() {
     steering_.tell_end("idle");
   }
   phase_ = Phase::kEndingScopes;
+  handlers_.shutdown("idle");
   ros_tasks_.shutdown();
   test_.on_end();
   recording_.end();

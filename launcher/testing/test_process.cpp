@@ -21,6 +21,7 @@
 #include "base/environment/own_prefix.hpp"
 #include "base/environment/test_run_variables.hpp"
 #include "base/processes/process_mark.hpp"
+#include "launcher/conditions/condition_watch_process.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/process_messages.hpp"
 #include "launcher/ros/ros_client_process.hpp"
@@ -128,6 +129,7 @@ void run_launch(const TestRun& run, Guardian& guardian, TestResult& result) {
   guardian.set_log(log_directory.path + "/launch.log");
 
   RosClientProcess ros_client(*loop, network ? &network->common_host() : nullptr);
+  ConditionWatchProcess conditions(*loop, guardian.id());
   LaunchContext context(run.registry, environment, own_prefix(),
                         [&output](LogLevel level, std::string_view logger, std::string_view text) {
                           output.message(level, logger, text);
@@ -154,6 +156,7 @@ void run_launch(const TestRun& run, Guardian& guardian, TestResult& result) {
   service = &launch;
   supervisor.observe([&](const ProcessEvent& event) { judge.on_process(event); });
   launch.use_ros_client(ros_client);
+  launch.use_condition_watch(conditions);
   launch.use_guardian(guardian);
   launch.record_to(tracepoints);
   if (network) {

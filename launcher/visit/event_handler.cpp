@@ -2,6 +2,7 @@
 #include "launcher/visit/event_handler.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace launch {
 
@@ -30,6 +31,7 @@ struct Description {
     text += transition.start_state.empty() ? "" : " from " + transition.start_state;
     return text + (transition.goal_state.empty() ? "" : " to " + transition.goal_state);
   }
+  std::string operator()(const OnCondition& wanted) const { return tracing::describe(wanted.condition); }
   std::string operator()(const OnceReady& ready) const { return "once " + ready.condition->describe(); }
 
   std::string of_process() const { return process.empty() ? " of any process" : fmt::format(" of '{}'", process); }
@@ -40,6 +42,22 @@ struct Description {
 
 std::string describe(const EventHandler& handler) {
   return std::visit(Description{handler.process}, handler.event);
+}
+
+EventValues values_of(const OnCondition& wanted, const tracing::ConditionChange& change) {
+  using tracing::LiveCondition;
+  const LiveCondition& condition = wanted.condition;
+  EventValues values = {{condition.subject == LiveCondition::Subject::kTopic ? "topic" : "node", condition.name},
+                        {"process", fmt::format("{}", fmt::join(change.processes, ", "))}};
+  if (condition.kind == LiveCondition::Kind::kSilence) {
+    values.emplace_back("for", tracing::time_text(condition.window));
+    return values;
+  }
+  values.emplace_back("rate", fmt::format("{:.4g}", change.figure));
+  values.emplace_back("window", tracing::time_text(condition.window));
+  values.emplace_back(condition.below ? "below" : "above",
+                      fmt::format("{:.10g}", condition.below ? *condition.below : condition.above.value_or(0)));
+  return values;
 }
 
 Scope Invocation::with_values(Scope scope, const EventValues& values) {

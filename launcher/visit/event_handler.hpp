@@ -17,6 +17,7 @@
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/process_event.hpp"
 #include "launcher/substitution/scope.hpp"
+#include "tracing/model/conditions/live_condition.hpp"
 
 namespace launch {
 
@@ -47,6 +48,11 @@ struct OnStateTransition {
   std::string start_state;
   std::string goal_state;
 };
+// What nodes do, or don't do any more.
+struct OnCondition {
+  tracing::LiveCondition condition;
+  Duration cool_down{0};  // the least time between two visits
+};
 // Something outside the launch. The handler is visited once.
 struct OnceReady {
   std::shared_ptr<ReadinessCondition> condition;
@@ -54,7 +60,7 @@ struct OnceReady {
 
 struct EventHandler {
   std::variant<OnProcessStart, OnProcessExit, OnProcessIo, OnHealthChange, OnStartLimit, OnMachineLost, OnShutdown,
-               OnStateTransition, OnceReady>
+               OnStateTransition, OnCondition, OnceReady>
       event;
   std::string name;     // the name for unregister_event_handler; empty: none
   std::string process;  // a name (process_table.hpp); empty: every process
@@ -70,6 +76,9 @@ struct EventHandler {
 std::string describe(const EventHandler& handler);
 
 using EventValues = std::vector<std::pair<std::string, std::string>>;
+
+// "topic", "for", "process" and the like.
+EventValues values_of(const OnCondition& wanted, const tracing::ConditionChange& change);
 
 // A handler and the event that it should handle. The values belong in its scope, where $(var event.NAME) reads them.
 struct Invocation {

@@ -38,10 +38,16 @@ EventValues made_up_event(const EventHandler& handler) {
   } else if (const auto* const transition = std::get_if<OnStateTransition>(&handler.event)) {
     values = {
         {"node", transition->node}, {"start_state", transition->start_state}, {"goal_state", transition->goal_state}};
+  } else if (const auto* const condition = std::get_if<OnCondition>(&handler.event)) {
+    values = values_of(*condition, {.holds = true, .processes = {"process-1"}});
   } else if (std::holds_alternative<OnceReady>(handler.event)) {
     values.clear();
   }
   return values;
+}
+
+bool has_trace(const std::vector<const RunScope*>& scopes) {
+  return std::any_of(scopes.begin(), scopes.end(), [](const RunScope* scope) { return scope->kind() == "trace"; });
 }
 
 class Planner {
@@ -150,9 +156,10 @@ class Planner {
         }
       }
       check_commands(requests.commands, table_);
+      check_conditions(requests.handlers, has_trace(scopes_));
     } catch (const LaunchError& error) {
       if (any_left_) {
-        // A function that was not called may start the process that this speaks of.
+        // A function that was not called may start the process that this speaks of, or a trace.
         const Diagnostic& first = error.diagnostics().front();
         plan.left_to_run.push_back({"", first.message, first.where});
       } else if (context_.exploration().is_on()) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/visit/requests.hpp"
 
+#include <variant>
+
 #include "base/diagnostics/diagnostic.hpp"
 #include "base/overloaded.hpp"
 
@@ -10,6 +12,15 @@ std::size_t Requests::count() const {
   std::size_t count = 0;
   for_each_kind(*this, [&](const auto& kind) { count += kind.size(); });
   return count;
+}
+
+void check_conditions(const std::vector<EventHandler>& handlers, bool is_recorded) {
+  for (const EventHandler& handler : handlers) {
+    if (!is_recorded && std::holds_alternative<OnCondition>(handler.event)) {
+      throw LaunchError("nothing is recorded that could tell whether this condition holds", handler.where,
+                        "add <trace session-name=\"…\"/> to the launch file, or start it with launch --trace");
+    }
+  }
 }
 
 void check_farewell(const Requests& requests, bool may_ask_nodes) {

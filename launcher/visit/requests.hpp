@@ -157,4 +157,7 @@ void for_each_request(Requests& requests, const Visitor& visit) {
 // `may_ask_nodes`: requests to the services of nodes are no error, they are left out.
 void check_farewell(const Requests& requests, bool may_ask_nodes);
 
+// Conditions on what nodes do need a trace. `is_recorded`: the launch has one. Throws LaunchError.
+void check_conditions(const std::vector<EventHandler>& handlers, bool is_recorded);
+
 }  // namespace launch

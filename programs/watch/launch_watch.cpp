@@ -4,7 +4,7 @@
 // A line of input is the width of the terminal in columns. The output consists of texts, each of which ends with a form
 // feed. The first line of a text says what it is: `view`, once a second; `report`, the last one; `error`, a last one,
 // too. With --metrics there are no views and no report, but `metrics` once a second, from the begin of the recording
-// on.
+// on. With --conditions, what happens is in condition_program.hpp.
 #include <fmt/format.h>
 #include <poll.h>
 #include <unistd.h>
@@ -19,6 +19,7 @@
 #include <string>
 #include <string_view>
 
+#include "programs/watch/condition_program.hpp"
 #include "programs/watch/traced_nodes.hpp"
 #include "tracing/decode/reader/trace_read_error.hpp"
 #include "tracing/show/live/live_metrics.hpp"
@@ -86,7 +87,8 @@ class Watch {
   explicit Watch(bool tells_metrics) : tells_metrics_(tells_metrics) {}
 
   void run() {
-    tracing::TracedNodes nodes;
+    // The state of lifecycle nodes that are older than the session is no event of ros2.
+    tracing::TracedNodes nodes({.events = {"ros2:*", "ros2_ext:rcl_lifecycle_state"}});
     watch(nodes);
     nodes.end();
     if (tells_metrics_) {
@@ -152,6 +154,9 @@ class Watch {
 
 int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
+  if (argc > 2 && std::string_view(argv[1]) == "--conditions") {
+    return launch::run_condition_program(argv[2]);
+  }
   try {
     Watch(argc > 1 && std::string_view(argv[1]) == "--metrics").run();
     return 0;

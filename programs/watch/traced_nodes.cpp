@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "base/environment/own_prefix.hpp"
@@ -27,7 +28,10 @@ LiveAddress address_of(const std::string& session, const PrivateRelay& relay) {
 
 }  // namespace
 
-TracedNodes::TracedNodes() : session_(fmt::format("launch-top-{}", getpid())), reader_(address_of(session_, relay_)) {
+TracedNodes::TracedNodes(Settings settings)
+    : settings_(std::move(settings)),
+      session_(fmt::format("{}-{}", settings_.name, getpid())),
+      reader_(address_of(session_, relay_)) {
   try {
     start();
     attach();
@@ -46,16 +50,28 @@ void TracedNodes::start() {
   launch::Pipe errors = launch::make_pipe();
   const std::string program = launch::own_prefix() + "/bin/launch";
   // It is no record: small buffers, which are read soon, and files that replace themselves.
-  recorder_ =
-      launch::spawn({.program = program,
-                     // The state of lifecycle nodes that are older than the session is no event of ros2.
-                     .argv = {program, "trace", "--session-name", session_, "--url", relay_.session_url(),
-                              "--live-timer", "200000", "--subbuffer-size-ust", "262144", "--tracefile-size",
-                              "16777216", "--tracefile-count", "2", "--ust", "ros2:*", "ros2_ext:rcl_lifecycle_state"},
-                     .descriptors = {{STDIN_FILENO, input.read.get()},
-                                     {STDOUT_FILENO, launch::kDevNull},
-                                     {STDERR_FILENO, errors.write.get()}},
-                     .group = launch::ChildGroup::kOwn});
+  std::vector<std::string> argv = {program,
+                                   "trace",
+                                   "--session-name",
+                                   session_,
+                                   "--url",
+                                   relay_.session_url(),
+                                   "--live-timer",
+                                   std::to_string(settings_.live_timer.count()),
+                                   "--subbuffer-size-ust",
+                                   "262144",
+                                   "--tracefile-size",
+                                   "16777216",
+                                   "--tracefile-count",
+                                   "2",
+                                   "--ust"};
+  argv.insert(argv.end(), settings_.events.begin(), settings_.events.end());
+  recorder_ = launch::spawn({.program = program,
+                             .argv = std::move(argv),
+                             .descriptors = {{STDIN_FILENO, input.read.get()},
+                                             {STDOUT_FILENO, launch::kDevNull},
+                                             {STDERR_FILENO, errors.write.get()}},
+                             .group = launch::ChildGroup::kOwn});
   alive_ = std::move(input.write);
   problems_ = std::move(errors.read);
   // The answer to "press enter to start".

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "base/files/unique_fd.hpp"
 #include "programs/watch/private_relay.hpp"
@@ -18,8 +19,13 @@ namespace tracing {
 // with its input. To be made while the process has one thread.
 class TracedNodes {
  public:
+  struct Settings {
+    std::string name = "launch-top";                // the first part of that of the session
+    std::vector<std::string> events = {"ros2:*"};   // of userspace
+    std::chrono::microseconds live_timer{200'000};  // what is recorded can be read so late
+  };
   // Throws std::runtime_error or TraceReadError, whose text may have a second line that says what to do.
-  TracedNodes();
+  explicit TracedNodes(Settings settings);
   ~TracedNodes();
   TracedNodes(const TracedNodes&) = delete;
   TracedNodes& operator=(const TracedNodes&) = delete;
@@ -36,6 +42,7 @@ class TracedNodes {
   void attach();
   bool is_recorded_for(std::chrono::milliseconds time) const;
 
+  Settings settings_;
   PrivateRelay relay_;
   std::string session_;
   pid_t recorder_ = -1;

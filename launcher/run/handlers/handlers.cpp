@@ -13,11 +13,15 @@ Handlers::Handlers(EventLoop& loop, std::function<void(const Invocation&)> visit
     : queue_(loop, std::move(visit), std::move(visited)),
       states_([this](std::vector<Invocation> invocations) { queue_.add(std::move(invocations)); }, fail),
       conditions_(
+          loop, [this](std::vector<Invocation> invocations) { queue_.add(std::move(invocations)); }, fail),
+      live_(
           loop, [this](std::vector<Invocation> invocations) { queue_.add(std::move(invocations)); }, fail) {}
 
 void Handlers::add(EventHandler handler, RosClient* client) {
   if (std::holds_alternative<OnceReady>(handler.event)) {
     conditions_.add(std::move(handler));
+  } else if (std::holds_alternative<OnCondition>(handler.event)) {
+    live_.add(std::move(handler));
   } else if (std::holds_alternative<OnStateTransition>(handler.event)) {
     states_.add(std::move(handler), client);
   } else {
@@ -39,18 +43,21 @@ void Handlers::clear() {
   events_.clear();
   states_.clear();
   conditions_.clear();
+  live_.clear();
 }
 
 bool Handlers::remove(const std::string& name) {
   queue_.forget(name);
   const bool of_events = events_.remove(name);
   const bool of_states = states_.remove(name);
-  return of_events || of_states;
+  const bool of_conditions = live_.remove(name);
+  return of_events || of_states || of_conditions;
 }
 
 std::vector<Invocation> Handlers::shutdown(const std::string& reason) {
   conditions_.clear();
   states_.clear();
+  live_.shutdown();
   return events_.on_shutdown(reason);
 }
 

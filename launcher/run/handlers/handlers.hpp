@@ -11,6 +11,7 @@
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/process_event.hpp"
 #include "launcher/ros/ros_client.hpp"
+#include "launcher/run/handlers/condition_handlers.hpp"
 #include "launcher/run/handlers/event_handlers.hpp"
 #include "launcher/run/handlers/invocation_queue.hpp"
 #include "launcher/run/handlers/ready_handlers.hpp"
@@ -25,6 +26,11 @@ class Handlers {
   // event. The loop must outlive this object.
   Handlers(EventLoop& loop, std::function<void(const Invocation&)> visit, std::function<void()> visited,
            const std::function<void(const LaunchError&)>& fail);
+
+  // Who watches what nodes do. It must outlive this object.
+  void use_condition_watch(ConditionWatch& watch, ConditionHandlers::Callbacks callbacks) {
+    live_.use(watch, std::move(callbacks));
+  }
 
   // The client watches the states of nodes; it may be null when no handler needs them.
   void add(EventHandler handler, RosClient* client);
@@ -56,6 +62,7 @@ class Handlers {
   EventHandlers events_;
   StateHandlers states_;
   ReadyHandlers conditions_;
+  ConditionHandlers live_;
 };
 
 }  // namespace launch

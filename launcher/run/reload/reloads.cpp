@@ -97,6 +97,7 @@ void Reloads::reload(const Queued& queued) {
   const Duration begin = parts_.loop.now();
   try {
     FileReading reading(parts_.context, load_, begin - *began_, handled_);
+    check_conditions(reading.requests().handlers, !traces_.empty());
     const ReloadView view{parts_.processes, parts_.supervisor,
                           [this](ProcessId id) { return parts_.steering.is_stopped(id); },
                           !queued.wish.restart && parts_.context.ros_client() != nullptr};

@@ -23,6 +23,7 @@
 #include "base/monotonic_clock.hpp"
 #include "base/processes/outside_number.hpp"
 #include "base/terminal/terminal.hpp"
+#include "launcher/conditions/condition_watch_process.hpp"
 #include "launcher/control/control_socket.hpp"
 #include "launcher/control/launch_control.hpp"
 #include "launcher/invocation/argument_check.hpp"
@@ -155,6 +156,7 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   }
 
   RosClientProcess ros_client(*loop, namespaces);
+  ConditionWatchProcess conditions(*loop, guardian.id());
   LaunchContext context(registry, environment, own_prefix(),
                         [&output](LogLevel level, std::string_view logger, std::string_view text) {
                           output.message(level, logger, text);
@@ -168,6 +170,7 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
     output.error(render(error.diagnostics(), shows_colour(STDERR_FILENO), "launch"));
   });
   service.use_ros_client(ros_client);
+  service.use_condition_watch(conditions);
   service.use_guardian(guardian);
   machines.observe_losses([&service](const LostMachine& lost) { service.on_lost_machine(lost); });
   service.give_up_by([&output] {
@@ -200,6 +203,7 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
     service.reloads().use([&] { return load(command, registry, context, files); });
   }
   if (control) {
+    service.observe_conditions([&control](const ConditionEvent& event) { control->on_condition(event); });
     control->use_reloads(service.reloads());
     control->use_scaling(service.scaling());
   }

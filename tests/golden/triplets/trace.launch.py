@@ -1,6 +1,7 @@
 from launch import LaunchDescription
-from launch.actions import DeclareLaunchArgument
+from launch.actions import DeclareLaunchArgument, LogInfo
 from launch.substitutions import LaunchConfiguration
+from launch_extensions import OnRate, OnSilence, RestartProcess
 from launch_ros.actions import Node
 from tracetools_launch.action import Trace
 
@@ -20,4 +21,8 @@ def generate_launch_description():
              'subbuffer_size': 65536, 'overwrite': True}], chains=[
             {'name': 'reaction', 'nodes': ['/talker', '/listener*'], 'budget': 12.5}]),
         Node(package='demo_nodes', executable='talker'),
+        OnSilence([RestartProcess('talker')], topic='/chatter', for_='2s', cool_down='30s', name='chatter'),
+        OnSilence([LogInfo(msg=LaunchConfiguration('event.process'))], node='/talker', for_='500ms', once=True),
+        OnRate([LogInfo(msg=LaunchConfiguration('event.rate'))], topic='/chatter', below=5, window='2s', grace='1min'),
+        OnRate([LogInfo(msg=LaunchConfiguration('event.above'))], topic='/chatter', above=20.5),
     ])

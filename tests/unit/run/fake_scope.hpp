@@ -41,7 +41,7 @@ class FakeScope : public RunScope {
   void prepare(ProcessSpec& spec) const override { spec.environment["SCOPES"] += name_; }
   bool wants_records() const override { return wants_records_; }
   void record(const LaunchRecord& record) override { records.push_back(record.name); }
-  std::string kind() const override { return "fake"; }
+  std::string kind() const override { return name_ == "trace" ? "trace" : "fake"; }
   std::vector<ShownSetting> describe() const override { return {{"name", name_}}; }
   std::vector<TimedStep> timing() const override { return {}; }
   const SourceRange& origin() const override { return origin_; }

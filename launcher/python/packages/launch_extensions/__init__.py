@@ -129,4 +129,38 @@ class OnStartLimit(_OfProcess):
     _TAG = 'on_start_limit'
 
 
-__all__ = ['AssignMachine', 'Machine', 'OnHealthChange', 'OnMachineLost', 'OnStartLimit', 'RestartProcess', 'WaitFor']
+class _OfCondition(_OfEvent):
+    """A handler of a condition on what nodes do, which the trace of the launch shows. Times are texts such as '2s'."""
+
+    def __init__(self, actions, attributes, *, cool_down=None, grace=None, **kwargs):
+        super().__init__(actions, **kwargs)
+        self._attributes[:0] = [(name, text(value, name)) for name, value in
+                                (*attributes, ('cool_down', cool_down), ('grace', grace)) if value is not None]
+
+
+class OnSilence(_OfCondition):
+    """
+    Visits its actions each time a topic or a node has been silent; <on_silence> in XML.
+
+    Nothing was published on `topic` for the time `for_`, or no callback of `node` has ended.
+    """
+
+    _TAG = 'on_silence'
+
+    def __init__(self, actions, *, for_, topic=None, node=None, **kwargs):
+        super().__init__(actions, (('topic', topic), ('node', node), ('for', for_)), **kwargs)
+
+
+class OnRate(_OfCondition):
+    """Visits its actions each time the rate of a topic is below or above a limit in Hz; <on_rate> in XML."""
+
+    _TAG = 'on_rate'
+
+    def __init__(self, actions, *, topic, below=None, above=None, window=None, **kwargs):
+        super().__init__(actions, (('topic', topic), ('window', window)), **kwargs)
+        self._attributes[1:1] = [(name, number(value, name)) for name, value in (('below', below), ('above', above))
+                                 if value is not None]
+
+
+__all__ = ['AssignMachine', 'Machine', 'OnHealthChange', 'OnMachineLost', 'OnRate', 'OnSilence', 'OnStartLimit',
+           'RestartProcess', 'WaitFor']

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// <on_silence>, <on_rate>: visit actions when the trace of the running system shows that nodes do nothing any more, or
+// too much, or too little.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "actions/process/handler_action.hpp"
+#include "actions/values/ros_names.hpp"
+#include "tracing/model/conditions/live_condition.hpp"
+
+namespace launch {
+
+namespace {
+
+using tracing::LiveCondition;
+using Values = Handled<OnCondition>;
+using Row = Setting<Values>;
+
+constexpr Duration kShortestWindow = std::chrono::milliseconds(100);
+constexpr double kFewestMessages = 2;
+
+// A time with its unit, at least so long.
+Duration perform_time_with_unit(const char* attribute, const Fields& fields, Scope& scope, Duration least) {
+  const Template& given = fields.text(attribute);
+  const std::string text = given.perform(scope);
+  const std::optional<Duration> time = tracing::parse_time_text(text);
+  if (!time) {
+    const bool lacks_unit = tracing::parse_time_text(text + "s").has_value();
+    throw LaunchError(fmt::format("{} is a time with a unit, got '{}'", attribute, text), given.where(),
+                      lacks_unit ? fmt::format("did you mean '{}s'? Units are us, ms, s and min", text)
+                                 : "write it as 2s, 500ms or 1min");
+  }
+  if (*time < least) {
+    throw LaunchError(fmt::format("{} is at least {}, got '{}'", attribute, tracing::time_text(least), text),
+                      given.where(), fmt::format("write {} or more", tracing::time_text(least)));
+  }
+  return *time;
+}
+
+Row window_row(const char* attribute, bool required, const char* fallback, const char* help) {
+  return {.attribute = {attribute, AttributeType::kText, required, fallback, help},
+          .perform =
+              [attribute](const Fields& fields, Scope& scope, Values& handled) {
+                handled.event.condition.window = perform_time_with_unit(attribute, fields, scope, kShortestWindow);
+              },
+          .checks_literal = true};
+}
+
+Row name_row(const char* attribute, bool required, const char* help, LiveCondition::Subject subject) {
+  return {.attribute = {attribute, AttributeType::kText, required, "", help},
+          .perform = [attribute, subject](const Fields& fields, Scope& scope, Values& handled) {
+            handled.event.condition.subject = subject;
+            handled.event.condition.name = resolve_name(fields.text(attribute), scope);
+          }};
+}
+
+// The rows that every condition has, behind its own.
+HandlerRows<OnCondition> with_common_rows(HandlerRows<OnCondition> rows) {
+  rows.push_back({.attribute = {"cool_down", AttributeType::kText, false, "0s", "the least time between two visits"},
+                  .perform =
+                      [](const Fields& fields, Scope& scope, Values& handled) {
+                        handled.event.cool_down = perform_time_with_unit("cool_down", fields, scope, Duration(0));
+                      },
+                  .checks_literal = true});
+  rows.push_back({.attribute = {"grace", AttributeType::kText, false, "10s",
+                                "if nothing of the launch has the name until then, a warning says so"},
+                  .perform =
+                      [](const Fields& fields, Scope& scope, Values& handled) {
+                        handled.event.condition.grace = perform_time_with_unit("grace", fields, scope, Duration(0));
+                      },
+                  .checks_literal = true});
+  rows.push_back(once_row<OnCondition>());
+  rows.push_back(handler_name_row<OnCondition>());
+  return rows;
+}
+
+void check_silence(const Fields& fields) {
+  if (fields.has("topic") == fields.has("node")) {
+    throw LaunchError(fields.has("topic") ? "on_silence is about a topic or a node, not both"
+                                          : "it is not said what must not be silent",
+                      fields.has("topic") ? fields.where("node") : fields.where(),
+                      fields.has("topic") ? "write an on_silence for each" : "give topic=\"…\" or node=\"…\"",
+                      fields.has("topic") ? Finding::kExclusive : Finding::kMissingAttribute);
+  }
+}
+
+Row limit_row(const char* attribute, const char* help, std::optional<double> LiveCondition::*member) {
+  return {.attribute = {attribute, AttributeType::kFloat, false, "", help},
+          .perform = [attribute, member](const Fields& fields, Scope& scope, Values& handled) {
+            const double limit = fields.number(attribute)->perform(scope);
+            if (!(limit > 0) || std::isinf(limit)) {
+              throw LaunchError(fmt::format("{} is a rate in Hz, above 0, got {}", attribute, limit),
+                                fields.where(attribute), "write 5 for five messages a second");
+            }
+            handled.event.condition.*member = limit;
+          }};
+}
+
+void check_rate_limits(const Fields& fields) {
+  if (fields.has("below") == fields.has("above")) {
+    throw LaunchError(fields.has("below") ? "on_rate has one limit, below or above" : "on_rate has no limit",
+                      fields.has("below") ? fields.where("above") : fields.where(),
+                      fields.has("below") ? "write an on_rate for each" : "give below=\"…\" or above=\"…\", in Hz",
+                      fields.has("below") ? Finding::kExclusive : Finding::kMissingAttribute);
+  }
+}
+
+// One message more or less says nothing, so fewer than two can't be told from none.
+void require_messages(const Fields& fields, const LiveCondition& condition) {
+  if (!condition.below) {
+    return;
+  }
+  const double seconds = std::chrono::duration<double>(condition.window).count();
+  if (*condition.below * seconds < kFewestMessages) {
+    throw LaunchError(fmt::format("a rate below {:.4g} Hz can't be told in a window of {}", *condition.below,
+                                  tracing::time_text(condition.window)),
+                      fields.where("below"),
+                      fmt::format("make the window at least {:.4g}s, or use on_silence",
+                                  std::ceil(kFewestMessages / *condition.below * 1000) / 1000));
+  }
+}
+
+}  // namespace
+
+ActionType on_silence_action() {
+  return handler_of<OnCondition>(
+      "on_silence",
+      "Visits its actions each time nothing was published on a topic, or no callback of a node has ended, for a time; "
+      "needs a trace.",
+      with_common_rows(
+          {name_row("topic", false, "a topic that processes of the launch publish", LiveCondition::Subject::kTopic),
+           name_row("node", false, "a node of the launch", LiveCondition::Subject::kNode),
+           window_row("for", true, "", "how long it must be silent, such as 2s or 500ms")}),
+      check_silence, [](const Fields&, LaunchContext&, Values& handled) {
+        handled.event.condition.kind = LiveCondition::Kind::kSilence;
+      });
+}
+
+ActionType on_rate_action() {
+  return handler_of<OnCondition>(
+      "on_rate",
+      "Visits its actions each time the rate of the messages on a topic has gone beyond a limit; needs a trace.",
+      with_common_rows(
+          {name_row("topic", true, "a topic that processes of the launch publish", LiveCondition::Subject::kTopic),
+           limit_row("below", "fewer messages a second, in Hz", &LiveCondition::below),
+           limit_row("above", "more messages a second, in Hz", &LiveCondition::above),
+           window_row("window", false, "2s", "over which messages are counted")}),
+      check_rate_limits, [](const Fields& fields, LaunchContext&, Values& handled) {
+        LiveCondition& condition = handled.event.condition;
+        condition.kind = LiveCondition::Kind::kRate;
+        if (!fields.has("window")) {
+          condition.window = std::chrono::seconds(2);
+        }
+        require_messages(fields, condition);
+      });
+}
+
+}  // namespace launch

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Conditions on what nodes do, with real nodes and a real session: <on_silence>, <on_rate>."""
+
+import json
+import os
+import re
+import signal
+import subprocess
+import time
+import unittest
+from pathlib import Path
+
+from own_launches import LAUNCH, PATIENCE, OwnLaunches
+
+HANGING_NODE = os.environ['HANGING_NODE']
+
+
+def node(what, more=''):
+    """A node /hanging_node with a timer of 50 ms that publishes /beats; `what` says how it goes on after 5 or 20 ticks."""
+    return f'<executable name="driver" output="screen" sigterm_timeout="0.5" sigkill_timeout="0.5" cmd="{HANGING_NODE} {what}" {more}/>'
+
+
+class LiveConditions(OwnLaunches):
+    def setUp(self):
+        super().setUp()
+        self.traces = self.folder / 'traces'
+        self.environment['ROS_TRACE_DIR'] = str(self.traces)
+        self.name = f'conditions-{self.folder.name}'
+        self.trace = f'<trace session-name="{self.name}"/>\n'
+
+    def run_launch(self, actions):
+        (self.folder / 'system.launch.xml').write_text(f'<launch>\n{actions}\n</launch>\n')
+        return self.start(LAUNCH, 'system.launch.xml')
+
+    def interrupt(self, launch):
+        launch.send_signal(signal.SIGINT)
+        return launch.wait(PATIENCE)
+
+    def watch_of(self, launch):
+        """The launch-watch of a launch, whose argument is the number in the mark of each process."""
+        environment = Path(f'/proc/{self.pid_of(launch, "driver-1")}/environ').read_text()
+        mark = next(part for part in environment.split('\0') if part.startswith('LAUNCH_PROCESS='))
+        found = subprocess.run(['pgrep', '-f', f'launch-watch --conditions {mark.partition("=")[2].partition(":")[0]}$'],
+                               capture_output=True, text=True)
+        return [int(word) for word in found.stdout.split()]
+
+    def assert_nothing_left(self, watch):
+        """Neither the session of the conditions nor its programs."""
+        end = time.monotonic() + PATIENCE
+        while os.path.exists(f'/proc/{watch}'):
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.05)
+        while f'launch-conditions-{watch} ' in subprocess.run(['lttng', 'list'], capture_output=True, text=True).stdout:
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.05)
+
+    def test_a_stopped_node_is_restarted_by_its_silence(self):
+        launch = self.run_launch(f'''{self.trace}{node('ever')}
+          <on_silence node="/hanging_node" for="1s" cool_down="1s"><restart process="$(var event.process)"/></on_silence>
+          <on_silence topic="/beats" for="1s"><log message="silent: $(var event.topic), $(var event.process), $(var event.for)"/></on_silence>''')
+        launch.lines.wait_for('tick 40')  # after 2 s
+        [watch] = self.watch_of(launch)
+        events = self.start(LAUNCH, 'events', '--launch', str(launch.pid))
+        stopped = self.pid_of(launch, 'driver-1')
+        os.kill(stopped, signal.SIGSTOP)
+        line = launch.lines.wait_for('no callback of /hanging_node has ended')
+        self.assertRegex(line, r'\[WARNING\] \[launch\.condition\]: no callback of /hanging_node has ended for 1\.?[0-9]* s \(driver-1\)$')
+        launch.lines.wait_for('silent: /beats, driver-1, 1s')
+        launch.lines.wait_for('the silence of /hanging_node is over after')
+        event = json.loads(events.lines.wait_for('"node":"/hanging_node","holds":true'))
+        self.assertEqual((event['event'], event['condition'], event['processes']),
+                         ('condition', 'on_silence of node /hanging_node for 1s', ['driver-1']))
+        self.assertGreaterEqual(event['silent_for'], 1)
+        self.assertEqual(event['place']['line'], 4)
+        self.assertNotEqual(self.pid_of(launch, 'driver-1'), stopped)
+        self.interrupt(launch)
+        self.assert_nothing_left(watch)
+        verdict = json.loads((self.traces / self.name / 'verdict.json').read_text())
+        self.assertTrue(verdict['complete'], verdict)
+        self.assertEqual([line for line in launch.lines.seen if 'no callback of' in line], [line])
+
+    def test_a_node_that_hangs_in_a_callback_is_silent(self):
+        launch = self.run_launch(f'''{self.trace}{node('sleep')}
+          <on_silence node="/hanging_node" for="1s"><shutdown reason="$(var event.process) hangs"/></on_silence>''')
+        launch.lines.wait_for('no callback of /hanging_node has ended for 1')
+        self.assertEqual(launch.wait(PATIENCE), 0)
+
+    def test_a_rate_that_falls(self):
+        launch = self.run_launch(f'''{self.trace}{node('slow')}
+          <on_rate topic="/beats" below="10" window="500ms"><shutdown reason="$(var event.rate) of $(var event.below) in $(var event.window)"/></on_rate>''')
+        line = launch.lines.wait_for('messages/s on /beats in 500ms')
+        self.assertRegex(line, r'[0-9.]+ messages/s on /beats in 500ms, which is below 10 \(driver-1\)$')
+        self.assertEqual(launch.wait(PATIENCE), 0)
+
+    def test_a_rate_that_is_too_high(self):
+        launch = self.run_launch(f'''{self.trace}{node('ever')}
+          <on_rate topic="/beats" above="10" window="500ms" once="true"><shutdown/></on_rate>''')
+        self.assertRegex(launch.lines.wait_for('messages/s on /beats'), r'(18|20|22|24) messages/s on /beats in 500ms, which is above 10 \(driver-1\)$')
+        self.assertEqual(launch.wait(PATIENCE), 0)
+
+    def test_a_name_that_nothing_has_is_told_with_a_similar_one(self):
+        launch = self.run_launch(f'''{self.trace}{node('ever')}
+          <on_silence topic="/beat" for="1s" grace="2s"/>''')
+        line = launch.lines.wait_for('was ever seen')
+        self.assertRegex(line, r'no publisher of /beat was ever seen, 2s after the begin of the recording \(\S*system.launch.xml:4:12\); '
+                               r"did you mean '/beats'\?$")
+        self.assertEqual(self.interrupt(launch), 0)
+
+    def test_a_watch_that_is_killed_is_started_again(self):
+        launch = self.run_launch(f'''{self.trace}{node('ever')}
+          <on_silence topic="/beats" for="1s" once="true"><log message="silent"/></on_silence>''')
+        launch.lines.wait_for('tick 60')
+        [watch] = self.watch_of(launch)
+        os.kill(watch, signal.SIGKILL)
+        launch.lines.wait_for('are not watched for a moment: launch-watch was ended by SIGKILL')
+        self.assert_nothing_left(watch)
+        ticks = max(int(found.group(1)) for found in (re.search(r'tick (\d+)', line) for line in launch.lines.seen) if found)
+        launch.lines.wait_for(f'tick {ticks + 100}')
+        os.kill(self.pid_of(launch, 'driver-1'), signal.SIGSTOP)
+        launch.lines.wait_for('silent')
+        self.interrupt(launch)
+
+    def test_kill_9_of_the_launcher_leaves_no_session(self):
+        launch = self.run_launch(f'''{self.trace}{node('ever')}<on_silence topic="/beats" for="1s"/>''')
+        launch.lines.wait_for('tick 40')
+        [watch] = self.watch_of(launch)
+        launcher = subprocess.run(['ps', '-o', 'ppid=', '-p', str(watch)], capture_output=True, text=True).stdout.strip()
+        os.kill(int(launcher), signal.SIGKILL)
+        launch.wait(PATIENCE)
+        self.assert_nothing_left(watch)
+
+    def test_without_a_trace_nothing_starts(self):
+        launch = self.run_launch(f'''{node('ever')}<on_silence topic="/beats" for="1s"/>''')
+        launch.lines.wait_for('add <trace session-name="…"/> to the launch file, or start it with launch --trace')
+        self.assertEqual(launch.wait(PATIENCE), 1)
+        self.assertFalse([line for line in launch.lines.seen if 'process started' in line])
+
+
+if __name__ == '__main__':
+    unittest.main()

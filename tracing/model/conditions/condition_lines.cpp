@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/model/conditions/condition_lines.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "base/overloaded.hpp"
+
+namespace tracing {
+namespace {
+
+using ConditionJson = nlohmann::ordered_json;
+
+std::string line_of(const ConditionJson& json) {
+  return json.dump(-1, ' ', false, ConditionJson::error_handler_t::replace) + "\n";
+}
+
+double seconds_of(std::chrono::nanoseconds time) {
+  return std::chrono::duration<double>(time).count();
+}
+
+std::chrono::nanoseconds time_of(const ConditionJson& seconds) {
+  return std::chrono::nanoseconds(std::llround(seconds.get<double>() * 1e9));
+}
+
+ConditionJson parse(std::string_view text) {
+  ConditionJson json = ConditionJson::parse(text, nullptr, false);
+  if (!json.is_object()) {
+    throw std::runtime_error("a message about conditions is a JSON object");
+  }
+  return json;
+}
+
+// Turns the errors of the library into those of this file.
+template <typename Read>
+auto reading(std::string_view text, Read read) {
+  try {
+    return read(parse(text));
+  } catch (const ConditionJson::exception& error) {
+    throw std::runtime_error(std::string("a message about conditions can't be read: ") + error.what());
+  }
+}
+
+}  // namespace
+
+std::string to_line(const ConditionOrder& order) {
+  return line_of(
+      std::visit(launch::Overloaded{
+                     [](const WatchCondition& watch) {
+                       const LiveCondition& condition = watch.condition;
+                       ConditionJson json{
+                           {"watch", watch.id},
+                           {"kind", condition.kind == LiveCondition::Kind::kSilence ? "silence" : "rate"},
+                           {condition.subject == LiveCondition::Subject::kTopic ? "topic" : "node", condition.name},
+                           {"window", seconds_of(condition.window)},
+                           {"grace", seconds_of(condition.grace)},
+                       };
+                       if (condition.below) {
+                         json["below"] = *condition.below;
+                       }
+                       if (condition.above) {
+                         json["above"] = *condition.above;
+                       }
+                       return json;
+                     },
+                     [](const ForgetCondition& forget) {
+                       return ConditionJson{{"forget", forget.id}};
+                     },
+                 },
+                 order));
+}
+
+std::string to_line(const ConditionReport& report) {
+  return line_of(std::visit(launch::Overloaded{
+                                [](const NodesAreRecorded&) {
+                                  return ConditionJson{{"recording", true}};
+                                },
+                                [](const ConditionChanged& changed) {
+                                  return ConditionJson{{"condition", changed.id},
+                                                       {"holds", changed.change.holds},
+                                                       {"figure", changed.change.figure},
+                                                       {"processes", changed.change.processes}};
+                                },
+                                [](const NameNotSeen& unseen) {
+                                  return ConditionJson{{"unseen", unseen.id}, {"known", unseen.known}};
+                                },
+                                [](const RecordingIsBehind& behind) {
+                                  return ConditionJson{{"behind", behind.seconds}};
+                                },
+                                [](const WatchFailed& failed) {
+                                  return ConditionJson{{"error", failed.error}, {"help", failed.help}};
+                                },
+                            },
+                            report));
+}
+
+ConditionOrder parse_condition_order(std::string_view text) {
+  return reading(text, [](const ConditionJson& json) -> ConditionOrder {
+    if (json.contains("forget")) {
+      return ForgetCondition{json.at("forget").get<ConditionId>()};
+    }
+    WatchCondition watch{json.at("watch").get<ConditionId>(), {}};
+    LiveCondition& condition = watch.condition;
+    condition.kind = json.at("kind") == "rate" ? LiveCondition::Kind::kRate : LiveCondition::Kind::kSilence;
+    const bool is_topic = json.contains("topic");
+    condition.subject = is_topic ? LiveCondition::Subject::kTopic : LiveCondition::Subject::kNode;
+    condition.name = json.at(is_topic ? "topic" : "node").get<std::string>();
+    condition.window = time_of(json.at("window"));
+    condition.grace = time_of(json.at("grace"));
+    if (json.contains("below")) {
+      condition.below = json.at("below").get<double>();
+    }
+    if (json.contains("above")) {
+      condition.above = json.at("above").get<double>();
+    }
+    return watch;
+  });
+}
+
+ConditionReport parse_condition_report(std::string_view text) {
+  return reading(text, [](const ConditionJson& json) -> ConditionReport {
+    if (json.contains("condition")) {
+      return ConditionChanged{json.at("condition").get<ConditionId>(),
+                              {json.at("holds").get<bool>(), json.at("figure").get<double>(),
+                               json.at("processes").get<std::vector<std::string>>()}};
+    }
+    if (json.contains("unseen")) {
+      return NameNotSeen{json.at("unseen").get<ConditionId>(), json.at("known").get<std::vector<std::string>>()};
+    }
+    if (json.contains("behind")) {
+      return RecordingIsBehind{json.at("behind").get<double>()};
+    }
+    if (json.contains("error")) {
+      return WatchFailed{json.at("error").get<std::string>(), json.at("help").get<std::string>(), false};
+    }
+    if (json.contains("recording")) {
+      return NodesAreRecorded{};
+    }
+    throw std::runtime_error("a message about conditions of an unknown kind");
+  });
+}
+
+}  // namespace tracing

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// A condition on what nodes do while they run: plain data.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tracing {
+
+struct LiveCondition {
+  enum class Kind {
+    kSilence,  // nothing has happened for `window`
+    kRate,     // so much, or so little, has happened in `window`
+  };
+  enum class Subject {
+    kTopic,  // something happens when a message is published
+    kNode,   // something happens when a callback of the node ends
+  };
+
+  Kind kind = Kind::kSilence;
+  Subject subject = Subject::kTopic;
+  std::string name = {};  // the full name of the topic or node
+  std::chrono::nanoseconds window{0};
+  std::optional<double> below = std::nullopt;  // of kRate: one of both, in Hz
+  std::optional<double> above = std::nullopt;
+  std::chrono::nanoseconds grace = std::chrono::seconds(10);  // if the name was not seen until then, that is told
+
+  bool operator==(const LiveCondition&) const = default;
+};
+
+// What has become of a condition.
+struct ConditionChange {
+  bool holds = false;
+  // Of silence: for how many seconds nothing had happened. Of a rate: Hz.
+  double figure = 0;
+  // Labels of the processes whose publishers or nodes have the name: of those that run, or if none does, of all.
+  std::vector<std::string> processes = {};
+
+  bool operator==(const ConditionChange&) const = default;
+};
+
+// "2s", "500ms", "1.5s": as launch files write times.
+std::string time_text(std::chrono::nanoseconds time);
+// The opposite. Nullopt for anything else; units are us, ms, s and min, and one of them must be there.
+std::optional<std::chrono::nanoseconds> parse_time_text(const std::string& text);
+
+// "on_silence of topic /scan for 2s", "on_rate of topic /scan below 5 Hz in 2s".
+std::string describe(const LiveCondition& condition);
+// A sentence on the change: "no message on /scan for 2.03 s", "the silence of /scan is over after 3.4 s".
+std::string sentence(const LiveCondition& condition, const ConditionChange& change);
+
+}  // namespace tracing

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decides the conditions of a launch file on what its nodes do, while that is recorded.
+//
+// Time is that of the trace. What has not happened is known only of times up to which everything was told (advance()),
+// so a recording that comes late makes no false alarm. A loss of events does not make one either: what was lost may
+// have been what a condition waits for, so it begins anew.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tracing/decode/reader/trace_sink.hpp"
+#include "tracing/model/analysis/trace_analysis.hpp"
+#include "tracing/model/conditions/condition_lines.hpp"
+
+namespace tracing {
+
+// The processes of the launch.
+class LaunchedProcesses {
+ public:
+  virtual ~LaunchedProcesses() = default;
+  // The label of a process, "talker-1"; nullopt for one of somebody else.
+  virtual std::optional<std::string> label(std::int64_t vpid) = 0;
+  virtual bool lives(std::int64_t vpid) = 0;
+};
+
+class LiveConditions : public ExecutionSink, public TraceSink {
+ public:
+  using Tell = std::function<void(const ConditionReport&)>;
+  // `processes` must outlive this object.
+  LiveConditions(LaunchedProcesses& processes, Tell tell);
+  LiveConditions(const LiveConditions&) = delete;  // the analysis tells this object what happens
+  LiveConditions& operator=(const LiveConditions&) = delete;
+
+  // The condition counts from now on, or from when its name is seen.
+  void watch(ConditionId id, const LiveCondition& condition);
+  void forget(ConditionId id);
+
+  void on_event(const Event& event) override;
+  void on_loss(const Loss& loss) override;
+  void on_callback(const CallbackInstance& instance) override;
+  void on_publication(const Publication& publication) override;
+  // Everything up to this time of the trace has been told.
+  void advance(std::int64_t until_ns);
+  // Tells once of each condition whose name was not seen in its `grace`, which counts from the first call after
+  // watch(). `now` is of any clock that does not jump.
+  void tell_unseen(std::chrono::nanoseconds now);
+
+ private:
+  // What has happened in the last window, in parts of it.
+  struct Parts {
+    static constexpr std::int64_t kCount = 20;
+    std::array<std::uint32_t, kCount> counts{};
+    std::int64_t current = 0;  // number of the part that is being filled; 0: none yet
+    std::uint64_t sum = 0;
+  };
+  struct Rule {
+    ConditionId id = 0;
+    LiveCondition condition;
+    std::set<ProcessId> processes = {};
+    std::optional<std::int64_t> seen_ns = std::nullopt;  // since then something alive has the name
+    bool was_seen = false;
+    std::int64_t last_ns = 0;  // when something has happened last
+    bool holds = false;
+    std::int64_t since_ns = 0;     // of silence that holds: its begin
+    std::int64_t last_bad_ns = 0;  // of a rate that holds: when it was beyond its limit last
+    Parts parts = {};
+    std::optional<std::chrono::nanoseconds> unseen_since = std::nullopt;
+    bool told_unseen = false;
+  };
+
+  // Takes note of publishers and nodes that are new.
+  void find_objects();
+  bool is_named(const Rule& rule, const EndpointObject& publisher);
+  bool is_named(const Rule& rule, const NodeObject& node);
+  void see(Rule& rule, ProcessId process);
+  std::optional<std::int64_t> vpid_of(ProcessId process) const;
+  bool is_ours(ProcessId process);
+  std::int64_t counts_from(const Rule& rule) const;
+  void happened(Rule& rule, std::int64_t time_ns);
+  void check(Rule& rule, std::int64_t until_ns);
+  void check_silence(Rule& rule, std::int64_t until_ns);
+  void check_rate(Rule& rule, std::int64_t until_ns);
+  void check_part(Rule& rule, std::int64_t end_ns);
+  void change(Rule& rule, bool holds, double figure);
+  bool lives(const Rule& rule);
+
+  LaunchedProcesses& processes_;
+  Tell tell_;
+  TraceAnalysis analysis_;
+  std::map<ConditionId, Rule> rules_;
+  std::map<ProcessId, bool> ours_;
+  // By ObjectId, as far as they were looked at: what waits for them.
+  std::vector<std::vector<Rule*>> of_publisher_;
+  std::vector<std::vector<Rule*>> of_node_;
+  std::int64_t now_ns_ = 0;    // up to which everything was told
+  std::int64_t doubt_ns_ = 0;  // until then, events may have been lost
+};
+
+}  // namespace tracing
