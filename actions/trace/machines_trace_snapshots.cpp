@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -35,13 +34,10 @@ void MachinesTrace::begin_snapshots() {
                             session()));
   }
   for (const auto& part : parts_) {
-    const double ahead_ms = static_cast<double>(part->recorder->clock_ahead()) / 1e6;
-    if (const double deadline = request_.choices.message_deadline; deadline != 0 && std::abs(ahead_ms) > deadline / 2) {
-      tell_(true,
-            fmt::format("the clock of machine '{}' is {:.3f} ms {} that of the launch: snapshot-on-late-message "
-                        "takes the age of messages from other machines for so much {}",
-                        part->result.machine, std::abs(ahead_ms), ahead_ms > 0 ? "ahead of" : "behind",
-                        ahead_ms > 0 ? "more there, and for less elsewhere" : "less there, and for more elsewhere"));
+    const std::string warning =
+        warning_of_clock(part->result.machine, part->recorder->clock_ahead(), request_.choices.message_deadline);
+    if (!warning.empty()) {
+      tell_(true, warning);
     }
   }
   if (const int number = request_.choices.snapshot_on_signal; number != 0 && !here_) {

@@ -2,6 +2,7 @@
 #include "launcher/machines/remote_traces.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <system_error>
 #include <utility>
 
@@ -110,7 +111,7 @@ class RemoteTraces::Recorder final : public Recording<MachineRecorder> {
   const std::string& machine() const override { return traces_.machine_; }
   std::int64_t clock_ahead() const override {
     const auto clock = traces_.clock_.measured();
-    return clock ? clock->wall_offset_ns : 0;
+    return clock && std::abs(clock->wall_offset_ns) > clock->uncertainty_ns ? clock->wall_offset_ns : 0;
   }
 
   void begin(const std::string& request, std::function<void(const std::string&)> warn, Wish wish, Done done) override {

@@ -53,7 +53,7 @@ class MachineRecorder : public MachineRecording {
   using Wish = std::function<void(const Reason& reason)>;
 
   virtual const std::string& machine() const = 0;
-  // By how much the wall clock there is ahead of the one here, in nanoseconds, when the trace has begun; 0: unknown.
+  // By how much the wall clock there is ahead of the one here, in nanoseconds, from begin() on; 0: it can't be told.
   virtual std::int64_t clock_ahead() const = 0;
   // Begins a session there. `request`: a MachineTrace as bytes. Warnings of the session go to `warn`, until the end. A
   // session of snapshots takes none by itself: it tells `wish` of the reasons.

@@ -116,6 +116,15 @@ class SnapshotRoundsTest : public testing::Test {
   std::vector<tracing::MachinePart> unrecorded;
 };
 
+TEST(WarningOfClock, IsThereIfItSpoilsTheAgeOfMessages) {
+  EXPECT_EQ(warning_of_clock("arm", 3'700'000'000, 5),
+            "the clock of machine 'arm' is 3700.000 ms ahead of that of the launch: snapshot-on-late-message takes "
+            "messages between machines for so much older or younger than they are");
+  EXPECT_THAT(warning_of_clock("arm", -2'600'000, 5), HasSubstr("is 2.600 ms behind that of the launch"));
+  EXPECT_EQ(warning_of_clock("arm", 2'400'000, 5), "");
+  EXPECT_EQ(warning_of_clock("arm", 3'700'000'000, 0), "");
+}
+
 TEST_F(SnapshotRoundsTest, AllMachinesTakeOneForTheMomentOfTheReason) {
   SnapshotRounds rounds = make();
   rounds.want({.reason = "arm:talker-1 died of SIGSEGV", .machine = "arm", .died = "talker-1"});

@@ -101,6 +101,7 @@ TEST_F(RemoteTracesTest, TakesSnapshotsThatAreFetchedAsTraces) {
   EXPECT_EQ(reasons[1].code, -11);
 
   clock.add(1000, {.epoch_ns = 1'000'000, .monotonic_ns = 500'000}, {.epoch_ns = 1'000'000, .monotonic_ns = 700'000});
+  EXPECT_EQ(recorder->clock_ahead(), 0);  // only the monotonic clocks differ
   std::vector<MachineRecorder::Outcome> taken;
   auto snapshot = recorder->take_snapshot({.reasons = {"event"}, .moment = 400'000}, into(taken));
   ASSERT_EQ(sent.back(), ToAgent::kTraceSnapshot);
