@@ -24,7 +24,8 @@ class LiveConditions(OwnLaunches):
     def setUp(self):
         super().setUp()
         self.traces = self.folder / 'traces'
-        self.environment['ROS_TRACE_DIR'] = str(self.traces)
+        # What a relay daemon had recorded stays behind when launch-watch is killed.
+        self.environment.update(ROS_TRACE_DIR=str(self.traces), TMPDIR=str(self.folder))
         self.name = f'conditions-{self.folder.name}'
         self.trace = f'<trace session-name="{self.name}"/>\n'
 
