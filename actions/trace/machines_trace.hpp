@@ -4,6 +4,7 @@
 // machine alone has a TraceScope, as if this were not there.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -22,6 +23,9 @@
 #include "tracing/record/account/machines_verdict.hpp"
 
 namespace launch {
+
+// A sentence if the clock of a machine is so far ahead that it spoils what snapshot-on-late-message goes by; "" if not.
+std::string warning_of_clock(const std::string& machine, std::int64_t ahead_ns, double message_deadline_ms);
 
 class MachinesTrace : public RunScope {
  public:

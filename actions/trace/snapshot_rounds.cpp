@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <ctime>
 #include <filesystem>
 #include <optional>
@@ -43,17 +42,6 @@ std::string shown_machine(const std::string& machine) {
 }
 
 }  // namespace
-
-std::string warning_of_clock(const std::string& machine, std::int64_t ahead_ns, double message_deadline_ms) {
-  const double ahead_ms = static_cast<double>(ahead_ns) / 1e6;
-  if (message_deadline_ms == 0 || std::abs(ahead_ms) <= message_deadline_ms / 2) {
-    return {};
-  }
-  return fmt::format(
-      "the clock of machine '{}' is {:.3f} ms {} that of the launch: snapshot-on-late-message takes "
-      "messages between machines for so much older or younger than they are",
-      machine, std::abs(ahead_ms), ahead_ms > 0 ? "ahead of" : "behind");
-}
 
 // The snapshot of a machine.
 struct SnapshotRounds::Part {

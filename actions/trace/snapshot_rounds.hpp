@@ -22,9 +22,6 @@
 
 namespace launch {
 
-// A sentence if the clock of a machine is so far ahead that it spoils what snapshot-on-late-message goes by; "" if not.
-std::string warning_of_clock(const std::string& machine, std::int64_t ahead_ns, double message_deadline_ms);
-
 class SnapshotRounds {
  public:
   struct Settings {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "actions/trace/machines_trace.hpp"
 #include "launcher/process/fake/fake_event_loop.hpp"
 #include "tests/support/sandbox.hpp"
 
