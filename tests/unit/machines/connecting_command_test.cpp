@@ -22,8 +22,8 @@ using launch::ConnectingCommand;
 TEST(ConnectingCommandTest, EndsGentlyAlsoWhenItIsStopped) {
   const test_support::Sandbox sandbox;
   const std::string ended = sandbox.directory() / "ended";
-  ConnectingCommand command({"/bin/sh", "-c",
-                             "trap 'echo > \"$0\"; exit' TERM; echo $$; while :; do read x || :; done", ended});
+  ConnectingCommand command(
+      {"/bin/sh", "-c", "trap 'echo > \"$0\"; exit' TERM; echo $$; while :; do read x || :; done", ended});
   pollfd readable{command.output(), POLLIN, 0};
   ASSERT_EQ(::poll(&readable, 1, -1), 1);
   std::array<char, 32> number{};
