@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The launcher's end of launch-watch --conditions. It starts the program with the first condition, and exchanges
-// messages with it over a socket (condition_lines.hpp).
-//
-// The program has a session of its own, so that Ctrl-C does not reach it. It ends when its socket closes, and so also
-// when the launcher is killed.
+// The launcher's end of launch-watch --conditions. It starts the program with the first condition (line_program.hpp),
+// and exchanges messages with it (condition_lines.hpp).
 #pragma once
 
-#include <sys/types.h>
-
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 
-#include "base/files/unique_fd.hpp"
 #include "launcher/conditions/condition_watch.hpp"
 #include "launcher/process/event_loop.hpp"
+#include "launcher/process/line_program.hpp"
 
 namespace launch {
 
@@ -22,7 +18,7 @@ class ConditionWatchProcess final : public ConditionWatch {
  public:
   // The loop must outlive it. `launch`: the number in the marks of the launch's processes. `program` is for tests.
   ConditionWatchProcess(EventLoop& loop, std::string launch, std::string program = {});
-  ~ConditionWatchProcess() override;  // waits for the program to end its recording, some seconds at most
+  // The destructor waits for the program to end its recording, some seconds at most.
   ConditionWatchProcess(const ConditionWatchProcess&) = delete;
   ConditionWatchProcess& operator=(const ConditionWatchProcess&) = delete;
 
@@ -34,29 +30,20 @@ class ConditionWatchProcess final : public ConditionWatch {
 
  private:
   void start();
-  void write(const std::string& line);
-  void flush();
-  void on_readable();
+  void write(const tracing::ConditionOrder& order) { running_->write(to_line(order)); }
   void on_line(std::string_view line);
-  void lose();
   void fail(const std::string& error, const std::string& help);
-  int reap();
 
   EventLoop& loop_;
   std::string launch_;
   std::string program_;
   Tell tell_;
   std::map<tracing::ConditionId, tracing::LiveCondition> watched_;
-  UniqueFd socket_;
-  pid_t pid_ = -1;
+  std::shared_ptr<LineProgram> running_;  // null: it has ended, or was never started
   bool has_recorded_ = false;
   bool has_failed_ = false;  // the program has said why
   int restarts_ = 0;
-  EventLoop::SourcePtr readable_;
-  EventLoop::SourcePtr retry_;
   EventLoop::SourcePtr again_;
-  std::string unwritten_;
-  std::string unread_;  // the beginning of a line
 };
 
 }  // namespace launch

@@ -2,20 +2,14 @@
 #include "launcher/ros/ros_client_process.hpp"
 
 #include <fmt/format.h>
-#include <signal.h>
-#include <string.h>
-#include <sys/socket.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
-#include <cerrno>
+#include <system_error>
 
 #include "base/diagnostics/diagnostic.hpp"
 #include "base/environment/own_prefix.hpp"
-#include "base/files/unique_fd.hpp"
-#include "base/processes/spawn.hpp"
 #include "launcher/process/isolation/namespaces.hpp"
+#include "launcher/process/line_program.hpp"
 #include "launcher/ros/ros_program.hpp"
 #include "launcher/ros/ros_protocol.hpp"
 
@@ -26,8 +20,6 @@ namespace {
 constexpr const char* kProgram = "launch-ros-client";
 
 constexpr std::chrono::milliseconds kEndLimit{1000};
-// Time between tries to write to a client that doesn't read.
-constexpr std::chrono::milliseconds kWriteRetry{10};
 
 // Whether the variable chooses a graph, or how Fast DDS reaches it.
 bool chooses_graph(const std::string& variable) {
@@ -41,46 +33,25 @@ bool chooses_graph(const std::string& variable) {
   return false;
 }
 
-std::string how_it_ended(int status) {
-  if (WIFSIGNALED(status)) {
-    return fmt::format("was ended by SIG{}", sigabbrev_np(WTERMSIG(status)));
-  }
-  return fmt::format("ended with exit code {}", WEXITSTATUS(status));
-}
-
 }  // namespace
 
-// One running program. The destructor closes the socket and waits for the program.
+// One running program, and the requests that it has not answered yet.
 class RosClientProcess::Connection : public std::enable_shared_from_this<Connection> {
  public:
   // Throws std::system_error.
   Connection(EventLoop& loop, const std::string& program, const Namespaces* namespaces, const Environment& environment);
-  ~Connection();
-  Connection(const Connection&) = delete;
-  Connection& operator=(const Connection&) = delete;
 
   RosRequestId send(const RosRequest& request, Duration timeout, Done done);
   void cancel(RosRequestId id);
   // Closes the socket, after which the program ends by itself.
-  void close();
-  bool is_open() const { return static_cast<bool>(socket_); }
+  void close() { running_->close(); }
+  bool is_open() const { return running_->is_open(); }
 
  private:
-  void write(const std::string& line);
-  void flush();
-  void on_readable();
   void on_line(std::string_view line);
-  void lose();
-  // Returns its wait status. Kills the program when it takes too long.
-  int reap();
+  void lose(const std::string& how);
 
-  EventLoop& loop_;
-  UniqueFd socket_;
-  pid_t pid_ = -1;
-  EventLoop::SourcePtr readable_;
-  EventLoop::SourcePtr retry_;
-  std::string unwritten_;
-  std::string unread_;  // the beginning of a line
+  std::shared_ptr<LineProgram> running_;
   RosRequestId last_id_ = 0;
   std::map<RosRequestId, Done> pending_;
 };
@@ -102,14 +73,7 @@ class RosClientProcess::Ticket final : public EventLoop::Source {
 
 RosClientProcess::Connection::Connection(EventLoop& loop, const std::string& program, const Namespaces* namespaces,
                                          const Environment& environment)
-    : loop_(loop) {
-  std::array<int, 2> ends{};
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-    throw std::system_error(errno, std::system_category(), "cannot create a socket for launch-ros-client");
-  }
-  socket_.reset(ends[0]);
-  const UniqueFd other(ends[1]);
-
+    : running_(std::make_shared<LineProgram>(loop, kEndLimit)) {
   Environment::Variables variables = environment.variables();
   if (!is_of_companion(program)) {
     // The program has its libraries beside it, and those of another installation of ROS 2 must not come before them.
@@ -121,82 +85,25 @@ RosClientProcess::Connection::Connection(EventLoop& loop, const std::string& pro
       .program = program,
       .argv = {kProgram, fmt::format("launch_ros_{}", ::getpid())},
       .environment = &variables,
-      .descriptors = {{STDIN_FILENO, other.get()}, {STDOUT_FILENO, kDevNull}},
-      .group = ChildGroup::kOwnSession,
-      .signals = ChildSignals::kFresh,
+      .descriptors = {{STDIN_FILENO, LineProgram::kSocket}, {STDOUT_FILENO, kDevNull}},
   };
   if (namespaces != nullptr) {
     namespaces->put_in(child);
   }
-  pid_ = spawn(child);
-  readable_ = loop_.on_readable(socket_.get(), [this] { on_readable(); });
-}
-
-RosClientProcess::Connection::~Connection() {
-  close();
-  if (pid_ > 0) {
-    reap();
-  }
+  running_->start(std::move(child), {.line = [this](std::string_view line) { on_line(line); },
+                                     .end = [this](const std::string& how) { lose(how); }});
 }
 
 RosRequestId RosClientProcess::Connection::send(const RosRequest& request, Duration timeout, Done done) {
   const RosRequestId id = ++last_id_;
   pending_.emplace(id, std::move(done));
-  write(to_line(RosRequestLine{id, request, timeout}));
+  running_->write(to_line(RosRequestLine{id, request, timeout}));
   return id;
 }
 
 void RosClientProcess::Connection::cancel(RosRequestId id) {
   if (pending_.erase(id) != 0 && is_open()) {
-    write(to_line(RosRequestLine{id, std::nullopt, Duration(0)}));
-  }
-}
-
-void RosClientProcess::Connection::close() {
-  readable_.reset();
-  retry_.reset();
-  socket_.reset();
-}
-
-void RosClientProcess::Connection::write(const std::string& line) {
-  unwritten_ += line;
-  if (!retry_) {
-    flush();
-  }
-}
-
-// Never waits: a client that hangs must not stop the launcher. on_readable() notices a client that has ended.
-void RosClientProcess::Connection::flush() {
-  retry_.reset();
-  while (!unwritten_.empty()) {
-    const ssize_t count = ::send(socket_.get(), unwritten_.data(), unwritten_.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
-    if (count < 0) {
-      if (errno == EAGAIN || errno == EWOULDBLOCK) {
-        retry_ = loop_.after(kWriteRetry, [this] { flush(); });
-      }
-      return;
-    }
-    unwritten_.erase(0, static_cast<std::size_t>(count));
-  }
-}
-
-void RosClientProcess::Connection::on_readable() {
-  const auto self = shared_from_this();  // an answer may lead to a request that starts another program
-  std::array<char, 4096> buffer{};
-  const ssize_t count = ::recv(socket_.get(), buffer.data(), buffer.size(), MSG_DONTWAIT);
-  if (count < 0 && (errno == EAGAIN || errno == EINTR)) {
-    return;
-  }
-  if (count <= 0) {
-    lose();
-    return;
-  }
-  unread_.append(buffer.data(), static_cast<std::size_t>(count));
-  std::size_t end = 0;
-  while (is_open() && (end = unread_.find('\n')) != std::string::npos) {
-    const std::string line = unread_.substr(0, end);
-    unread_.erase(0, end + 1);
-    on_line(line);
+    running_->write(to_line(RosRequestLine{id, std::nullopt, Duration(0)}));
   }
 }
 
@@ -210,24 +117,15 @@ void RosClientProcess::Connection::on_line(std::string_view text) {
   done(line.answer);
 }
 
-void RosClientProcess::Connection::lose() {
-  close();
+void RosClientProcess::Connection::lose(const std::string& how) {
+  const auto self = shared_from_this();  // an answer may lead to a request that starts another program
   RosAnswer lost;
   lost.client_lost = true;
-  lost.error = fmt::format("launch-ros-client {}", how_it_ended(reap()));
+  lost.error = fmt::format("{} {}", kProgram, how);
   while (!pending_.empty()) {
     const Done done = std::move(pending_.extract(pending_.begin()).mapped());
     done(lost);
   }
-}
-
-int RosClientProcess::Connection::reap() {
-  if (!ends_within(pid_, kEndLimit)) {
-    ::kill(pid_, SIGKILL);
-  }
-  const int status = wait_for(pid_);
-  pid_ = -1;
-  return status;
 }
 
 RosClientProcess::RosClientProcess(EventLoop& loop, const Namespaces* namespaces, std::string program)

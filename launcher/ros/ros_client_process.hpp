@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The launcher's end of launch-ros-client. It starts the program when the first request comes, one program for each ROS
-// graph, and exchanges messages with it over a socket (ros_protocol.hpp).
-//
-// The program has a session of its own, so that Ctrl-C does not reach it. It ends when its socket closes, and so also
-// when the launcher is killed.
+// graph (line_program.hpp), and exchanges messages with it (ros_protocol.hpp).
 #pragma once
-
-#include <sys/types.h>
 
 #include <map>
 #include <memory>

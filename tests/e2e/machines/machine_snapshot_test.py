@@ -152,13 +152,7 @@ class MachineSnapshot(TracedMachines):
 
     def test_a_launch_that_is_killed_while_files_come_leaves_nothing_that_looks_whole(self):
         launch = self.start_nodes(f'<trace session-name="{self.name}" snapshot-on-signal="SIGUSR1"/>', keepalive=1000, cable=self.cable('stall'))
-        launchers = self.descendants(launch.pid)
-        launch.send_signal(signal.SIGUSR1)
-        launch.lines.wait_for("fetching the snapshot of machine 'arm': ")
-        for pid in launchers:
-            os.kill(pid, signal.SIGKILL)
-        launch.wait(PATIENCE)
-        self.assert_nothing_left('killed launcher')
+        self.kill_launcher_at(launch, signal.SIGUSR1, "fetching the snapshot of machine 'arm': ")
         verdict = self.verdict(self.snapshots()[0])
         self.assertFalse(verdict['complete'])
         self.assertFalse((self.traces / self.name / self.snapshots()[0] / 'arm').exists())

@@ -134,13 +134,7 @@ class MachineTrace(TracedMachines):
 
     def test_a_launch_that_is_killed_while_files_come_leaves_nothing_that_looks_whole(self):
         launch = self.start_nodes(f'<trace session-name="{self.name}"/>', keepalive=1000, cable=self.cable('stall'))
-        launchers = self.descendants(launch.pid)
-        launch.send_signal(signal.SIGINT)
-        launch.lines.wait_for("fetching the recording of machine 'arm': ")
-        for pid in launchers:
-            os.kill(pid, signal.SIGKILL)
-        launch.wait(PATIENCE)
-        self.assert_nothing_left('killed launcher')
+        self.kill_launcher_at(launch, signal.SIGINT, "fetching the recording of machine 'arm': ")
         verdict = self.verdict()
         self.assertFalse(verdict['complete'])
         for host in self.hosts:

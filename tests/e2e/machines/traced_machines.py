@@ -96,6 +96,16 @@ class TracedMachines(MachinesTest):
         for pid in self.agents(host):
             os.kill(pid, signal.SIGKILL)
 
+    def kill_launcher_at(self, launch, number, line):
+        """When the launch has said the line after the signal. Its guardian lives."""
+        launchers = self.descendants(launch.pid)
+        launch.send_signal(number)
+        launch.lines.wait_for(line)
+        for pid in launchers:
+            os.kill(pid, signal.SIGKILL)
+        launch.wait(PATIENCE)
+        self.assert_nothing_left('killed launcher')
+
     @staticmethod
     def descendants(pid):
         """The processes below it that are launch itself."""

@@ -76,9 +76,8 @@ class TracedRun {
   // Called from several threads, from start() to finish(), when there is a reason for a snapshot; `died` as of
   // FlightRecorder::request().
   using SnapshotWish = std::function<void(const std::string& reason, const std::string& died)>;
-  // The owner of the run decides when snapshots are taken, by take_snapshot(), and has the chains; the run only passes
-  // on the reasons, and
-  // removes no snapshot. Call it before start().
+  // The owner of the run decides when snapshots are taken, by take_snapshot(), and writes the chains. The run only
+  // passes on the reasons, and removes no snapshot. Call it before start().
   void leave_snapshots_to(SnapshotWish wish) { wish_ = std::move(wish); }
   // Adds a warning that start() tells. Call it before.
   void warn(std::string warning) { setup_.warnings.push_back(std::move(warning)); }
