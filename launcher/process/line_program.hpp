@@ -25,7 +25,7 @@ class LineProgram : public std::enable_shared_from_this<LineProgram> {
   static constexpr int kSocket = -3;
 
   struct Observer {
-    std::function<void(std::string_view)> line;      // without its end
+    std::function<void(std::string_view)> line;       // without its end
     std::function<void(const std::string& how)> end;  // of the program, unasked: "was ended by SIGKILL"
   };
 
