@@ -59,6 +59,15 @@ def events_once(traces):
     return sorted(result, key=lambda event: event[0])
 
 
+def outermost(runs):
+    """How many of the runs of a thread, in the order of their ends, are no part of another one (docs/report.md, "Executors")."""
+    count, earliest = 0, None  # begin among those that end later
+    for begin, _ in reversed(runs):
+        if earliest is None or begin < earliest:
+            count, earliest = count + 1, begin
+    return count
+
+
 class Truth:
     """What the events of a trace say, each process for itself."""
 
@@ -92,6 +101,8 @@ class Truth:
         running = {}
         taken = {}
         waiting = {}
+        answering = {}  # begin, by thread
+        runs_of = collections.defaultdict(list)  # begin and end, by thread, in the order of the ends
 
         def take_ends(thread, callback=None):
             if thread in taken:
@@ -137,10 +148,13 @@ class Truth:
                     if published and is_its_own:
                         self.latencies[topic].append(time - published)
             elif name == 'callback_end':
+                begin = running.get((thread, f['callback']))
                 if self.end_run(running, (thread, f['callback']), time):
-                    self.callbacks_of[thread] += 1
+                    runs_of[thread].append((begin, time))
+            elif name == 'rclcpp_client_callback_start':
+                answering[thread] = time
             elif name == 'rclcpp_client_callback_end':
-                self.callbacks_of[thread] += 1
+                runs_of[thread].append((answering.pop(thread, time), time))
             elif name == 'rmw_send_request' and (process, f['rmw_client_handle']) in services:
                 self.requests[process, services[process, f['rmw_client_handle']]] += 1
             elif name == 'rmw_take_response' and f['taken'] and (process, f['rmw_client_handle']) in services:
@@ -157,6 +171,8 @@ class Truth:
             take_ends(thread)
         for run in list(running):
             self.end_run(running, run, None)
+        for thread, runs in runs_of.items():
+            self.callbacks_of[thread] = outermost(runs)
 
     def end_run(self, running, run, time):
         (process, _), callback = run
