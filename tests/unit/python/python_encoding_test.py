@@ -39,7 +39,8 @@ class PythonEncoding(unittest.TestCase):
         self.file.write_bytes(SOURCE.encode('latin-1'))
         result = self.dry_run()
         self.assertEqual(result.returncode, 1)
-        self.assertIn("a.launch.py:4:62: error: SyntaxError: ", result.stderr)
+        # Python says the column; the text begins at 59.
+        self.assertRegex(result.stderr, r'a\.launch\.py:4:(59|62): error: SyntaxError: ')
 
 
 if __name__ == '__main__':

@@ -81,19 +81,20 @@ const std::string kParticipants("\0\1\0\xc2", 4);
 const std::string kPublications("\0\0\3\xc2", 4);
 constexpr char kDefaultUnicast = 0x31;
 constexpr char kUnicast = 0x2f;
+constexpr char kSharedMemory = LOCATOR_KIND_SHM;  // has the number of the major version in it
 
 TEST(AnnouncedHosts, AreThoseOfSharedMemoryInEachAnnouncement) {
   Message message;
   message.data(std::string("\0\0\1\3", 4)).end();  // of an application
-  message.data(kParticipants).locator(kDefaultUnicast, LOCATOR_KIND_UDPv4, 1).locator(kDefaultUnicast, 16, 2).end();
+  message.data(kParticipants).locator(kDefaultUnicast, LOCATOR_KIND_UDPv4, 1).locator(kDefaultUnicast, kSharedMemory, 2).end();
   message.add("\x09\1\10\0timetime").add("\x09\3\0\0");  // the second one: no time
-  message.data(kPublications, true).locator(kUnicast, 16, 3).locator(0x50, 16, 4).end();
+  message.data(kPublications, true).locator(kUnicast, kSharedMemory, 3).locator(0x50, kSharedMemory, 4).end();
   EXPECT_THAT(message.found(), ElementsAre(message.places()[1], message.places()[2]));
 }
 
 TEST(AnnouncedHosts, OfAMessageThatEndsAnywhereAreInIt) {
   Message message;
-  message.data(kParticipants, true).locator(kDefaultUnicast, 16, 2).end();
+  message.data(kParticipants, true).locator(kDefaultUnicast, kSharedMemory, 2).end();
   ASSERT_EQ(message.found().size(), 1U);
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(message.bytes().data());
   for (std::size_t size = 0; size < message.bytes().size(); ++size) {
@@ -164,7 +165,7 @@ TEST(SeparateMemory, IsOfAnotherHostForAllThatAreNotOfThisStack) {
   NEEDS_NETWORK_DEVICES();
   const rtps::UDPv4TransportDescriptor theirs;
   Message message;
-  message.data(kParticipants).locator(kDefaultUnicast, 16, 2).end();
+  message.data(kParticipants).locator(kDefaultUnicast, kSharedMemory, 2).end();
   std::string changed = message.bytes();
   changed[message.places()[0]] ^= 0x29;
   changed[message.places()[0] + 1] = static_cast<char>(changed[message.places()[0] + 1] ^ 0x91);
