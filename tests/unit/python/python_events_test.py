@@ -108,7 +108,9 @@ return LaunchDescription([
     RegisterEventHandler(OnExecutionComplete(target_action=process, on_completion=lambda event, context: say(
         f'after process {event.action is process}'))),
     log, timer])''')
-        self.assertEqual(said, ['log', 'after log', 'fired', 'after timer', 'after process True'], self.output)
+        # Which comes first, the event of the log or the timer, is a matter of how busy the machine is.
+        self.assertEqual([line for line in said if 'log' in line], ['log', 'after log'], self.output)
+        self.assertEqual([line for line in said if 'log' not in line], ['fired', 'after timer', 'after process True'], self.output)
 
     def test_a_handler_sees_what_was_set_after_it_and_what_it_sets_stays(self):
         said = self.launch('''
