@@ -38,6 +38,7 @@ namespace launch {
   ACTION(on_process_exit)              \
   ACTION(on_process_io)                \
   ACTION(on_process_start)             \
+  ACTION(on_late)                      \
   ACTION(on_rate)                      \
   ACTION(on_shutdown)                  \
   ACTION(on_silence)                   \

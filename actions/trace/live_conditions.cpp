@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// <on_silence>, <on_rate>: visit actions when the trace of the running system shows that nodes do nothing any more, or
-// too much, or too little.
+// <on_silence>, <on_rate>, <on_late>: visit actions when the trace of the running system shows that nodes do nothing any
+// more, too much, or too little, or take too long.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -19,6 +19,8 @@ using Values = Handled<OnCondition>;
 using Row = Setting<Values>;
 
 constexpr Duration kShortestWindow = std::chrono::milliseconds(100);
+constexpr Duration kShortestMax = std::chrono::microseconds(1);
+constexpr Duration kUsualWindow = std::chrono::seconds(2);
 constexpr double kFewestMessages = 2;
 
 // A time with its unit, at least so long.
@@ -107,6 +109,47 @@ void check_rate_limits(const Fields& fields) {
   }
 }
 
+void check_one_subject(const Fields& fields) {
+  const char* first = nullptr;
+  for (const char* const attribute : {"topic", "node", "service"}) {
+    if (!fields.has(attribute)) {
+      continue;
+    }
+    if (first != nullptr) {
+      throw LaunchError("on_late is about a topic, a node or a service, one of them", fields.where(attribute),
+                        "write an on_late for each", Finding::kExclusive);
+    }
+    first = attribute;
+  }
+  if (first == nullptr) {
+    throw LaunchError("it is not said what must not be late", fields.where(),
+                      "give topic=\"…\", node=\"…\" or service=\"…\"", Finding::kMissingAttribute);
+  }
+}
+
+Row max_row() {
+  return {.attribute = {"max", AttributeType::kText, true, "", "how long it may take, such as 50ms"},
+          .perform =
+              [](const Fields& fields, Scope& scope, Values& handled) {
+                handled.event.condition.max = perform_time_with_unit("max", fields, scope, kShortestMax);
+              },
+          .checks_literal = true};
+}
+
+Row share_row() {
+  return {.attribute = {"share", AttributeType::kFloat, false, "1",
+                        "in the window, so much of all must take no longer: 0.99 allows one of 100 to be late"},
+          .perform = [](const Fields& fields, Scope& scope, Values& handled) {
+            const double share = fields.number("share")->perform(scope);
+            if (!(share > 0) || share > 1) {
+              throw LaunchError(fmt::format("share is above 0 and at most 1, got {}", share), fields.where("share"),
+                                share > 1 && share <= 100 ? fmt::format("did you mean {}?", share / 100)
+                                                          : "write 0.99 for 99 %");
+            }
+            handled.event.condition.share = share;
+          }};
+}
+
 // One message more or less says nothing, so fewer than two can't be told from none.
 void require_messages(const Fields& fields, const LiveCondition& condition) {
   if (!condition.below) {
@@ -151,9 +194,30 @@ ActionType on_rate_action() {
         LiveCondition& condition = handled.event.condition;
         condition.kind = LiveCondition::Kind::kRate;
         if (!fields.has("window")) {
-          condition.window = std::chrono::seconds(2);
+          condition.window = kUsualWindow;
         }
         require_messages(fields, condition);
+      });
+}
+
+ActionType on_late_action() {
+  return handler_of<OnCondition>(
+      "on_late",
+      "Visits its actions each time messages on a topic take too long to their callbacks, callbacks of a node run too "
+      "long, or responses of a service take too long; needs a trace.",
+      with_common_rows(
+          {name_row("topic", false, "a topic to which nodes of the launch are subscribed: from sending to the callback",
+                    LiveCondition::Subject::kTopic),
+           name_row("node", false, "a node of the launch: the time that a callback runs", LiveCondition::Subject::kNode),
+           name_row("service", false, "a service that nodes of the launch call: from the request to the response",
+                    LiveCondition::Subject::kService),
+           max_row(), share_row(), window_row("window", false, "2s", "over which they are counted")}),
+      check_one_subject, [](const Fields& fields, LaunchContext&, Values& handled) {
+        LiveCondition& condition = handled.event.condition;
+        condition.kind = LiveCondition::Kind::kLate;
+        if (!fields.has("window")) {
+          condition.window = kUsualWindow;
+        }
       });
 }
 

@@ -30,11 +30,14 @@ void ConditionWatchProcess::watch(tracing::ConditionId id, const tracing::LiveCo
   if (again_) {
     return;  // it is among those of the next start
   }
-  if (!running_) {
-    start();
-  } else {
-    write(tracing::WatchCondition{id, condition});
+  if (const std::string need = needs_of(condition); running_ && (need.empty() || recorded_.contains(need))) {
+    return write(tracing::WatchCondition{id, condition});
   }
+  if (running_) {
+    running_->close();
+    ending_.push_back(std::move(running_));
+  }
+  again_ = loop_.after(Duration(0), [this] { start(); });
 }
 
 void ConditionWatchProcess::forget(tracing::ConditionId id) {
@@ -55,9 +58,17 @@ void ConditionWatchProcess::start() {
   again_.reset();
   has_failed_ = false;
   running_ = std::make_shared<LineProgram>(loop_, kLongestEndOfRecording);
+  recorded_.clear();
+  for (const auto& [id, condition] : watched_) {
+    if (std::string need = needs_of(condition); !need.empty()) {
+      recorded_.insert(std::move(need));
+    }
+  }
+  std::vector<std::string> argv = {kWatchProgram, "--conditions", launch_};
+  argv.insert(argv.end(), recorded_.begin(), recorded_.end());
   try {
     running_->start({.program = program_.empty() ? own_library_file(kWatchProgram) : program_,
-                     .argv = {kWatchProgram, "--conditions", launch_},
+                     .argv = std::move(argv),
                      .descriptors = {{STDIN_FILENO, LineProgram::kSocket},
                                      {STDOUT_FILENO, LineProgram::kSocket},
                                      {STDERR_FILENO, kDevNull}}},

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The launcher's end of launch-watch --conditions. It starts the program with the first condition (line_program.hpp),
-// and exchanges messages with it (condition_lines.hpp).
+// The launcher's end of launch-watch --conditions. It starts the program (line_program.hpp) when a turn of the loop has
+// brought the first conditions, and exchanges messages with it (condition_lines.hpp). A condition that needs more than
+// is recorded starts another one in its place.
 #pragma once
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "launcher/conditions/condition_watch.hpp"
 #include "launcher/process/event_loop.hpp"
@@ -40,6 +43,8 @@ class ConditionWatchProcess final : public ConditionWatch {
   Tell tell_;
   std::map<tracing::ConditionId, tracing::LiveCondition> watched_;
   std::shared_ptr<LineProgram> running_;  // null: it has ended, or was never started
+  std::set<std::string> recorded_;        // what it was started to record (needs_of)
+  std::vector<std::shared_ptr<LineProgram>> ending_;
   bool has_recorded_ = false;
   bool has_failed_ = false;  // the program has said why
   int restarts_ = 0;

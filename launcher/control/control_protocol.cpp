@@ -297,22 +297,27 @@ std::string ending_line(const std::string& reason) {
 }
 
 std::string condition_line(const ConditionEvent& event) {
-  using tracing::LiveCondition;
-  const LiveCondition& condition = event.condition;
-  const bool is_topic = condition.subject == LiveCondition::Subject::kTopic;
+  using Kind = tracing::LiveCondition::Kind;
+  const tracing::LiveCondition& condition = event.condition;
   Json place;
   if (event.where) {
     const SourceFile::Position position = event.where.file->position(event.where.begin);
     place = {{"file", event.where.file->path()}, {"line", position.line}, {"column", position.column}};
   }
-  return dump({{"time", now()},
-               {"event", "condition"},
-               {"condition", tracing::describe(condition)},
-               {is_topic ? "topic" : "node", condition.name},
-               {"holds", event.change.holds},
-               {condition.kind == LiveCondition::Kind::kSilence ? "silent_for" : "rate", event.change.figure},
-               {"processes", event.change.processes},
-               {"place", place}});
+  Json json{{"time", now()},
+            {"event", "condition"},
+            {"condition", tracing::describe(condition)},
+            {tracing::name_of(condition.subject), condition.name},
+            {"holds", event.change.holds}};
+  if (condition.kind != Kind::kLate) {
+    json[condition.kind == Kind::kSilence ? "silent_for" : "rate"] = event.change.figure;
+  } else if (event.change.holds) {
+    json["took"] = event.change.figure;
+    json["late"] = event.change.late;
+  }
+  json["processes"] = event.change.processes;
+  json["place"] = place;
+  return dump(json);
 }
 
 std::string output_line(const std::string& process, OutputStream stream, std::string_view text) {

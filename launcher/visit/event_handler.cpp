@@ -47,10 +47,17 @@ std::string describe(const EventHandler& handler) {
 EventValues values_of(const OnCondition& wanted, const tracing::ConditionChange& change) {
   using tracing::LiveCondition;
   const LiveCondition& condition = wanted.condition;
-  EventValues values = {{condition.subject == LiveCondition::Subject::kTopic ? "topic" : "node", condition.name},
+  EventValues values = {{name_of(condition.subject), condition.name},
                         {"process", fmt::format("{}", fmt::join(change.processes, ", "))}};
   if (condition.kind == LiveCondition::Kind::kSilence) {
     values.emplace_back("for", tracing::time_text(condition.window));
+    return values;
+  }
+  if (condition.kind == LiveCondition::Kind::kLate) {
+    values.emplace_back("took", fmt::format("{:.6g}", change.figure));
+    values.emplace_back("max", tracing::time_text(condition.max));
+    values.emplace_back("share", fmt::format("{:.6g}", 1 - change.late));
+    values.emplace_back("window", tracing::time_text(condition.window));
     return values;
   }
   values.emplace_back("rate", fmt::format("{:.4g}", change.figure));

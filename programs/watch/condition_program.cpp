@@ -11,6 +11,8 @@
 #include <cstdio>
 #include <exception>
 #include <optional>
+#include <string>
+#include <vector>
 #include <utility>
 
 #include "base/overloaded.hpp"
@@ -34,8 +36,8 @@ constexpr std::chrono::seconds kBehind{5};  // from then on that is told
 constexpr std::chrono::seconds kCaughtUp{1};
 
 // What the conditions need, and the beginnings of all objects.
-std::vector<std::string> events_of_conditions() {
-  return {"ros2:rcl_init",
+std::vector<std::string> events_of_conditions(const std::set<std::string>& needs) {
+  std::vector<std::string> events = {"ros2:rcl_init",
           "ros2:rcl_node_init",
           "ros2:*_publisher_init",
           "ros2:rcl_publish",
@@ -52,6 +54,15 @@ std::vector<std::string> events_of_conditions() {
           "ros2:callback_start",
           "ros2:callback_end",
           "ros2_ext:*_client_callback_*"};
+  if (needs.contains("messages")) {
+    events.insert(events.end(), {"ros2:rmw_take", "ros2:rclcpp_construct_ring_buffer", "ros2:rclcpp_buffer_to_ipb",
+                                 "ros2:rclcpp_ipb_to_subscription", "ros2:rclcpp_ring_buffer_*"});
+  }
+  if (needs.contains("calls")) {
+    events.insert(events.end(), {"ros2:rmw_send_request", "ros2:rmw_take_request", "ros2:rmw_send_response",
+                                 "ros2:rmw_take_response"});
+  }
+  return events;
 }
 
 void tell_launcher(const ConditionReport& report) {
@@ -85,11 +96,12 @@ class Delay {
 
 class ConditionProgram {
  public:
-  explicit ConditionProgram(const std::string& launch) : processes_(launch), conditions_(processes_, tell_launcher) {}
+  ConditionProgram(const std::string& launch, std::set<std::string> needs)
+      : needs_(std::move(needs)), processes_(launch), conditions_(processes_, tell_launcher) {}
 
   void run() {
     tracing::TracedNodes nodes(
-        {.name = "launch-conditions", .events = events_of_conditions(), .live_timer = kLiveTimer});
+        {.name = "launch-conditions", .events = events_of_conditions(needs_), .live_timer = kLiveTimer});
     tell_launcher(tracing::NodesAreRecorded{});
     milliseconds wait{0};
     while (look(wait)) {
@@ -131,6 +143,7 @@ class ConditionProgram {
     return true;
   }
 
+  std::set<std::string> needs_;
   ProcessesOfLaunch processes_;
   tracing::LiveConditions conditions_;
   Delay delay_;
@@ -149,9 +162,9 @@ void tell_failure(const std::string& text, std::string help) {
 
 }  // namespace
 
-int run_condition_program(const std::string& launch) {
+int run_condition_program(const std::string& launch, std::set<std::string> needs) {
   try {
-    ConditionProgram(launch).run();
+    ConditionProgram(launch, std::move(needs)).run();
     return 0;
   } catch (const tracing::TraceReadError& error) {
     tell_failure(error.what(), error.remedy());

@@ -4,7 +4,7 @@
 // A line of input is the width of the terminal in columns. The output consists of texts, each of which ends with a form
 // feed. The first line of a text says what it is: `view`, once a second; `report`, the last one; `error`, a last one,
 // too. With --metrics there are no views and no report, but `metrics` once a second, from the begin of the recording
-// on. With --conditions, what happens is in condition_program.hpp.
+// on. With --conditions LAUNCH NEED…, what happens is in condition_program.hpp.
 #include <fmt/format.h>
 #include <poll.h>
 #include <unistd.h>
@@ -155,7 +155,7 @@ class Watch {
 int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   if (argc > 2 && std::string_view(argv[1]) == "--conditions") {
-    return launch::run_condition_program(argv[2]);
+    return launch::run_condition_program(argv[2], {argv + 3, argv + argc});
   }
   try {
     Watch(argc > 1 && std::string_view(argv[1]) == "--metrics").run();

@@ -16,6 +16,22 @@ const OnCondition& condition_of(const EventHandler& handler) {
   return std::get<OnCondition>(handler.event);
 }
 
+// What has never been there.
+std::string nobody_of(const tracing::LiveCondition& condition) {
+  using Subject = tracing::LiveCondition::Subject;
+  switch (condition.subject) {
+    case Subject::kTopic:
+      return fmt::format("no {} of {}",
+                         condition.kind == tracing::LiveCondition::Kind::kLate ? "subscription" : "publisher",
+                         condition.name);
+    case Subject::kNode:
+      return fmt::format("no node {}", condition.name);
+    case Subject::kService:
+      return fmt::format("no client of {}", condition.name);
+  }
+  return "";
+}
+
 }  // namespace
 
 void ConditionHandlers::use(ConditionWatch& watch, Callbacks callbacks) {
@@ -129,9 +145,7 @@ void ConditionHandlers::on_unseen(const tracing::NameNotSeen& unseen) {
   }
   callbacks_.message(LogLevel::kWarning,
                      fmt::format("{} was ever seen, {} after the begin of the recording ({}){}",
-                                 condition.subject == tracing::LiveCondition::Subject::kTopic
-                                     ? fmt::format("no publisher of {}", condition.name)
-                                     : fmt::format("no node {}", condition.name),
+                                 nobody_of(condition),
                                  tracing::time_text(condition.grace), to_string(handler.where), help));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The handlers of conditions on what nodes do (on_silence, on_rate): each is watched until it is removed.
+// The handlers of conditions on what nodes do (on_silence, on_rate, on_late): each is watched until it is removed.
 #pragma once
 
 #include <functional>

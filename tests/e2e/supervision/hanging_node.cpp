@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
     std::printf("tick %d\n", ++ticks);
     std::fflush(stdout);
     // One that falls silent goes on in all other ways.
-    if (const bool goes_on = ticks < 20; goes_on || (what == "slow" && ticks % 10 == 0) || what == "ever") {
+    if (const bool goes_on = ticks < 20; goes_on || (what == "slow" && ticks % 10 == 0) || what == "ever" || what == "late") {
       std_msgs::msg::Int32 beat;
       beat.data = ticks;
       beats->publish(beat);
@@ -56,7 +56,15 @@ int main(int argc, char** argv) {
     if (const auto found = in_callback.find(what); ticks == 5 && found != in_callback.end()) {
       found->second();
     }
+    if (what == "late" && ticks % 40 == 0) {
+      std::this_thread::sleep_for(300ms);
+    }
   });
+  // Waits for the timer, whose thread it shares.
+  rclcpp::Subscription<std_msgs::msg::Int32>::SharedPtr own;
+  if (what == "late") {
+    own = node->create_subscription<std_msgs::msg::Int32>("/beats", 10, [](const std_msgs::msg::Int32&) {});
+  }
   if (what == "constructor") {
     sleep_for_ever();
   }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Conditions on what nodes do, with real nodes and a real session: <on_silence>, <on_rate>."""
+"""Conditions on what nodes do, with real nodes and a real session: <on_silence>, <on_rate>, <on_late>."""
 
 import json
 import os
@@ -41,7 +41,7 @@ class LiveConditions(OwnLaunches):
         """The launch-watch of a launch, whose argument is the number in the mark of each process."""
         environment = Path(f'/proc/{self.pid_of(launch, "driver-1")}/environ').read_text()
         mark = next(part for part in environment.split('\0') if part.startswith('LAUNCH_PROCESS='))
-        found = subprocess.run(['pgrep', '-f', f'launch-watch --conditions {mark.partition("=")[2].partition(":")[0]}$'],
+        found = subprocess.run(['pgrep', '-f', f'launch-watch --conditions {mark.partition("=")[2].partition(":")[0]}( |$)'],
                                capture_output=True, text=True)
         return [int(word) for word in found.stdout.split()]
 
@@ -97,6 +97,28 @@ class LiveConditions(OwnLaunches):
         launch = self.run_launch(f'''{self.trace}{node('ever')}
           <on_rate topic="/beats" above="10" window="500ms" once="true"><shutdown/></on_rate>''')
         self.assertRegex(launch.lines.wait_for('messages/s on /beats'), r'(18|20|22|24) messages/s on /beats in 500ms, which is above 10 \(driver-1\)$')
+        self.assertEqual(launch.wait(PATIENCE), 0)
+
+    def test_a_callback_that_runs_too_long_and_the_message_that_waits_for_it(self):
+        launch = self.run_launch(f'''{self.trace}{node('late')}
+          <on_late node="/hanging_node" max="150ms" window="500ms">
+            <log message="node: $(var event.node), $(var event.process), $(var event.max)"/>
+          </on_late>
+          <on_late topic="/beats" max="150ms" share="0.99" window="500ms"><log message="topic: $(var event.took), $(var event.share)"/></on_late>''')
+        line = launch.lines.wait_for('a callback of /hanging_node took')
+        self.assertRegex(line, r'\[WARNING\] \[launch\.condition\]: a callback of /hanging_node took [0-9.]+ ms, more than 150ms \(driver-1\)$')
+        launch.lines.wait_for('node: /hanging_node, driver-1, 150ms')
+        line = launch.lines.wait_for('topic: ')
+        self.assertGreater(float(line.partition('topic: ')[2].partition(',')[0]), 0.15)
+        launch.lines.wait_for('callbacks of /hanging_node take no longer than 150ms again (driver-1)')
+        launch.lines.wait_for('messages on /beats take no longer than 150ms again (driver-1)')
+        self.assertEqual(self.interrupt(launch), 0)
+
+    def test_a_condition_that_comes_later_and_needs_more(self):
+        launch = self.run_launch(f'''{self.trace}{node('late')}
+          <on_silence topic="/beats" for="10s"/>
+          <on_process_io pattern="tick 20$"><on_late topic="/beats" max="150ms" once="true"><shutdown/></on_late></on_process_io>''')
+        launch.lines.wait_for('a message on /beats took ')
         self.assertEqual(launch.wait(PATIENCE), 0)
 
     def test_a_name_that_nothing_has_is_told_with_a_similar_one(self):

@@ -1,7 +1,7 @@
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, LogInfo
 from launch.substitutions import LaunchConfiguration
-from launch_extensions import OnRate, OnSilence, RestartProcess
+from launch_extensions import OnLate, OnRate, OnSilence, RestartProcess
 from launch_ros.actions import Node
 from tracetools_launch.action import Trace
 
@@ -25,4 +25,7 @@ def generate_launch_description():
         OnSilence([LogInfo(msg=LaunchConfiguration('event.process'))], node='/talker', for_='500ms', once=True),
         OnRate([LogInfo(msg=LaunchConfiguration('event.rate'))], topic='/chatter', below=5, window='2s', grace='1min'),
         OnRate([LogInfo(msg=LaunchConfiguration('event.above'))], topic='/chatter', above=20.5),
+        OnLate([LogInfo(msg=LaunchConfiguration('event.took'))], topic='/chatter', max='20ms', share=0.99, window='5s'),
+        OnLate([LogInfo(msg=LaunchConfiguration('event.max'))], node='/talker', max='1.5s', name='slow'),
+        OnLate([LogInfo(msg=LaunchConfiguration('event.share'))], service='/plan', max='500us', once=True),
     ])

@@ -18,11 +18,13 @@ namespace {
 using namespace std::chrono_literals;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using Kind = LiveCondition::Kind;
 using Subject = LiveCondition::Subject;
 
 constexpr std::int64_t kMs = 1'000'000;
 constexpr std::int64_t kBegin = 1'767'225'600'000'000'000;
 constexpr testing::Thread kTalker{101, 101, "talker"};
+constexpr testing::Thread kListener{103, 103, "listener"};
 constexpr testing::Thread kStranger{900, 900, "talker"};
 
 class FakeLaunch : public LaunchedProcesses {
@@ -46,6 +48,29 @@ class LiveConditionsTest : public ::testing::Test {
     write(time, who, ros2::RclTimerInit{0x30, 100 * kMs});
     write(time, who, ros2::RclcppTimerCallbackAdded{0x30, 0x31});
     write(time, who, ros2::RclcppTimerLinkNode{0x30, 0x10});
+  }
+  // Makes a node /listener with a subscription to /chatter and a client of /plan.
+  void make_listener(std::int64_t time) {
+    write(time, kListener, ros2::RclInit{0x1, "8.2.0"});
+    write(time, kListener, ros2::RclNodeInit{0x50, 0x51, "listener", "/"});
+    write(time, kListener, ros2::RmwSubscriptionInit{0x60, {}});
+    write(time, kListener, ros2::RclSubscriptionInit{0x61, 0x50, 0x60, "/chatter", 10});
+    write(time, kListener, ros2::RclcppSubscriptionInit{0x61, 0x62});
+    write(time, kListener, ros2::RclcppSubscriptionCallbackAdded{0x62, 0x63});
+    write(time, kListener, ros2::RmwClientInit{0x70, {}});
+    write(time, kListener, ros2::RclClientInit{0x71, 0x50, 0x70, "/plan"});
+  }
+  // The message of that time gets to its callback so much later.
+  void hear(std::int64_t published, std::int64_t after, std::int64_t runs = 1) {
+    const std::int64_t time = published + after;
+    write(time, kListener, ros2::RmwTake{0x60, 0x40, static_cast<std::int64_t>(kBegin + published * kMs), true});
+    write(time, kListener, ros2::CallbackStart{0x63, false});
+    write(time + runs, kListener, ros2::CallbackEnd{0x63});
+  }
+  // A request, and so much later its response.
+  void call(std::int64_t number, std::int64_t time, std::int64_t takes) {
+    write(time, kListener, ros2::RmwSendRequest{0x70, 0x41, number});
+    write(time + takes, kListener, ros2::RmwTakeResponse{0x70, 0x42, number, 1, true});
   }
   void publish(std::int64_t time, const testing::Thread& who = kTalker) {
     write(time, who, ros2::CallbackStart{0x31, false});
@@ -195,6 +220,93 @@ TEST_F(LiveConditionsTest, ARateIsAboveItsLimitWithMoreThanOneMessageTooMany) {
   publish_each(100, 100, 6000);
   publish_each(50, 6050, 9000);
   EXPECT_THAT(told_until(9000), ElementsAre("1 holds 11.000 talker-1"));
+}
+
+LiveCondition late(Subject subject, const char* name, std::chrono::nanoseconds max, double share = 1) {
+  return {.kind = Kind::kLate, .subject = subject, .name = name, .window = 1s, .max = max, .share = share};
+}
+
+TEST_F(LiveConditionsTest, AMessageIsLateForItsCallbackAndTheConditionEndsAfterAWindowWithoutAnother) {
+  conditions_.watch(1, late(Subject::kTopic, "/chatter", 20ms));
+  make(0);
+  make_listener(0);
+  for (const auto& [published, after] : {std::pair(100, 5), {200, 20}, {300, 35}, {400, 50}, {600, 5}}) {
+    publish(published);
+    hear(published, after);
+  }
+  EXPECT_THAT(told_until(1400), ElementsAre("1 holds 0.035 talker-3"));
+  conditions_.advance(kBegin + 1500 * kMs);
+  EXPECT_THAT(told_, ElementsAre("1 holds 0.035 talker-3", "1 is over 0.000 talker-3"));
+}
+
+TEST_F(LiveConditionsTest, AShareOfTheMessagesMayBeLate) {
+  conditions_.watch(1, late(Subject::kTopic, "/chatter", 20ms, 0.8));
+  make(0);
+  make_listener(0);
+  for (std::int64_t time = 100; time <= 1000; time += 100) {  // 2 of 10 are late: no more than a fifth at any time
+    publish(time);
+    hear(time, time == 500 || time == 1000 ? 30 : 5);
+  }
+  publish(1100);
+  hear(1100, 31);
+  EXPECT_THAT(told_until(1200), ElementsAre("1 holds 0.031 talker-3"));
+}
+
+TEST_F(LiveConditionsTest, ACallbackIsLateBeforeItEndsAndCountsOnce) {
+  conditions_.watch(1, late(Subject::kNode, "/listener", 50ms));
+  conditions_.watch(2, late(Subject::kNode, "/talker", 50ms));
+  make(0);
+  make_listener(0);
+  publish(100);
+  hear(100, 5, 40);
+  publish(200);
+  write(205, kListener, ros2::RmwTake{0x60, 0x40, static_cast<std::int64_t>(kBegin + 200 * kMs), true});
+  write(205, kListener, ros2::CallbackStart{0x63, false});
+  EXPECT_THAT(told_until(255), IsEmpty());
+  conditions_.advance(kBegin + 260 * kMs);
+  EXPECT_THAT(told_, ElementsAre("1 holds 0.055 talker-3"));
+  conditions_.advance(kBegin + 900 * kMs);
+  EXPECT_EQ(told_.size(), 1U);
+}
+
+TEST_F(LiveConditionsTest, ACallbackOfAProcessThatHasEndedIsNotLate) {
+  conditions_.watch(1, late(Subject::kNode, "/listener", 50ms));
+  make_listener(0);
+  write(205, kListener, ros2::CallbackStart{0x63, false});
+  launch_.ended = {kListener.vpid};
+  EXPECT_THAT(told_until(9000), IsEmpty());
+}
+
+TEST_F(LiveConditionsTest, AResponseIsLateForItsClient) {
+  conditions_.watch(1, late(Subject::kService, "/plan", 100ms));
+  make_listener(0);
+  call(1, 100, 90);
+  call(2, 300, 150);
+  EXPECT_THAT(told_until(500), ElementsAre("1 holds 0.150 talker-3"));
+}
+
+TEST_F(LiveConditionsTest, LostEventsMakeNoDoubtOfOneThatIsLateButOfAShare) {
+  conditions_.watch(1, late(Subject::kTopic, "/chatter", 20ms));
+  conditions_.watch(2, late(Subject::kTopic, "/chatter", 20ms, 0.5));
+  make(0);
+  make_listener(0);
+  writer_.end_packet(0);
+  write(1200, kTalker, ros2::RclNodeInit{0x99, 0x98, "other", "/"});
+  writer_.discard_events(0, 3);
+  publish(1300);
+  hear(1300, 30);
+  EXPECT_THAT(told_until(1400), ElementsAre("1 holds 0.030 talker-3"));
+}
+
+TEST_F(LiveConditionsTest, WhatIsLateIsMissedWhereNobodyWaitsForIt) {
+  conditions_.watch(1, {.kind = Kind::kLate, .name = "/chater", .window = 1s, .max = 1ms});
+  conditions_.watch(2, {.kind = Kind::kLate, .subject = Subject::kService, .name = "/plann", .window = 1s, .max = 1ms});
+  make(0);
+  make_listener(0);
+  told_until(10);
+  conditions_.tell_unseen(100s);
+  conditions_.tell_unseen(110s);
+  EXPECT_THAT(told_, ElementsAre("1 unseen, there is /chatter", "2 unseen, there is /plan"));
 }
 
 TEST_F(LiveConditionsTest, ANameThatNothingHasIsToldOnceAfterTheGrace) {

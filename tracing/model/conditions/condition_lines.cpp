@@ -32,6 +32,37 @@ ConditionJson parse(std::string_view text) {
   return json;
 }
 
+const char* name_of(LiveCondition::Kind kind) {
+  switch (kind) {
+    case LiveCondition::Kind::kSilence:
+      return "silence";
+    case LiveCondition::Kind::kRate:
+      return "rate";
+    case LiveCondition::Kind::kLate:
+      return "late";
+  }
+  return "";
+}
+
+LiveCondition::Kind kind_named(std::string_view name) {
+  for (const auto kind : {LiveCondition::Kind::kSilence, LiveCondition::Kind::kRate, LiveCondition::Kind::kLate}) {
+    if (name == name_of(kind)) {
+      return kind;
+    }
+  }
+  throw std::runtime_error("a condition of an unknown kind");
+}
+
+LiveCondition::Subject subject_of(const ConditionJson& json) {
+  using Subject = LiveCondition::Subject;
+  for (const Subject subject : {Subject::kTopic, Subject::kService}) {
+    if (json.contains(tracing::name_of(subject))) {
+      return subject;
+    }
+  }
+  return Subject::kNode;
+}
+
 // Turns the errors of the library into those of this file.
 template <typename Read>
 auto reading(std::string_view text, Read read) {
@@ -51,8 +82,8 @@ std::string to_line(const ConditionOrder& order) {
                        const LiveCondition& condition = watch.condition;
                        ConditionJson json{
                            {"watch", watch.id},
-                           {"kind", condition.kind == LiveCondition::Kind::kSilence ? "silence" : "rate"},
-                           {condition.subject == LiveCondition::Subject::kTopic ? "topic" : "node", condition.name},
+                           {"kind", name_of(condition.kind)},
+                           {tracing::name_of(condition.subject), condition.name},
                            {"window", seconds_of(condition.window)},
                            {"grace", seconds_of(condition.grace)},
                        };
@@ -61,6 +92,10 @@ std::string to_line(const ConditionOrder& order) {
                        }
                        if (condition.above) {
                          json["above"] = *condition.above;
+                       }
+                       if (condition.kind == LiveCondition::Kind::kLate) {
+                         json["max"] = seconds_of(condition.max);
+                         json["share"] = condition.share;
                        }
                        return json;
                      },
@@ -77,10 +112,14 @@ std::string to_line(const ConditionReport& report) {
                                   return ConditionJson{{"recording", true}};
                                 },
                                 [](const ConditionChanged& changed) {
-                                  return ConditionJson{{"condition", changed.id},
-                                                       {"holds", changed.change.holds},
-                                                       {"figure", changed.change.figure},
-                                                       {"processes", changed.change.processes}};
+                                  ConditionJson json{{"condition", changed.id},
+                                                     {"holds", changed.change.holds},
+                                                     {"figure", changed.change.figure},
+                                                     {"processes", changed.change.processes}};
+                                  if (changed.change.late > 0) {
+                                    json["late"] = changed.change.late;
+                                  }
+                                  return json;
                                 },
                                 [](const NameNotSeen& unseen) {
                                   return ConditionJson{{"unseen", unseen.id}, {"known", unseen.known}};
@@ -102,10 +141,9 @@ ConditionOrder parse_condition_order(std::string_view text) {
     }
     WatchCondition watch{json.at("watch").get<ConditionId>(), {}};
     LiveCondition& condition = watch.condition;
-    condition.kind = json.at("kind") == "rate" ? LiveCondition::Kind::kRate : LiveCondition::Kind::kSilence;
-    const bool is_topic = json.contains("topic");
-    condition.subject = is_topic ? LiveCondition::Subject::kTopic : LiveCondition::Subject::kNode;
-    condition.name = json.at(is_topic ? "topic" : "node").get<std::string>();
+    condition.kind = kind_named(json.at("kind").get<std::string>());
+    condition.subject = subject_of(json);
+    condition.name = json.at(tracing::name_of(condition.subject)).get<std::string>();
     condition.window = time_of(json.at("window"));
     condition.grace = time_of(json.at("grace"));
     if (json.contains("below")) {
@@ -113,6 +151,10 @@ ConditionOrder parse_condition_order(std::string_view text) {
     }
     if (json.contains("above")) {
       condition.above = json.at("above").get<double>();
+    }
+    if (condition.kind == LiveCondition::Kind::kLate) {
+      condition.max = time_of(json.at("max"));
+      condition.share = json.at("share").get<double>();
     }
     return watch;
   });
@@ -122,8 +164,10 @@ ConditionReport parse_condition_report(std::string_view text) {
   return reading(text, [](const ConditionJson& json) -> ConditionReport {
     if (json.contains("condition")) {
       return ConditionChanged{json.at("condition").get<ConditionId>(),
-                              {json.at("holds").get<bool>(), json.at("figure").get<double>(),
-                               json.at("processes").get<std::vector<std::string>>()}};
+                              {.holds = json.at("holds").get<bool>(),
+                               .figure = json.at("figure").get<double>(),
+                               .processes = json.at("processes").get<std::vector<std::string>>(),
+                               .late = json.value("late", 0.0)}};
     }
     if (json.contains("unseen")) {
       return NameNotSeen{json.at("unseen").get<ConditionId>(), json.at("known").get<std::vector<std::string>>()};

@@ -3,9 +3,11 @@
 // seconds.
 //
 //   {"watch": 1, "kind": "silence", "topic": "/scan", "window": 2.0, "grace": 10.0}            to launch-watch
+//   {"watch": 2, "kind": "late", "topic": "/scan", "window": 5.0, "grace": 10.0, "max": 0.02, "share": 0.99}
 //   {"forget": 1}
 //   {"recording": true}                                                    from launch-watch: the nodes are recorded
 //   {"condition": 1, "holds": true, "figure": 2.03, "processes": ["talker-1"]}
+//   {"condition": 2, "holds": true, "figure": 0.031, "processes": ["mapper-2"], "late": 0.04}
 //   {"unseen": 1, "known": ["/scan2"]}             nothing has the name; what there is of its kind
 //   {"behind": 6.1}                                the recording is so far behind that nothing can be decided; 0: again
 //   {"error": "there is no 'lttng-relayd' on this machine", "help": "install the package lttng-tools"}    the last one

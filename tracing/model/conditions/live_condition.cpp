@@ -20,7 +20,36 @@ struct TimeUnit {
 constexpr std::array<TimeUnit, 4> kTimeUnits{{{"min", 60e9}, {"us", 1e3}, {"ms", 1e6}, {"s", 1e9}}};
 constexpr double kLongestTime = 365 * 86400e9;
 
+std::string late_sentence(const LiveCondition& condition, const ConditionChange& change) {
+  const bool is_topic = condition.subject == LiveCondition::Subject::kTopic;
+  const bool is_node = condition.subject == LiveCondition::Subject::kNode;
+  const std::string all = is_topic  ? "messages on " + condition.name
+                          : is_node ? "callbacks of " + condition.name
+                                    : "responses of " + condition.name;
+  if (!change.holds) {
+    return fmt::format("{} take no longer than {} again", all, time_text(condition.max));
+  }
+  const std::chrono::nanoseconds took(std::llround(change.figure * 1e9));
+  if (condition.share < 1) {
+    return fmt::format("{:.3g} % of the {} in {} took longer than {}, the last of them {}", 100 * change.late, all,
+                       time_text(condition.window), time_text(condition.max), short_time_text(took));
+  }
+  return fmt::format("a {} took {}, more than {}",
+                     is_topic  ? fmt::format("message on {}", condition.name)
+                     : is_node ? fmt::format("callback of {}", condition.name)
+                               : fmt::format("response of {}", condition.name),
+                     short_time_text(took), time_text(condition.max));
+}
+
 }  // namespace
+
+std::string short_time_text(std::chrono::nanoseconds time) {
+  const auto count = static_cast<double>(time.count());
+  if (count >= 1e9) {
+    return fmt::format("{:.3g} s", count / 1e9);
+  }
+  return count >= 1e6 ? fmt::format("{:.3g} ms", count / 1e6) : fmt::format("{:.3g} us", count / 1e3);
+}
 
 std::string time_text(std::chrono::nanoseconds time) {
   const auto count = static_cast<double>(time.count());
@@ -50,11 +79,35 @@ std::optional<std::chrono::nanoseconds> parse_time_text(const std::string& text)
   return std::nullopt;
 }
 
+const char* name_of(LiveCondition::Subject subject) {
+  switch (subject) {
+    case LiveCondition::Subject::kTopic:
+      return "topic";
+    case LiveCondition::Subject::kNode:
+      return "node";
+    case LiveCondition::Subject::kService:
+      return "service";
+  }
+  return "";
+}
+
+std::string needs_of(const LiveCondition& condition) {
+  if (condition.kind != LiveCondition::Kind::kLate || condition.subject == LiveCondition::Subject::kNode) {
+    return "";
+  }
+  return condition.subject == LiveCondition::Subject::kTopic ? "messages" : "calls";
+}
+
 std::string describe(const LiveCondition& condition) {
-  const std::string of =
-      fmt::format("of {} {}", condition.subject == LiveCondition::Subject::kTopic ? "topic" : "node", condition.name);
+  const std::string of = fmt::format("of {} {}", name_of(condition.subject), condition.name);
   if (condition.kind == LiveCondition::Kind::kSilence) {
     return fmt::format("on_silence {} for {}", of, time_text(condition.window));
+  }
+  if (condition.kind == LiveCondition::Kind::kLate) {
+    const std::string most = condition.share < 1 ? fmt::format(", {:.6g} of all in {}", condition.share,
+                                                               time_text(condition.window))
+                                                 : "";
+    return fmt::format("on_late {} above {}{}", of, time_text(condition.max), most);
   }
   return fmt::format("on_rate {} {} {:.4g} Hz in {}", of, condition.below ? "below" : "above",
                      condition.below ? *condition.below : condition.above.value_or(0), time_text(condition.window));
@@ -68,6 +121,9 @@ std::string sentence(const LiveCondition& condition, const ConditionChange& chan
                       : fmt::format("no callback of {} has ended for {:.3g} s", condition.name, change.figure);
     }
     return fmt::format("the silence of {} is over after {:.3g} s", condition.name, change.figure);
+  }
+  if (condition.kind == LiveCondition::Kind::kLate) {
+    return late_sentence(condition, change);
   }
   const char* const side = condition.below ? "below" : "above";
   const double limit = condition.below ? *condition.below : condition.above.value_or(0);

@@ -7,6 +7,7 @@
 namespace tracing {
 namespace {
 
+using Kind = LiveCondition::Kind;
 using Subject = LiveCondition::Subject;
 
 double seconds_in(std::int64_t nanoseconds) {
@@ -22,19 +23,34 @@ void LiveConditions::watch(ConditionId id, const LiveCondition& condition) {
   forget(id);
   Rule& rule = rules_.emplace(id, Rule{.id = id, .condition = condition}).first->second;
   // What is there already counts as seen now.
+  visit_objects([&](const auto& objects, auto& index, auto is_meant, auto process_of) {
+    for (ObjectId i = 0; i < index.size(); ++i) {
+      if (is_meant(rule, objects[i])) {
+        index[i].push_back(&rule);
+        see(rule, process_of(objects[i]));
+      }
+    }
+  });
+}
+
+template <typename Visit>
+void LiveConditions::visit_objects(Visit visit) {
   const ObjectModel& objects = analysis_.objects();
-  for (ObjectId i = 0; i < of_publisher_.size(); ++i) {
-    if (is_named(rule, objects.publishers()[i])) {
-      of_publisher_[i].push_back(&rule);
-      see(rule, objects.publishers()[i].process);
-    }
-  }
-  for (ObjectId i = 0; i < of_node_.size(); ++i) {
-    if (is_named(rule, objects.nodes()[i])) {
-      of_node_[i].push_back(&rule);
-      see(rule, objects.nodes()[i].process);
-    }
-  }
+  const auto process = [](const auto& object) { return object.process; };
+  visit(
+      objects.publishers(), of_publisher_,
+      [this](const Rule& rule, const EndpointObject& publisher) { return is_named(rule, publisher, true); }, process);
+  visit(
+      objects.subscriptions(), of_subscription_,
+      [this](const Rule& rule, const EndpointObject& subscription) { return is_named(rule, subscription, false); },
+      process);
+  visit(
+      objects.nodes(), of_node_, [this](const Rule& rule, const NodeObject& node) { return is_named(rule, node); },
+      process);
+  visit(
+      objects.clients(), of_client_,
+      [this](const Rule& rule, const ClientObject& client) { return is_named(rule, client); },
+      [this](const ClientObject& client) { return process_of(client); });
 }
 
 void LiveConditions::forget(ConditionId id) {
@@ -42,7 +58,7 @@ void LiveConditions::forget(ConditionId id) {
   if (found == rules_.end()) {
     return;
   }
-  for (std::vector<std::vector<Rule*>>* const index : {&of_publisher_, &of_node_}) {
+  for (std::vector<std::vector<Rule*>>* const index : {&of_publisher_, &of_subscription_, &of_node_, &of_client_}) {
     for (std::vector<Rule*>& rules : *index) {
       std::erase(rules, &found->second);
     }
@@ -53,42 +69,52 @@ void LiveConditions::forget(ConditionId id) {
 void LiveConditions::on_event(const Event& event) {
   now_ns_ = std::max(now_ns_, event.timestamp_ns);
   analysis_.on_event(event);
-  if (of_publisher_.size() != analysis_.objects().publishers().size() ||
-      of_node_.size() != analysis_.objects().nodes().size()) {
+  const ObjectModel& objects = analysis_.objects();
+  if (of_publisher_.size() != objects.publishers().size() || of_node_.size() != objects.nodes().size() ||
+      of_subscription_.size() != objects.subscriptions().size() || of_client_.size() != objects.clients().size()) {
     find_objects();
   }
 }
 
 void LiveConditions::on_loss(const Loss& loss) {
   doubt_ns_ = std::max(doubt_ns_, loss.end_ns.value_or(now_ns_));
+  running_.clear();  // their ends may be among what was lost
   analysis_.on_loss(loss);
 }
 
-bool LiveConditions::is_named(const Rule& rule, const EndpointObject& publisher) {
-  return rule.condition.subject == Subject::kTopic && publisher.topic != kNoObject &&
-         analysis_.objects().topics()[publisher.topic].name == rule.condition.name && is_ours(publisher.process);
+// What is late is late for those that get it.
+bool LiveConditions::is_named(const Rule& rule, const EndpointObject& endpoint, bool publishes) {
+  return rule.condition.subject == Subject::kTopic && publishes == (rule.condition.kind != Kind::kLate) &&
+         endpoint.topic != kNoObject && analysis_.objects().topics()[endpoint.topic].name == rule.condition.name &&
+         is_ours(endpoint.process);
 }
 
 bool LiveConditions::is_named(const Rule& rule, const NodeObject& node) {
   return rule.condition.subject == Subject::kNode && node.name == rule.condition.name && is_ours(node.process);
 }
 
+bool LiveConditions::is_named(const Rule& rule, const ClientObject& client) {
+  return rule.condition.subject == Subject::kService && client.name == rule.condition.name &&
+         is_ours(process_of(client));
+}
+
+ProcessId LiveConditions::process_of(const ClientObject& client) const {
+  return client.node == kNoObject ? kNoProcess : analysis_.objects().nodes()[client.node].process;
+}
+
 void LiveConditions::find_objects() {
-  const ObjectModel& objects = analysis_.objects();
-  const auto find = [this](const auto& all, std::vector<std::vector<Rule*>>& index) {
-    while (index.size() < all.size()) {
-      const auto& object = all[index.size()];
+  visit_objects([this](const auto& objects, auto& index, auto is_meant, auto process_of) {
+    while (index.size() < objects.size()) {
+      const auto& object = objects[index.size()];
       std::vector<Rule*>& waiting = index.emplace_back();
       for (auto& [id, rule] : rules_) {
-        if (is_named(rule, object)) {
+        if (is_meant(rule, object)) {
           waiting.push_back(&rule);
-          see(rule, object.process);
+          see(rule, process_of(object));
         }
       }
     }
-  };
-  find(objects.publishers(), of_publisher_);
-  find(objects.nodes(), of_node_);
+  });
 }
 
 std::optional<std::int64_t> LiveConditions::vpid_of(ProcessId process) const {
@@ -115,7 +141,7 @@ void LiveConditions::see(Rule& rule, ProcessId process) {
   rule.processes.insert(process);
   rule.was_seen = true;
   if (rule.holds) {
-    change(rule, false, rule.condition.kind == LiveCondition::Kind::kSilence ? seconds_in(now_ns_ - rule.since_ns) : 0);
+    change(rule, false, rule.condition.kind == Kind::kSilence ? seconds_in(now_ns_ - rule.since_ns) : 0);
     rule.seen_ns = now_ns_;
   } else if (!rule.seen_ns || was_alone) {
     rule.seen_ns = now_ns_;
@@ -129,128 +155,30 @@ bool LiveConditions::lives(const Rule& rule) {
   });
 }
 
-std::int64_t LiveConditions::counts_from(const Rule& rule) const {
-  return std::max(rule.seen_ns.value_or(0), doubt_ns_);
-}
-
-void LiveConditions::on_publication(const Publication& publication) {
-  if (publication.publisher < of_publisher_.size()) {
-    for (Rule* const rule : of_publisher_[publication.publisher]) {
-      happened(*rule, publication.published_ns);
-    }
-  }
-}
-
-void LiveConditions::on_callback(const CallbackInstance& instance) {
-  if (!instance.finished) {
-    return;
-  }
+std::set<std::string> LiveConditions::known_names(const LiveCondition& condition) {
+  std::set<std::string> known;
   const ObjectModel& objects = analysis_.objects();
-  const ObjectId node = objects.node_of(objects.callbacks()[instance.callback]);
-  if (node != kNoObject && node < of_node_.size()) {
-    for (Rule* const rule : of_node_[node]) {
-      happened(*rule, instance.end_ns);
+  if (condition.subject == Subject::kNode) {
+    for (const NodeObject& node : objects.nodes()) {
+      if (is_ours(node.process)) {
+        known.insert(node.name);
+      }
     }
-  }
-}
-
-void LiveConditions::happened(Rule& rule, std::int64_t time_ns) {
-  check(rule, time_ns);
-  rule.last_ns = std::max(rule.last_ns, time_ns);
-  if (!rule.seen_ns) {
-    rule.seen_ns = time_ns;
-  }
-  if (rule.condition.kind == LiveCondition::Kind::kRate) {
-    ++rule.parts.counts[static_cast<std::size_t>(rule.parts.current % Parts::kCount)];
-    ++rule.parts.sum;
-  } else if (rule.holds) {
-    change(rule, false, seconds_in(time_ns - rule.since_ns));
-  }
-}
-
-void LiveConditions::advance(std::int64_t until_ns) {
-  now_ns_ = std::max(now_ns_, until_ns);
-  for (auto& [id, rule] : rules_) {
-    check(rule, now_ns_);
-  }
-}
-
-void LiveConditions::check(Rule& rule, std::int64_t until_ns) {
-  if (rule.condition.kind == LiveCondition::Kind::kRate) {
-    check_rate(rule, until_ns);
-  } else if (rule.seen_ns && !rule.holds) {
-    check_silence(rule, until_ns);
-  }
-}
-
-void LiveConditions::check_silence(Rule& rule, std::int64_t until_ns) {
-  const std::int64_t begin_ns = std::max(counts_from(rule), rule.last_ns);
-  if (until_ns - begin_ns < rule.condition.window.count()) {
-    return;
-  }
-  // A node that has ended does not hang.
-  if (rule.condition.subject == Subject::kNode && !lives(rule)) {
-    rule.seen_ns.reset();
-    return;
-  }
-  rule.since_ns = begin_ns;
-  change(rule, true, seconds_in(until_ns - begin_ns));
-}
-
-void LiveConditions::check_rate(Rule& rule, std::int64_t until_ns) {
-  Parts& parts = rule.parts;
-  const std::int64_t part_ns = std::max<std::int64_t>(1, rule.condition.window.count() / Parts::kCount);
-  const std::int64_t now = until_ns / part_ns;
-  if (parts.current == 0 || !rule.seen_ns) {
-    parts = {.current = now};
-    return;
-  }
-  while (parts.current < now) {
-    check_part(rule, (parts.current + 1) * part_ns);
-    ++parts.current;
-    std::uint32_t& oldest = parts.counts[static_cast<std::size_t>(parts.current % Parts::kCount)];
-    parts.sum -= oldest;
-    oldest = 0;
-  }
-}
-
-// Looks at the window that ends with a part.
-void LiveConditions::check_part(Rule& rule, std::int64_t end_ns) {
-  const LiveCondition& condition = rule.condition;
-  if (end_ns - condition.window.count() < counts_from(rule)) {
-    return;
-  }
-  const double count = static_cast<double>(rule.parts.sum);
-  const double seconds = seconds_in(condition.window.count());
-  // Which messages fall into a window is a matter of its borders, so one of them more or less says nothing.
-  const bool is_bad =
-      condition.below ? count + 1 < *condition.below * seconds : count - 1 > condition.above.value_or(0) * seconds;
-  if (is_bad) {
-    rule.last_bad_ns = end_ns;
-    if (!rule.holds) {
-      change(rule, true, count / seconds);
+  } else if (condition.subject == Subject::kService) {
+    for (const ClientObject& client : objects.clients()) {
+      if (is_ours(process_of(client))) {
+        known.insert(client.name);
+      }
     }
-  } else if (rule.holds && end_ns - rule.last_bad_ns >= condition.window.count()) {
-    change(rule, false, count / seconds);
-  }
-}
-
-void LiveConditions::change(Rule& rule, bool holds, double figure) {
-  rule.holds = holds;
-  std::set<std::string> living;
-  std::set<std::string> all;
-  for (const ProcessId process : rule.processes) {
-    const std::optional<std::int64_t> vpid = vpid_of(process);
-    const std::optional<std::string> label = vpid ? processes_.label(*vpid) : std::nullopt;
-    if (label) {
-      all.insert(*label);
-      if (processes_.lives(*vpid)) {
-        living.insert(*label);
+  } else {
+    for (const EndpointObject& endpoint :
+         condition.kind == Kind::kLate ? objects.subscriptions() : objects.publishers()) {
+      if (endpoint.topic != kNoObject && is_ours(endpoint.process)) {
+        known.insert(objects.topics()[endpoint.topic].name);
       }
     }
   }
-  const std::set<std::string>& told = living.empty() ? all : living;
-  tell_(ConditionChanged{rule.id, {holds, figure, {told.begin(), told.end()}}});
+  return known;
 }
 
 void LiveConditions::tell_unseen(std::chrono::nanoseconds now) {
@@ -265,21 +193,7 @@ void LiveConditions::tell_unseen(std::chrono::nanoseconds now) {
       continue;
     }
     rule.told_unseen = true;
-    std::set<std::string> known;
-    const ObjectModel& objects = analysis_.objects();
-    if (rule.condition.subject == Subject::kTopic) {
-      for (const EndpointObject& publisher : objects.publishers()) {
-        if (publisher.topic != kNoObject && is_ours(publisher.process)) {
-          known.insert(objects.topics()[publisher.topic].name);
-        }
-      }
-    } else {
-      for (const NodeObject& node : objects.nodes()) {
-        if (is_ours(node.process)) {
-          known.insert(node.name);
-        }
-      }
-    }
+    const std::set<std::string> known = known_names(rule.condition);
     tell_(NameNotSeen{id, {known.begin(), known.end()}});
   }
 }

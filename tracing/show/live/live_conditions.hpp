@@ -44,8 +44,11 @@ class LiveConditions : public ExecutionSink, public TraceSink {
 
   void on_event(const Event& event) override;
   void on_loss(const Loss& loss) override;
+  void on_callback_begin(const CallbackInstance& instance) override;
   void on_callback(const CallbackInstance& instance) override;
   void on_publication(const Publication& publication) override;
+  void on_message(const MessageFlow& message) override;
+  void on_call(const ServiceCall& call) override;
   // Everything up to this time of the trace has been told.
   void advance(std::int64_t until_ns);
   // Tells once of each condition whose name was not seen in its `grace`, which counts from the first call after
@@ -57,8 +60,15 @@ class LiveConditions : public ExecutionSink, public TraceSink {
   struct Parts {
     static constexpr std::int64_t kCount = 20;
     std::array<std::uint32_t, kCount> counts{};
-    std::int64_t current = 0;  // number of the part that is being filled; 0: none yet
+    std::array<std::uint32_t, kCount> late{};  // some of them
+    std::int64_t current = 0;                  // number of the part that is being filled; 0: none yet
     std::uint64_t sum = 0;
+    std::uint64_t late_sum = 0;
+
+    void add(bool is_late);
+    // To the next part; the oldest one falls out of the window.
+    void step();
+    double late_share() const { return sum == 0 ? 0 : static_cast<double>(late_sum) / static_cast<double>(sum); }
   };
   struct Rule {
     ConditionId id = 0;
@@ -69,25 +79,44 @@ class LiveConditions : public ExecutionSink, public TraceSink {
     std::int64_t last_ns = 0;  // when something has happened last
     bool holds = false;
     std::int64_t since_ns = 0;     // of silence that holds: its begin
-    std::int64_t last_bad_ns = 0;  // of a rate that holds: when it was beyond its limit last
+    std::int64_t last_bad_ns = 0;  // of a rate or of what is late, if it holds: when it was beyond its limit last
     Parts parts = {};
     std::optional<std::chrono::nanoseconds> unseen_since = std::nullopt;
     bool told_unseen = false;
   };
+  // A callback that runs, of a node whose callbacks must not be late.
+  struct Running {
+    ThreadId thread;
+    ObjectId callback = kNoObject;
+    std::int64_t begin_ns = 0;
+    std::set<ConditionId> late = {};  // conditions that have counted it already
+  };
 
   // Takes note of publishers and nodes that are new.
   void find_objects();
-  bool is_named(const Rule& rule, const EndpointObject& publisher);
+  bool is_named(const Rule& rule, const EndpointObject& endpoint, bool publishes);
   bool is_named(const Rule& rule, const NodeObject& node);
+  bool is_named(const Rule& rule, const ClientObject& client);
+  ProcessId process_of(const ClientObject& client) const;
+  // Calls `visit` with each list of objects, the index of what waits for them, and two functions: whether an object has
+  // the name of a rule, and which process has the object.
+  template <typename Visit>
+  void visit_objects(Visit visit);
+  std::set<std::string> known_names(const LiveCondition& condition);
   void see(Rule& rule, ProcessId process);
   std::optional<std::int64_t> vpid_of(ProcessId process) const;
   bool is_ours(ProcessId process);
   std::int64_t counts_from(const Rule& rule) const;
   void happened(Rule& rule, std::int64_t time_ns);
+  void took(Rule& rule, std::int64_t time_ns, std::int64_t took_ns);
+  void look_at_running();
+  const std::vector<Rule*>& rules_of_node(ObjectId callback) const;
   void check(Rule& rule, std::int64_t until_ns);
   void check_silence(Rule& rule, std::int64_t until_ns);
-  void check_rate(Rule& rule, std::int64_t until_ns);
-  void check_part(Rule& rule, std::int64_t end_ns);
+  void check_window(Rule& rule, std::int64_t until_ns);
+  void check_rate_part(Rule& rule, std::int64_t end_ns);
+  void check_late_part(Rule& rule, std::int64_t end_ns);
+  bool is_late(const Rule& rule) const;
   void change(Rule& rule, bool holds, double figure);
   bool lives(const Rule& rule);
 
@@ -98,7 +127,10 @@ class LiveConditions : public ExecutionSink, public TraceSink {
   std::map<ProcessId, bool> ours_;
   // By ObjectId, as far as they were looked at: what waits for them.
   std::vector<std::vector<Rule*>> of_publisher_;
+  std::vector<std::vector<Rule*>> of_subscription_;
   std::vector<std::vector<Rule*>> of_node_;
+  std::vector<std::vector<Rule*>> of_client_;
+  std::vector<Running> running_;
   std::int64_t now_ns_ = 0;    // up to which everything was told
   std::int64_t doubt_ns_ = 0;  // until then, events may have been lost
 };

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+// When a condition holds: what has happened, and what has not, in the time of the trace.
+#include <algorithm>
+#include <utility>
+
+#include "tracing/show/live/live_conditions.hpp"
+
+namespace tracing {
+namespace {
+
+using Kind = LiveCondition::Kind;
+
+double seconds_in(std::int64_t nanoseconds) {
+  return static_cast<double>(nanoseconds) / 1e9;
+}
+
+}  // namespace
+
+std::int64_t LiveConditions::counts_from(const Rule& rule) const {
+  return std::max(rule.seen_ns.value_or(0), doubt_ns_);
+}
+
+void LiveConditions::on_publication(const Publication& publication) {
+  if (publication.publisher < of_publisher_.size()) {
+    for (Rule* const rule : of_publisher_[publication.publisher]) {
+      happened(*rule, publication.published_ns);
+    }
+  }
+}
+
+void LiveConditions::on_message(const MessageFlow& message) {
+  if (message.publication.published_ns == 0 || message.callback_begin_ns == 0 || message.is_estimated ||
+      message.subscription >= of_subscription_.size()) {
+    return;
+  }
+  for (Rule* const rule : of_subscription_[message.subscription]) {
+    took(*rule, message.callback_begin_ns, message.callback_begin_ns - message.publication.published_ns);
+  }
+}
+
+void LiveConditions::on_call(const ServiceCall& call) {
+  if (call.sent_ns == 0 || call.received_ns == 0 || call.client >= of_client_.size()) {
+    return;
+  }
+  for (Rule* const rule : of_client_[call.client]) {
+    took(*rule, call.received_ns, call.received_ns - call.sent_ns);
+  }
+}
+
+const std::vector<LiveConditions::Rule*>& LiveConditions::rules_of_node(ObjectId callback) const {
+  static const std::vector<Rule*> none;
+  const ObjectModel& objects = analysis_.objects();
+  const ObjectId node = objects.node_of(objects.callbacks()[callback]);
+  return node < of_node_.size() ? of_node_[node] : none;
+}
+
+void LiveConditions::on_callback_begin(const CallbackInstance& instance) {
+  const std::vector<Rule*>& rules = rules_of_node(instance.callback);
+  if (std::any_of(rules.begin(), rules.end(), [](const Rule* rule) { return rule->condition.kind == Kind::kLate; })) {
+    running_.push_back({instance.thread, instance.callback, instance.begin_ns});
+  }
+}
+
+void LiveConditions::on_callback(const CallbackInstance& instance) {
+  std::set<ConditionId> late;
+  const auto running = std::find_if(running_.begin(), running_.end(), [&](const Running& each) {
+    return each.thread == instance.thread && each.callback == instance.callback && each.begin_ns == instance.begin_ns;
+  });
+  if (running != running_.end()) {
+    late = std::move(running->late);
+    running_.erase(running);
+  }
+  if (!instance.finished) {
+    return;
+  }
+  for (Rule* const rule : rules_of_node(instance.callback)) {
+    if (rule->condition.kind != Kind::kLate) {
+      happened(*rule, instance.end_ns);
+    } else if (!late.contains(rule->id)) {
+      took(*rule, instance.end_ns, instance.end_ns - instance.begin_ns);
+    }
+  }
+}
+
+// What runs for too long is late before it ends.
+void LiveConditions::look_at_running() {
+  std::erase_if(running_, [this](const Running& running) {
+    const std::optional<std::int64_t> vpid = vpid_of(running.thread.process);
+    return !vpid || !processes_.lives(*vpid);
+  });
+  for (Running& running : running_) {
+    const std::int64_t took_ns = now_ns_ - running.begin_ns;
+    for (Rule* const rule : rules_of_node(running.callback)) {
+      if (rule->condition.kind == Kind::kLate && took_ns > rule->condition.max.count() &&
+          running.late.insert(rule->id).second) {
+        took(*rule, now_ns_, took_ns);
+      }
+    }
+  }
+}
+
+void LiveConditions::happened(Rule& rule, std::int64_t time_ns) {
+  check(rule, time_ns);
+  rule.last_ns = std::max(rule.last_ns, time_ns);
+  if (!rule.seen_ns) {
+    rule.seen_ns = time_ns;
+  }
+  if (rule.condition.kind == Kind::kRate) {
+    rule.parts.add(false);
+  } else if (rule.holds) {
+    change(rule, false, seconds_in(time_ns - rule.since_ns));
+  }
+}
+
+// Lost events are no reason for doubt of what took too long, but one of how much of all that was.
+void LiveConditions::took(Rule& rule, std::int64_t time_ns, std::int64_t took_ns) {
+  check(rule, time_ns);
+  if (!rule.seen_ns) {
+    rule.seen_ns = time_ns;
+  }
+  const bool is_too_long = took_ns > rule.condition.max.count();
+  rule.parts.add(is_too_long);
+  const bool is_sure = rule.condition.share >= 1 || time_ns - rule.condition.window.count() >= doubt_ns_;
+  if (!is_too_long || !is_late(rule) || !is_sure) {
+    return;
+  }
+  rule.last_bad_ns = time_ns;
+  if (!rule.holds) {
+    change(rule, true, seconds_in(took_ns));
+  }
+}
+
+bool LiveConditions::is_late(const Rule& rule) const {
+  constexpr double kRounding = 1e-9;
+  return rule.parts.late_share() > 1 - rule.condition.share + kRounding;
+}
+
+void LiveConditions::Parts::add(bool is_late) {
+  const auto place = static_cast<std::size_t>(current % kCount);
+  ++counts[place];
+  ++sum;
+  if (is_late) {
+    ++late[place];
+    ++late_sum;
+  }
+}
+
+void LiveConditions::Parts::step() {
+  ++current;
+  const auto oldest = static_cast<std::size_t>(current % kCount);
+  sum -= std::exchange(counts[oldest], 0);
+  late_sum -= std::exchange(late[oldest], 0);
+}
+
+void LiveConditions::advance(std::int64_t until_ns) {
+  now_ns_ = std::max(now_ns_, until_ns);
+  look_at_running();
+  for (auto& [id, rule] : rules_) {
+    check(rule, now_ns_);
+  }
+}
+
+void LiveConditions::check(Rule& rule, std::int64_t until_ns) {
+  if (rule.condition.kind != Kind::kSilence) {
+    check_window(rule, until_ns);
+  } else if (rule.seen_ns && !rule.holds) {
+    check_silence(rule, until_ns);
+  }
+}
+
+void LiveConditions::check_silence(Rule& rule, std::int64_t until_ns) {
+  const std::int64_t begin_ns = std::max(counts_from(rule), rule.last_ns);
+  if (until_ns - begin_ns < rule.condition.window.count()) {
+    return;
+  }
+  // A node that has ended does not hang.
+  if (rule.condition.subject == LiveCondition::Subject::kNode && !lives(rule)) {
+    rule.seen_ns.reset();
+    return;
+  }
+  rule.since_ns = begin_ns;
+  change(rule, true, seconds_in(until_ns - begin_ns));
+}
+
+void LiveConditions::check_window(Rule& rule, std::int64_t until_ns) {
+  Parts& parts = rule.parts;
+  const std::int64_t part_ns = std::max<std::int64_t>(1, rule.condition.window.count() / Parts::kCount);
+  const std::int64_t now = until_ns / part_ns;
+  if (parts.current == 0 || !rule.seen_ns) {
+    parts = {.current = now};
+    return;
+  }
+  while (parts.current < now) {
+    const std::int64_t end_ns = (parts.current + 1) * part_ns;
+    if (rule.condition.kind == Kind::kLate) {
+      check_late_part(rule, end_ns);
+    } else {
+      check_rate_part(rule, end_ns);
+    }
+    parts.step();
+  }
+}
+
+// For a whole window nothing was too late.
+void LiveConditions::check_late_part(Rule& rule, std::int64_t end_ns) {
+  if (rule.holds && !is_late(rule) && end_ns - rule.last_bad_ns >= rule.condition.window.count()) {
+    change(rule, false, 0);
+  }
+}
+
+// Looks at the window that ends with a part.
+void LiveConditions::check_rate_part(Rule& rule, std::int64_t end_ns) {
+  const LiveCondition& condition = rule.condition;
+  if (end_ns - condition.window.count() < counts_from(rule)) {
+    return;
+  }
+  const double count = static_cast<double>(rule.parts.sum);
+  const double seconds = seconds_in(condition.window.count());
+  // Which messages fall into a window is a matter of its borders, so one of them more or less says nothing.
+  const bool is_bad =
+      condition.below ? count + 1 < *condition.below * seconds : count - 1 > condition.above.value_or(0) * seconds;
+  if (is_bad) {
+    rule.last_bad_ns = end_ns;
+    if (!rule.holds) {
+      change(rule, true, count / seconds);
+    }
+  } else if (rule.holds && end_ns - rule.last_bad_ns >= condition.window.count()) {
+    change(rule, false, count / seconds);
+  }
+}
+
+void LiveConditions::change(Rule& rule, bool holds, double figure) {
+  rule.holds = holds;
+  std::set<std::string> living;
+  std::set<std::string> all;
+  for (const ProcessId process : rule.processes) {
+    const std::optional<std::int64_t> vpid = vpid_of(process);
+    const std::optional<std::string> label = vpid ? processes_.label(*vpid) : std::nullopt;
+    if (label) {
+      all.insert(*label);
+      if (processes_.lives(*vpid)) {
+        living.insert(*label);
+      }
+    }
+  }
+  const std::set<std::string>& told = living.empty() ? all : living;
+  tell_(ConditionChanged{rule.id,
+                         {.holds = holds,
+                          .figure = figure,
+                          .processes = {told.begin(), told.end()},
+                          .late = holds ? rule.parts.late_share() : 0}});
+}
+
+}  // namespace tracing
