@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/control/runtime_directory.hpp"
+#include "base/environment/runtime_directory.hpp"
 
 namespace launch {
 

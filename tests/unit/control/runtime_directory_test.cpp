@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/control/runtime_directory.hpp"
+#include "base/environment/runtime_directory.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launcher/control/runtime_directory.hpp"
+#include "base/environment/runtime_directory.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
