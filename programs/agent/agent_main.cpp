@@ -14,11 +14,13 @@
 #include <string_view>
 #include <utility>
 
+#include "base/environment/own_environment.hpp"
 #include "base/processes/process_mark.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/guardian/guardian.hpp"
 #include "launcher/process/process_runner.hpp"
 #include "programs/agent/agent.hpp"
+#include "programs/agent/agent_relay.hpp"
 
 namespace {
 
@@ -53,6 +55,13 @@ int run_agent() {
   {
     launch::Agent agent(*loop, *runner, *guardian, std::move(in), std::move(out), LAUNCH_VERSION);
     code = agent.run();
+    if (std::optional<launch::Agent::Return> back = agent.take_return()) {
+      sigset_t none;
+      ::sigemptyset(&none);
+      ::sigprocmask(SIG_SETMASK, &none, nullptr);  // the loop, which takes signals, does not run any more
+      code =
+          launch::relay_to_agent(launch::own_environment(), back->request, std::move(back->in), std::move(back->out));
+    }
   }
   guardian.reset();
   std::fflush(stderr);

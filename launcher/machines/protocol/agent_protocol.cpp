@@ -24,6 +24,11 @@ timeval get_time(WireReader& reader) {
   return time;
 }
 
+// It becomes a part of a path.
+bool is_connection_number(const std::string& text) {
+  return text.size() <= kLongestAgentId && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
 }  // namespace
 
 std::string agent_greeting(std::string_view launch_version) {
@@ -85,6 +90,7 @@ std::optional<Frame> Frames::take() {
 std::string to_wire(const AgentSetup& setup) {
   WireWriter writer;
   writer.text(setup.setup).u32(setup.silence_milliseconds).text(setup.name);
+  writer.u32(setup.wait_milliseconds).text(setup.id).text(setup.key);
   return writer.bytes();
 }
 
@@ -94,8 +100,32 @@ AgentSetup parse_agent_setup(std::string_view bytes) {
   setup.setup = reader.text();
   setup.silence_milliseconds = reader.u32();
   setup.name = reader.text();
+  setup.wait_milliseconds = reader.u32();
+  setup.id = reader.text();
+  setup.key = reader.text();
   reader.end();
+  if (!is_connection_number(setup.id) || !is_connection_number(setup.key) || setup.id.empty() != setup.key.empty()) {
+    throw WireError("the name of a connection is none");
+  }
   return setup;
+}
+
+std::string to_wire(const ResumeRequest& request) {
+  return WireWriter().text(request.id).text(request.key).u64(request.received).bytes();
+}
+
+ResumeRequest parse_resume_request(std::string_view bytes) {
+  WireReader reader(bytes);
+  ResumeRequest request;
+  request.id = reader.text();
+  request.key = reader.text();
+  request.received = reader.u64();
+  reader.end();
+  if (request.id.empty() || request.key.empty() || !is_connection_number(request.id) ||
+      !is_connection_number(request.key)) {
+    throw WireError("the name of a connection is none");
+  }
+  return request;
 }
 
 std::string to_wire(const AgentHello& hello) {

@@ -4,7 +4,7 @@
 //
 // The agent begins with a line of text, so that whatever a login prints before can be passed over:
 //
-//   launch-agent 1 1.0.0         the version of this protocol, and that of launch there
+//   launch-agent 2 1.0.0         the version of this protocol, and that of launch there
 //
 // Behind it stand frames, both ways: a byte for the kind, four for the length, the highest first, and the content.
 // The number of a run is chosen by the launcher, a new one for each start of a process.
@@ -24,7 +24,7 @@
 namespace launch {
 
 inline constexpr std::string_view kAgentGreeting = "launch-agent ";
-inline constexpr int kAgentProtocol = 1;
+inline constexpr int kAgentProtocol = 2;
 
 // To the agent.
 enum class ToAgent : std::uint8_t {
@@ -45,7 +45,10 @@ enum class ToAgent : std::uint8_t {
   kTraceFetch = 14,  // u32 trace, u32 bytes: of its files so many more may be sent
   kTraceLeave = 15,  // u32 trace, flag: nothing more is wanted of it; remove its files there, or leave them
   // A snapshot has a number as a trace has, and is fetched and left as one that has ended.
-  kTraceSnapshot = 16  // u32 trace, u32 number of the snapshot, SnapshotOrder (machine_trace.hpp): take one
+  kTraceSnapshot = 16,  // u32 trace, u32 number of the snapshot, SnapshotOrder (machine_trace.hpp): take one
+  // About a connection that is kept (kept_frames.hpp).
+  kResume = 32,      // in place of kSetup: text id and text key of AgentSetup, u64 as in kAcknowledge
+  kAcknowledge = 33  // u64: so many numbered frames of the agent have come
 };
 
 // From the agent.
@@ -70,7 +73,11 @@ enum class FromAgent : std::uint8_t {
   kTraceAll = 17,     // u32 trace, u32: how many files, u64: how many bytes it were
   kTraceFailed = 18,  // u32 trace, text: its files can't be sent
   // A reason for a snapshot.
-  kTraceWish = 19  // u32 trace, flag whether a process has ended, text: its label, or what has happened, i32 exit code
+  kTraceWish = 19,  // u32 trace, flag whether a process has ended, text: its label, or what has happened, i32 exit code
+  // About a connection that is kept.
+  kResumed = 32,      // u64 as in kAcknowledge, a list of u32 run and u64 lines of it that were dropped meanwhile
+  kAcknowledge = 33,  // u64: so many numbered frames of the launcher have come
+  kGone = 34          // text: the agent that is to be resumed is not there
 };
 
 // The longest content of a frame. Specs with parameters and the list of packages are the long ones.
@@ -92,6 +99,9 @@ inline std::uint64_t sum_of(std::string_view bytes, std::uint64_t sum = kSumOfNo
   return sum;
 }
 
+// Digits of the id and of the key of a connection that is kept, at most.
+inline constexpr std::size_t kLongestAgentId = 64;
+
 // What can be asked about files and programs there.
 enum class AgentQuestion : std::uint8_t {
   kFileContent = 1,  // path: its text
@@ -106,6 +116,19 @@ struct AgentSetup {
   std::string setup;                       // the file that is sourced before anything else; empty: none
   std::uint32_t silence_milliseconds = 0;  // a launcher that has said nothing for so long has gone
   std::string name;                        // of the machine, for messages of the guardian
+  // After the loss of the connection the agent waits for so long before it ends what runs.
+  std::uint32_t wait_milliseconds = 0;
+  // With them a launcher can come back meanwhile (kResume): the name of a socket, and what nobody else knows. Empty:
+  // it can't. Both are hexadecimal.
+  std::string id;
+  std::string key;
+};
+
+// What a launcher says in place of it when it comes back.
+struct ResumeRequest {
+  std::string id;
+  std::string key;
+  std::uint64_t received = 0;  // numbered frames of the agent
 };
 
 // A package there, with its programs.
@@ -163,6 +186,8 @@ class Frames {
 
 std::string to_wire(const AgentSetup& setup);
 AgentSetup parse_agent_setup(std::string_view bytes);
+std::string to_wire(const ResumeRequest& request);
+ResumeRequest parse_resume_request(std::string_view bytes);
 std::string to_wire(const AgentHello& hello);
 AgentHello parse_agent_hello(std::string_view bytes);
 

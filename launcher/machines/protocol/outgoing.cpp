@@ -9,8 +9,17 @@
 
 namespace launch {
 
-Outgoing::Outgoing(UniqueFd fd) : fd_(std::move(fd)) {
+Outgoing::Outgoing(UniqueFd fd) {
+  use(std::move(fd));
+}
+
+void Outgoing::use(UniqueFd fd) {
+  const std::lock_guard lock(mutex_);
+  fd_ = std::move(fd);
   ::fcntl(fd_.get(), F_SETFL, ::fcntl(fd_.get(), F_GETFL) | O_NONBLOCK);
+  bytes_.clear();
+  begin_ = 0;
+  broken_ = false;
 }
 
 bool Outgoing::add(std::string_view bytes) {
@@ -37,6 +46,11 @@ void Outgoing::close() {
   fd_.reset();
   bytes_.clear();
   begin_ = 0;
+}
+
+UniqueFd Outgoing::take() {
+  const std::lock_guard lock(mutex_);
+  return std::move(fd_);
 }
 
 int Outgoing::fd() const {

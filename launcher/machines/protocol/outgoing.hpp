@@ -25,6 +25,10 @@ class Outgoing {
   std::size_t waiting() const;
   // Closes the connection. What waits is dropped.
   void close();
+  // Gives the connection away.
+  UniqueFd take();
+  // From now on it is another connection, to which what waits for this one does not belong.
+  void use(UniqueFd fd);
 
   // To be watched; -1 when it is closed.
   int fd() const;
