@@ -34,6 +34,7 @@ namespace launch {
   ACTION(node)                         \
   ACTION(node_container)               \
   ACTION(on_health_change)             \
+  ACTION(on_machine_back)              \
   ACTION(on_machine_lost)              \
   ACTION(on_process_exit)              \
   ACTION(on_process_io)                \

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // <on_process_start>, <on_process_exit>, <on_process_io>, <on_health_change>, <on_start_limit>, <on_machine_lost>,
-// <on_shutdown>, <on_state_transition>, <wait_for>: visit actions when something happens. <unregister_event_handler>: a
-// handler gets no more events.
+// <on_machine_back>, <on_shutdown>, <on_state_transition>, <wait_for>: visit actions when something happens.
+// <unregister_event_handler>: a handler gets no more events.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -115,10 +115,12 @@ ActionType on_start_limit_action() {
                            {process_row<Event>(), once_row<Event>(), handler_name_row<Event>()});
 }
 
-ActionType on_machine_lost_action() {
-  using Event = OnMachineLost;
+namespace {
+
+template <typename Event>
+ActionType of_machine(const char* tag, const char* help) {
   return handler_of<Event>(
-      "on_machine_lost", "Visits its actions when the connection to another machine is lost.",
+      tag, help,
       {{.attribute = {"machine", Type::kText, false, "every machine", "name of the machine"},
         .perform =
             [](const Fields& fields, Scope& scope, Handled<Event>& handled) {
@@ -138,6 +140,18 @@ ActionType on_machine_lost_action() {
           context.machines().require_declared(handled.event.machine, fields.text("machine").where());
         }
       });
+}
+
+}  // namespace
+
+ActionType on_machine_lost_action() {
+  return of_machine<OnMachineLost>("on_machine_lost",
+                                   "Visits its actions when the connection to another machine is lost.");
+}
+
+ActionType on_machine_back_action() {
+  return of_machine<OnMachineBack>(
+      "on_machine_back", "Visits its actions when a connection to another machine that was lost is made again.");
 }
 
 ActionType on_shutdown_action() {

@@ -29,16 +29,28 @@ void perform_launch(const Fields& fields, Scope& scope, MachineDeclaration& mach
   }
 }
 
-void perform_seconds(const char* name, const Fields& fields, Scope& scope, Duration& time) {
-  constexpr double kLeast = 0.5;
+void perform_seconds(const char* name, const Fields& fields, Scope& scope, Duration& time, double least = 0.5) {
   constexpr double kMost = 86400;
   NumberField number = *fields.number(name);
   const double seconds = number.perform(scope);
-  if (!(seconds >= kLeast && seconds <= kMost)) {
-    throw LaunchError(fmt::format("{} must be from {} to {} seconds, got {}", name, kLeast, kMost, seconds),
+  if (!(seconds >= least && seconds <= kMost)) {
+    throw LaunchError(fmt::format("{} must be from {} to {} seconds, got {}", name, least, kMost, seconds),
                       fields.where(name));
   }
   time = as_duration(seconds);
+}
+
+// Each policy has a time of its own.
+void require_fitting_times(const Fields& fields, const MachineDeclaration& machine) {
+  const char* const unused = machine.keep ? "grace" : "keep_for";
+  if (fields.has(unused)) {
+    throw LaunchError(fmt::format("{} has no effect with on_disconnect=\"{}\"", unused, machine.keep ? "keep" : "stop"),
+                      fields.where(unused),
+                      machine.keep ? "keep_for says how long what runs there goes on"
+                                   : "grace says how long what runs there goes on; keep_for belongs to "
+                                     "on_disconnect=\"keep\"",
+                      Finding::kExclusive);
+  }
 }
 
 void require_pattern(const Fields& fields) {
@@ -95,8 +107,24 @@ ActionType machine_action() {
         .perform =
             [](const Fields& fields, Scope& scope, MachineDeclaration& machine) {
               perform_seconds("connect_timeout", fields, scope, machine.connect_timeout);
-            }}},
+            }},
+       {.attribute = {"on_disconnect", AttributeType::kText, false, "stop",
+                      "when the connection is lost: stop, what runs there is ended; or keep, it goes on, and launch "
+                      "connects again"},
+        .place = [](MachineDeclaration& machine) -> SettingPlace {
+          return SettingChoice{
+              {"stop", "keep"}, machine.keep ? 1U : 0U, [&machine](std::size_t word) { machine.keep = word == 1; }};
+        }},
+       {.attribute = {"grace", AttributeType::kFloat, false, "0",
+                      "with stop: seconds after which what runs there is asked to end"},
+        .perform = [](const Fields& fields, Scope& scope,
+                      MachineDeclaration& machine) { perform_seconds("grace", fields, scope, machine.grace, 0); }},
+       {.attribute = {"keep_for", AttributeType::kFloat, false, "300",
+                      "with keep: seconds after which what runs there is asked to end, if launch has not come back"},
+        .perform = [](const Fields& fields, Scope& scope,
+                      MachineDeclaration& machine) { perform_seconds("keep_for", fields, scope, machine.keep_for); }}},
       [](const Fields& fields, LaunchContext& context, MachineDeclaration& machine) {
+        require_fitting_times(fields, machine);
         machine.where = fields.where();
         context.machines().declare(std::move(machine));
       });

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/random.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -22,20 +23,21 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr seconds kPatienceAtEnd{30};            // for the guardian there, which ends what processes have left
-constexpr milliseconds kPatienceAfterLoss{300};  // for the command to say why
-constexpr seconds kLongestAnswer{30};
+constexpr seconds kPatienceAtEnd{30};  // for the guardian there, which ends what processes have left
 constexpr std::size_t kLongestBanner = 64 * 1024;
 constexpr int kPingsForATrace = 32;  // at its begin and at its end, to compare the clocks
-constexpr int kCommandNotFound = 127;
-constexpr int kCommandNotExecutable = 126;
-constexpr int kNoConnectionOfSsh = 255;
 
-// Signals wait while a launch file is visited. One that asks for the end must not wait for a machine that hangs.
-bool is_interrupted() {
-  sigset_t waiting;
-  return ::sigpending(&waiting) == 0 && (sigismember(&waiting, SIGINT) == 1 || sigismember(&waiting, SIGTERM) == 1 ||
-                                         sigismember(&waiting, SIGHUP) == 1 || sigismember(&waiting, SIGQUIT) == 1);
+std::int64_t in_milliseconds(Duration time) {
+  return std::chrono::duration_cast<milliseconds>(time).count();
+}
+
+// 128 bits that nobody can guess, hexadecimal. Throws std::system_error.
+std::string random_number() {
+  std::array<std::uint64_t, 2> bits{};
+  if (::getrandom(bits.data(), sizeof bits, 0) != sizeof bits) {
+    throw std::system_error(errno, std::system_category(), "cannot make a random number");
+  }
+  return fmt::format("{:016x}{:016x}", bits[0], bits[1]);
 }
 
 }  // namespace
@@ -47,16 +49,23 @@ MachineConnection::MachineConnection(EventLoop& loop, Settings settings, Tell te
       runs_(loop, [this](ToAgent kind, const WireWriter& content) { send(kind, content); }),
       traces_(loop, settings_.name, clock_, [this](ToAgent kind, const WireWriter& content) { send(kind, content); }) {
   try {
-    command_ = std::make_unique<ConnectingCommand>(settings_.words);
+    start_command();
   } catch (const std::system_error& error) {
     lost_ = fmt::format("no connection to machine '{}': {}", settings_.name, error.what());
     help_ = "connect needs a command, such as 'ssh robot'";
-    return;
   }
-  outgoing_ = std::make_unique<Outgoing>(command_->take_input());
+}
+
+void MachineConnection::start_command() {
+  command_ = std::make_unique<ConnectingCommand>(settings_.words);
+  if (outgoing_ == nullptr) {
+    outgoing_ = std::make_unique<Outgoing>(command_->take_input());
+  } else {
+    outgoing_->use(command_->take_input());
+  }
   output_source_ = loop_.on_readable(command_->output(), [this] { receive(); });
   error_source_ = loop_.on_readable(command_->error(), [this] {
-    if (!command_->read_error(hello_ ? teller() : nullptr)) {
+    if (!command_->read_error(hello_ && !away_ ? teller() : nullptr)) {  // of tries, the last one is told
       error_source_.reset();
     }
   });
@@ -70,7 +79,11 @@ MachineConnection::~MachineConnection() {
   if (!command_) {
     return;
   }
-  if (!lost_ && greeted_) {
+  if (away_) {
+    away_->timer.reset();
+    tell_(LogLevel::kWarning, fmt::format("machine '{}' is away; the agent there ends {} s after the loss",
+                                          settings_.name, std::chrono::duration<double>(settings_.keep_for).count()));
+  } else if (!lost_ && greeted_) {
     // The guardian there ends what is left, and the command ends when it has.
     outgoing_->add(encode(ToAgent::kEnd));
     const Clock::time_point end = Clock::now() + kPatienceAtEnd;
@@ -89,7 +102,7 @@ MachineConnection::~MachineConnection() {
     command_->read_error(teller());
   }
   outgoing_->close();
-  command_->end(greeted_ && !lost_ ? milliseconds(500) : milliseconds(0));
+  command_->end(greeted_ && !lost_ && !away_ ? milliseconds(500) : milliseconds(0));
 }
 
 std::function<void(std::string_view line)> MachineConnection::teller() const {
@@ -98,11 +111,16 @@ std::function<void(std::string_view line)> MachineConnection::teller() const {
 }
 
 void MachineConnection::send(ToAgent kind, const WireWriter& content) {
-  if (lost_ || !outgoing_) {
+  if (lost_ || !outgoing_ || (away_ && kind == ToAgent::kGroups)) {  // which is asked again and again
     return;
   }
-  if (!outgoing_->add(encode(kind, content))) {
-    return;  // the end of its output comes, too, and tells why
+  std::string frame = encode(kind, content);
+  const bool taken = !away_ && outgoing_->add(frame);
+  if (settings_.keep && is_numbered(kind)) {
+    kept_.add(std::move(frame));
+  }
+  if (!taken) {
+    return;  // the end of its output comes, too, and tells why; or it is sent when the machine is back
   }
   watch_output();
   if (kind == ToAgent::kTraceBegin || kind == ToAgent::kTraceEnd || kind == ToAgent::kTraceSnapshot) {
@@ -151,62 +169,6 @@ void MachineConnection::watch_output() {
   }
 }
 
-const AgentHello& MachineConnection::await_hello() {
-  wait_until([this] { return hello_.has_value(); }, begun_, settings_.connect_timeout, "launch has not answered there");
-  return *hello_;
-}
-
-std::string MachineConnection::ask(AgentQuestion what, const WireWriter& content) {
-  await_hello();
-  const std::uint32_t number = ++questions_;
-  answers_[number];
-  WireWriter question;
-  question.u32(number).u8(static_cast<std::uint8_t>(what)).rest(content.bytes());
-  send(ToAgent::kAsk, question);
-  wait_until([&] { return answers_[number].has_value(); }, Clock::now(), kLongestAnswer, "no answer has come");
-  const Answer answer = *answers_[number];
-  answers_.erase(number);
-  if (!answer.well) {
-    throw std::runtime_error(answer.text);
-  }
-  return answer.text;
-}
-
-void MachineConnection::wait_until(const std::function<bool()>& done, Clock::time_point begin, Duration limit,
-                                   const std::string& what) {
-  const Clock::time_point end = begin + std::chrono::duration_cast<Clock::duration>(limit);
-  while (!done()) {
-    if (lost_) {
-      throw_lost();
-    }
-    if (is_interrupted()) {
-      throw MachineError(fmt::format("interrupted while waiting for machine '{}'", settings_.name), "");
-    }
-    const auto left = std::chrono::duration_cast<milliseconds>(end - Clock::now());
-    if (left <= milliseconds(0)) {
-      lose(fmt::format("{} for {} s", what, std::chrono::duration<double>(limit).count()),
-           fmt::format("see whether '{} true' works; connect_timeout allows more time", settings_.connect));
-      continue;
-    }
-    std::array<pollfd, 3> waits{{{command_->output(), POLLIN, 0},
-                                 {command_->error(), POLLIN, 0},
-                                 {outgoing_->waiting() > 0 ? outgoing_->fd() : -1, POLLOUT, 0}}};
-    constexpr milliseconds kBetweenLooksAtSignals{100};
-    if (::poll(waits.data(), waits.size(), static_cast<int>(std::min(left, kBetweenLooksAtSignals).count())) < 0) {
-      continue;
-    }
-    if (waits[1].revents != 0) {
-      command_->read_error({});
-    }
-    if (waits[2].revents != 0) {
-      outgoing_->flush();
-    }
-    if (waits[0].revents != 0) {
-      receive();
-    }
-  }
-}
-
 void MachineConnection::receive() {
   std::array<char, 64UL * 1024> bytes;  // not initialised: it is read into
   const ssize_t count = ::read(command_->output(), bytes.data(), bytes.size());
@@ -214,7 +176,7 @@ void MachineConnection::receive() {
     return;
   }
   if (count <= 0) {
-    lose("");
+    cut("");
     return;
   }
   last_heard_ = Clock::now();
@@ -231,8 +193,12 @@ void MachineConnection::receive() {
       if (!frame) {
         break;
       }
+      if (is_numbered(static_cast<FromAgent>(frame->kind))) {
+        received_.count(frame->content.size());
+      }
       dispatch(*frame);
     }
+    acknowledge(false);
   } catch (const WireError& error) {
     lose(fmt::format("the agent there sends what it must not: {}", error.what()));
   }
@@ -260,13 +226,13 @@ void MachineConnection::take_greeting() {
             fmt::format("launch has version {} on machine '{}', and {} here",
                         without_control_characters(version->launch_version), settings_.name, settings_.launch_version));
     }
-    AgentSetup setup;
-    setup.setup = settings_.setup;
-    setup.name = settings_.name;
-    // This side tells its user first that the connection is lost.
-    setup.silence_milliseconds =
-        static_cast<std::uint32_t>(2 * std::chrono::duration_cast<milliseconds>(settings_.keepalive).count());
-    send(ToAgent::kSetup, WireWriter().rest(to_wire(setup)));
+    if (away_) {
+      outgoing_->add(
+          encode(ToAgent::kResume, WireWriter().rest(to_wire(ResumeRequest{setup_.id, setup_.key, received_.tell()}))));
+      watch_output();
+    } else {
+      send_setup();
+    }
     return;
   }
   if (before_greeting_.size() > kLongestBanner) {
@@ -274,9 +240,29 @@ void MachineConnection::take_greeting() {
   }
 }
 
+void MachineConnection::send_setup() {
+  setup_.setup = settings_.setup;
+  setup_.name = settings_.name;
+  // This side tells its user first that the connection is lost.
+  setup_.silence_milliseconds = static_cast<std::uint32_t>(in_milliseconds(2 * settings_.keepalive));
+  setup_.wait_milliseconds =
+      static_cast<std::uint32_t>(in_milliseconds(settings_.keep ? settings_.keep_for : settings_.grace));
+  if (settings_.keep) {
+    setup_.id = random_number();
+    setup_.key = random_number();
+  }
+  send(ToAgent::kSetup, WireWriter().rest(to_wire(setup_)));
+}
+
 void MachineConnection::dispatch(const Frame& frame) {
   WireReader reader(frame.content);
   const auto kind = static_cast<FromAgent>(frame.kind);
+  if (away_ && kind == FromAgent::kPong) {
+    return;  // a ping was on its way when the connection was cut
+  }
+  if (away_ && kind != FromAgent::kResumed && kind != FromAgent::kGone && kind != FromAgent::kRefused) {
+    throw WireError("it goes on before it has said how far it got");
+  }
   switch (kind) {
     case FromAgent::kHello:
       if (hello_) {
@@ -299,6 +285,9 @@ void MachineConnection::dispatch(const Frame& frame) {
       const bool well = reader.flag();
       std::string text = reader.text();
       reader.end();
+      if (unawaited_.erase(number) > 0) {
+        return;
+      }
       const auto question = answers_.find(number);
       if (question == answers_.end() || question->second) {
         throw WireError("it answers what nobody has asked");
@@ -308,7 +297,33 @@ void MachineConnection::dispatch(const Frame& frame) {
     }
     case FromAgent::kPong:
       take_pong(reader);
+      acknowledge(true);
       return;
+    case FromAgent::kResumed:
+      if (!away_) {
+        throw WireError("it comes back, and was not away");
+      }
+      come_back(reader);
+      return;
+    case FromAgent::kGone: {
+      const std::string text = without_control_characters(reader.text()).substr(0, 1000);
+      reader.end();
+      if (!away_) {
+        throw WireError("it has gone, and was not away");
+      }
+      away_->gone = true;
+      lose(text);
+      return;
+    }
+    case FromAgent::kAcknowledge: {
+      const std::uint64_t count = reader.u64();
+      reader.end();
+      if (!settings_.keep) {
+        throw WireError("it acknowledges what has no number");
+      }
+      kept_.acknowledge(count);
+      return;
+    }
     case FromAgent::kStarted:
     case FromAgent::kFailed:
     case FromAgent::kOutput:
@@ -325,76 +340,6 @@ void MachineConnection::dispatch(const Frame& frame) {
     return;
   }
   throw WireError("it sends a message of an unknown kind");
-}
-
-// While the loop is kept busy, as by a function of a Python launch file, the agent's messages wait in the pipe. So a
-// look at the clock counts only if the pipe is empty.
-void MachineConnection::watch_silence() {
-  const Duration between = settings_.keepalive / 4;
-  silence_timer_ = loop_.after(between, [this] {
-    pollfd readable{command_->output(), POLLIN, 0};
-    if (::poll(&readable, 1, 0) == 1 || suspended_) {
-      last_heard_ = Clock::now();
-    }
-    if (Clock::now() - last_heard_ > settings_.keepalive) {
-      lose(fmt::format("nothing has come for {} s", std::chrono::duration<double>(settings_.keepalive).count()));
-    } else if (!lost_) {
-      watch_silence();
-    }
-  });
-}
-
-std::string MachineConnection::last_words() const {
-  constexpr std::size_t kShown = 3;
-  const std::deque<std::string>& lines = command_->last_lines();
-  const auto first = lines.begin() + static_cast<std::ptrdiff_t>(lines.size() - std::min(lines.size(), kShown));
-  return fmt::format("{}", fmt::join(first, lines.end(), " | "));
-}
-
-void MachineConnection::lose(const std::string& reason, std::string help) {
-  if (lost_) {
-    return;
-  }
-  output_source_.reset();
-  error_source_.reset();
-  write_source_.reset();
-  silence_timer_.reset();
-  outgoing_->close();
-  const std::string how = command_->end(reason.empty() ? kPatienceAfterLoss : milliseconds(0));
-  const bool was_there = hello_.has_value();
-  std::string why = reason.empty() ? fmt::format("'{}' {}", settings_.connect, how) : reason;
-  if (!was_there && reason.empty()) {
-    const int code = command_->exit_code();
-    if (code == kCommandNotFound || code == kCommandNotExecutable) {
-      help = fmt::format("is '{}' there? launch=\"PATH\" says where launch is on the machine",
-                         settings_.words[settings_.words.size() - 2]);
-    } else if (code == kNoConnectionOfSsh) {
-      help = fmt::format("see whether '{} true' works", settings_.connect);
-    } else {
-      why += " before launch answered there";
-      help = fmt::format("see what '{} {} --version' prints", settings_.connect,
-                         settings_.words[settings_.words.size() - 2]);
-    }
-  }
-  if (const std::string words = last_words(); !words.empty() && !was_there) {
-    help = fmt::format("it wrote: {}{}{}", words, help.empty() ? "" : "; ", help);
-  }
-  help_ = std::move(help);
-  lost_ = fmt::format("{} machine '{}'{}: {}", was_there ? "the connection to" : "no connection to", settings_.name,
-                      was_there ? " is lost" : "", why);
-  if (was_there) {
-    const std::string labels = runs_.running_labels();
-    const std::string rest = labels.empty() ? "" : "; what ran there: " + labels + "; the agent there ends it";
-    const std::string words = command_->last_lines().empty() ? "" : "; it wrote last: " + command_->last_lines().back();
-    tell_(LogLevel::kError, *lost_ + words + rest);
-    observe_loss_({settings_.name, why, labels});
-  }
-  runs_.lose(*lost_);
-  traces_.lose(*lost_);
-}
-
-void MachineConnection::throw_lost() const {
-  throw MachineError(*lost_, help_);
 }
 
 }  // namespace launch

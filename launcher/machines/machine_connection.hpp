@@ -4,6 +4,9 @@
 //
 // A launch file is visited without the loop, so what a visit asks is waited for here. Everything else goes through the
 // loop. What the agent sends is not trusted: bytes that are no message of the protocol end the connection.
+//
+// A connection that is kept may be cut: its machine is away then, what is sent waits, and the command is started again
+// until it has brought the launcher back to the agent (machine_loss.cpp). Otherwise a connection that is cut is lost.
 #pragma once
 
 #include <atomic>
@@ -13,6 +16,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -21,6 +25,7 @@
 #include "launcher/machines/clock_offset.hpp"
 #include "launcher/machines/connecting_command.hpp"
 #include "launcher/machines/protocol/agent_protocol.hpp"
+#include "launcher/machines/protocol/kept_frames.hpp"
 #include "launcher/machines/protocol/outgoing.hpp"
 #include "launcher/machines/remote_runs.hpp"
 #include "launcher/machines/remote_traces.hpp"
@@ -46,6 +51,9 @@ class MachineConnection {
     std::string setup;
     Duration keepalive{0};        // a connection that is silent for so long is lost
     Duration connect_timeout{0};  // until the agent must have told of its machine
+    Duration grace{0};            // without `keep`: what runs there goes on for so long when the connection is cut
+    bool keep = false;
+    Duration keep_for{0};  // so long what runs there goes on without the launcher
     std::string launch_version;
   };
   using Tell = std::function<void(LogLevel level, const std::string& text)>;
@@ -69,7 +77,13 @@ class MachineConnection {
   const std::string& why_lost() const { return *lost_; }
 
   // By the loop, once; what ran there has not ended yet for the supervisor. Not for a connection that was never made.
+  // With `keep` each time that the machine is away from now on.
   void observe_loss(std::function<void(const LostMachine&)> observer) { observe_loss_ = std::move(observer); }
+  void observe_return(std::function<void(const ReturnedMachine&)> observer) { observe_return_ = std::move(observer); }
+
+  bool is_away() const { return away_ != nullptr; }
+  // The launch ends: from now on the machine may be away for a few seconds only, before it is lost.
+  void expect_end();
 
   // For the process runner (machine_runner.cpp). What is sent to a lost connection is dropped.
   RemoteRuns& runs() { return runs_; }
@@ -83,27 +97,54 @@ class MachineConnection {
 
  private:
   using Clock = std::chrono::steady_clock;
+  // A machine whose connection is kept, and cut now.
+  struct Away {
+    std::string why;
+    Clock::time_point begin;
+    Clock::time_point end;  // then it is lost
+    Duration pause{0};      // before the next try
+    std::string last;       // why the last try has failed
+    bool gone = false;      // the agent
+    EventLoop::SourcePtr timer{};
+  };
 
   // Waits until `done` says so, no longer than `limit` from `begin` on. Throws MachineError; `what` says what is
   // missing.
   void wait_until(const std::function<bool()>& done, Clock::time_point begin, Duration limit, const std::string& what);
+  // Starts the command. Throws SpawnError.
+  void start_command();
   void receive();
   void take_greeting();
+  void send_setup();
   void dispatch(const Frame& frame);
   void take_pong(WireReader& reader);
   void watch_output();
   void watch_silence();
-  // The connection is no more. `reason` says why, if it is known better than by the end of the command.
+  // What the command connected is no more; returns how the command has ended.
+  std::string end_command(bool by_itself);
+  // The connection is no more, for good unless it is kept. `reason` says why, if it is known better than by the end of
+  // the command.
+  void cut(const std::string& reason);
+  // It is no more, for good.
   void lose(const std::string& reason, std::string help = {});
+  void be_away(const std::string& why);
+  void try_later();
+  void try_again();
+  void await_greeting();
+  void come_back(WireReader& reader);
+  void acknowledge(bool at_once);
   // Passes on a line that the command has written to its standard error.
   std::function<void(std::string_view line)> teller() const;
   std::string last_words() const;
+  std::string last_words_of_agent() const;
+  std::string who_ends_it(const Away* away) const;
   [[noreturn]] void throw_lost() const;
 
   EventLoop& loop_;
   Settings settings_;
   Tell tell_;
   std::function<void(const LostMachine&)> observe_loss_ = [](const LostMachine&) {};
+  std::function<void(const ReturnedMachine&)> observe_return_ = [](const ReturnedMachine&) {};
   std::unique_ptr<ConnectingCommand> command_;
   std::unique_ptr<Outgoing> outgoing_;
   RemoteRuns runs_;
@@ -120,6 +161,13 @@ class MachineConnection {
   Clock::time_point begun_ = Clock::now();
   Clock::time_point last_heard_ = Clock::now();
   bool suspended_ = false;
+
+  // Of a connection that is kept.
+  AgentSetup setup_;
+  KeptFrames kept_;
+  ReceivedFrames received_;
+  std::unique_ptr<Away> away_;  // null: there is a connection, or none any more
+  bool ends_ = false;           // the launch
   std::atomic<bool> expects_pings_ = false;
 
   struct Answer {
@@ -128,6 +176,7 @@ class MachineConnection {
   };
   std::uint32_t questions_ = 0;
   std::map<std::uint32_t, std::optional<Answer>> answers_;
+  std::set<std::uint32_t> unawaited_;  // questions whose answers come too late
 
   EventLoop::SourcePtr output_source_;
   EventLoop::SourcePtr error_source_;

@@ -53,11 +53,19 @@ void MachineConnections::connect(const MachineDeclaration& machine) {
                                                                          .setup = machine.setup,
                                                                          .keepalive = machine.keepalive,
                                                                          .connect_timeout = machine.connect_timeout,
+                                                                         .grace = machine.grace,
+                                                                         .keep = machine.keep,
+                                                                         .keep_for = machine.keep_for,
                                                                          .launch_version = launch_version_},
                                                                         tell_}}));
   machines_.at(machine.name)->connection.observe_loss([this](const LostMachine& lost) {
     if (observe_losses_) {
       observe_losses_(lost);
+    }
+  });
+  machines_.at(machine.name)->connection.observe_return([this](const ReturnedMachine& returned) {
+    if (observe_returns_) {
+      observe_returns_(returned);
     }
   });
   const Duration between = machine.keepalive / 4;
@@ -120,6 +128,17 @@ std::unique_ptr<MachineRecorder> MachineConnections::recorder(const std::string&
 RemoteRuns* MachineConnections::runs(const std::string& machine) {
   const auto found = machines_.find(machine);
   return found == machines_.end() ? nullptr : &found->second->connection.runs();
+}
+
+bool MachineConnections::is_away(const std::string& machine) const {
+  const auto found = machines_.find(machine);
+  return found != machines_.end() && found->second->connection.is_away();
+}
+
+void MachineConnections::expect_end() {
+  for (const auto& [name, machine] : machines_) {
+    machine->connection.expect_end();
+  }
 }
 
 void MachineConnections::suspend(bool stops) {

@@ -33,11 +33,17 @@ class MachineConnections : public MachineConnector, public MachineRecorders {
   std::vector<std::string> connected() const override;
   std::unique_ptr<MachineRecorder> recorder(const std::string& machine) override;
 
-  // The observer gets each machine whose connection is lost while the loop runs.
+  // The observer gets each machine whose connection is lost while the loop runs, for good or for now.
   void observe_losses(std::function<void(const LostMachine&)> observer) { observe_losses_ = std::move(observer); }
+  // The observer gets each machine to which there is a connection again.
+  void observe_returns(std::function<void(const ReturnedMachine&)> observer) { observe_returns_ = std::move(observer); }
 
   // Null if there was never a connection to the machine.
   RemoteRuns* runs(const std::string& machine);
+  // Whether its connection is cut, and is to be made again.
+  bool is_away(const std::string& machine) const;
+  // The launch ends: a machine that is away is tried for a few seconds more.
+  void expect_end();
   // The launcher is stopped from now on, or goes on (Ctrl-Z).
   void suspend(bool stops);
 
@@ -50,6 +56,7 @@ class MachineConnections : public MachineConnector, public MachineRecorders {
   std::string launch_version_;
   MachineConnection::Tell tell_;
   std::function<void(const LostMachine&)> observe_losses_;
+  std::function<void(const ReturnedMachine&)> observe_returns_;
 
   std::mutex mutex_;  // of what follows: the thread reads it
   std::map<std::string, std::unique_ptr<Machine>> machines_;

@@ -302,6 +302,11 @@ void RemoteRuns::lose(const std::string& why) {
   }
 }
 
+std::string RemoteRuns::label(std::uint32_t number) const {
+  const auto found = runs_.find(number);
+  return found == runs_.end() ? "a process that has ended" : found->second->label;
+}
+
 std::string RemoteRuns::running_labels() const {
   constexpr int kShown = 10;
   std::string text;

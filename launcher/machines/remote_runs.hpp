@@ -49,6 +49,8 @@ class RemoteRuns {
 
   // "talker-1, listener-2"; those that have not ended.
   std::string running_labels() const;
+  // Of a run that has not been reaped; else "a process that has ended".
+  std::string label(std::uint32_t number) const;
 
  private:
   struct Stream {

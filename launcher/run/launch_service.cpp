@@ -226,6 +226,12 @@ void LaunchService::use_condition_watch(ConditionWatch& watch) {
               }});
 }
 
+void LaunchService::on_returned_machine(const ReturnedMachine& returned) {
+  if (phase_ == Phase::kRunning) {
+    handlers_.on_returned_machine(returned);
+  }
+}
+
 void LaunchService::traverse(const SourceRange& where, Asker asker, const std::function<void()>& traversal) {
   const std::int64_t begin = monotonic_time();
   try {

@@ -74,6 +74,8 @@ class LaunchService {
 
   // By a source of the loop: the connection to a machine has been lost.
   void on_lost_machine(const LostMachine& lost);
+  // The same, of one whose connection is made again.
+  void on_returned_machine(const ReturnedMachine& returned);
 
   // For a test of the system that is launched.
   SystemTest& test() { return test_; }
@@ -89,6 +91,9 @@ class LaunchService {
   void observe_suspension(std::function<void(bool stops)> observer) {
     signals_.observe_suspension(std::move(observer));
   }
+
+  // Called once, when the launch begins to end.
+  void observe_end(std::function<void()> observer) { on_end_ = std::move(observer); }
 
   // Called once: what the file asks for has started, each process after what it depends on.
   void observe_started(std::function<void()> observer) { on_started_ = std::move(observer); }
@@ -161,6 +166,7 @@ class LaunchService {
   // Checks later, because the code that reports an end may still be at work.
   void post_check();
   void end_scopes();
+  void tell_end();
 
   LaunchContext& context_;
   EventLoop& loop_;
@@ -171,6 +177,7 @@ class LaunchService {
   std::function<void()> on_started_;
   std::function<void(const ConditionEvent&)> on_condition_;
   bool has_trace_ = false;
+  std::function<void()> on_end_;
   std::vector<TimedStep> timing_;
 
   Phase phase_ = Phase::kRunning;

@@ -23,6 +23,7 @@ void LaunchService::shutdown(const std::string& reason) {
     test_.on_shutdown();
     health_.monitor.shutdown();
     steering_.tell_end(reason);
+    tell_end();
     rounds_.close();
     timers_.shutdown();
     processes_.shutdown();
@@ -33,6 +34,12 @@ void LaunchService::shutdown(const std::string& reason) {
     farewell_.say(std::move(farewell));
   }
   check_finished();
+}
+
+void LaunchService::tell_end() {
+  if (on_end_) {
+    std::exchange(on_end_, nullptr)();
+  }
 }
 
 Requests LaunchService::visit_farewell(const Invocation& invocation) {
@@ -95,6 +102,7 @@ void LaunchService::post_check() {
 void LaunchService::end_scopes() {
   if (phase_ == Phase::kRunning) {
     steering_.tell_end("idle");
+    tell_end();
   }
   phase_ = Phase::kEndingScopes;
   handlers_.shutdown("idle");

@@ -25,6 +25,10 @@ struct Description {
     return lost.machine.empty() ? "on_machine_lost of any machine"
                                 : fmt::format("on_machine_lost of machine '{}'", lost.machine);
   }
+  std::string operator()(const OnMachineBack& back) const {
+    return back.machine.empty() ? "on_machine_back of any machine"
+                                : fmt::format("on_machine_back of machine '{}'", back.machine);
+  }
   std::string operator()(const OnShutdown&) const { return "on_shutdown"; }
   std::string operator()(const OnStateTransition& transition) const {
     std::string text = fmt::format("on_state_transition of '{}'", transition.node);

@@ -38,6 +38,10 @@ struct OnStartLimit {};
 struct OnMachineLost {
   std::string machine;
 };
+// There is a connection to a machine again; empty: to any.
+struct OnMachineBack {
+  std::string machine;
+};
 // Processes that the handler starts run before the others are asked to end.
 struct OnShutdown {
   Duration timeout = std::chrono::seconds(5);  // the longest time that they may take
@@ -59,8 +63,8 @@ struct OnceReady {
 };
 
 struct EventHandler {
-  std::variant<OnProcessStart, OnProcessExit, OnProcessIo, OnHealthChange, OnStartLimit, OnMachineLost, OnShutdown,
-               OnStateTransition, OnCondition, OnceReady>
+  std::variant<OnProcessStart, OnProcessExit, OnProcessIo, OnHealthChange, OnStartLimit, OnMachineLost, OnMachineBack,
+               OnShutdown, OnStateTransition, OnCondition, OnceReady>
       event;
   std::string name;     // the name for unregister_event_handler; empty: none
   std::string process;  // a name (process_table.hpp); empty: every process

@@ -33,6 +33,8 @@ EventValues made_up_event(const EventHandler& handler) {
     values.emplace_back("starts", "1");
   } else if (const auto* const lost = std::get_if<OnMachineLost>(&handler.event)) {
     values = {{"machine", lost->machine.empty() ? "machine" : lost->machine}, {"reason", ""}, {"processes", ""}};
+  } else if (const auto* const back = std::get_if<OnMachineBack>(&handler.event)) {
+    values = {{"machine", back->machine.empty() ? "machine" : back->machine}, {"for", "1.0"}, {"dropped", "0"}};
   } else if (std::holds_alternative<OnShutdown>(handler.event)) {
     values = {{"reason", ""}};
   } else if (const auto* const transition = std::get_if<OnStateTransition>(&handler.event)) {

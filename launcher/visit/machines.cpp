@@ -80,7 +80,8 @@ bool is_machine_name(const std::string& name) {
 
 bool MachineDeclaration::same_as(const MachineDeclaration& other) const {
   return name == other.name && connect == other.connect && launch == other.launch && setup == other.setup &&
-         keepalive == other.keepalive && connect_timeout == other.connect_timeout;
+         keepalive == other.keepalive && connect_timeout == other.connect_timeout && keep == other.keep &&
+         grace == other.grace && keep_for == other.keep_for;
 }
 
 void Machines::set_commands(std::map<std::string, std::string> commands) {

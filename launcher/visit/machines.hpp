@@ -2,6 +2,7 @@
 // The machines that a launch file declares, and who connects to them.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -29,7 +30,12 @@ struct MachineDeclaration {
   std::string setup;                             // a file that is sourced there before anything else
   Duration keepalive = std::chrono::seconds(5);  // a connection that is silent for so long is lost
   Duration connect_timeout = std::chrono::seconds(30);  // until launch must have answered there
-  SourceRange where;                                    // none: the command line
+  // When the connection is lost: what runs there ends after the grace; or it goes on, the launcher connects again, and
+  // what runs ends when that has not worked for `keep_for`.
+  bool keep = false;
+  Duration grace{0};
+  Duration keep_for = std::chrono::minutes(5);
+  SourceRange where;  // none: the command line
   SourceRange connect_where;
 
   bool is_local() const { return connect == kLocalMachine; }
@@ -37,11 +43,18 @@ struct MachineDeclaration {
   bool same_as(const MachineDeclaration& other) const;
 };
 
-// The connection to a machine has ended before the launch.
+// The connection to a machine has ended before the launch, or is cut for now.
 struct LostMachine {
   std::string name;
   std::string reason;     // in one line
   std::string processes;  // what ran there: "talker-1, listener-2"
+};
+
+// The connection to a machine was cut and is made again. What ran there has gone on.
+struct ReturnedMachine {
+  std::string name;
+  Duration away{0};
+  std::uint64_t dropped = 0;  // lines of output
 };
 
 // What an <assign_machine> says: processes that fit all its patterns run on the machine, whatever their launch file

@@ -165,7 +165,6 @@ void Agent::dispatch(const Frame& frame) {
     case ToAgent::kTraceFetch:
     case ToAgent::kTraceLeave:
     case ToAgent::kTraceSnapshot:
-    case ToAgent::kTraceSnapshot:
       traces_.receive(kind, reader);
       return;
     case ToAgent::kResume:

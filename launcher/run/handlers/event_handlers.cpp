@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/run/handlers/event_handlers.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <chrono>
 #include <iterator>
 
 namespace launch {
@@ -131,16 +134,16 @@ std::vector<Invocation> EventHandlers::on_line(const ProcessSpec& spec, const st
       });
 }
 
-std::vector<Invocation> EventHandlers::on_lost_machine(const LostMachine& lost) {
+template <typename Event>
+std::vector<Invocation> EventHandlers::take_of_machine(const std::string& machine, const EventValues& values) {
   const auto any = by_process_.find("");
   if (any == by_process_.end()) {
     return {};
   }
   std::vector<Invocation> invocations;
-  const EventValues values = {{"machine", lost.name}, {"reason", lost.reason}, {"processes", lost.processes}};
   std::erase_if(any->second, [&](const Registered& each) {
-    const auto* const wanted = std::get_if<OnMachineLost>(&each.handler->event);
-    if (wanted == nullptr || (!wanted->machine.empty() && wanted->machine != lost.name)) {
+    const auto* const wanted = std::get_if<Event>(&each.handler->event);
+    if (wanted == nullptr || (!wanted->machine.empty() && wanted->machine != machine)) {
       return false;
     }
     invocations.push_back({each.handler, values});
@@ -149,11 +152,16 @@ std::vector<Invocation> EventHandlers::on_lost_machine(const LostMachine& lost) 
   return invocations;
 }
 
-bool EventHandlers::has_on_shutdown() const {
-  const auto any = by_process_.find("");
-  return any != by_process_.end() && std::any_of(any->second.begin(), any->second.end(), [](const Registered& each) {
-           return std::holds_alternative<OnShutdown>(each.handler->event);
-         });
+std::vector<Invocation> EventHandlers::on_lost_machine(const LostMachine& lost) {
+  return take_of_machine<OnMachineLost>(
+      lost.name, {{"machine", lost.name}, {"reason", lost.reason}, {"processes", lost.processes}});
+}
+
+std::vector<Invocation> EventHandlers::on_returned_machine(const ReturnedMachine& returned) {
+  return take_of_machine<OnMachineBack>(
+      returned.name, {{"machine", returned.name},
+                      {"for", fmt::format("{:.1f}", std::chrono::duration<double>(returned.away).count())},
+                      {"dropped", std::to_string(returned.dropped)}});
 }
 
 std::vector<Invocation> EventHandlers::on_shutdown(const std::string& reason) {

@@ -29,6 +29,7 @@ class EventHandlers {
   std::vector<Invocation> on_line(const ProcessSpec& spec, const std::string& label, OutputStream stream,
                                   std::string_view line);
   std::vector<Invocation> on_lost_machine(const LostMachine& lost);
+  std::vector<Invocation> on_returned_machine(const ReturnedMachine& returned);
   std::vector<Invocation> on_shutdown(const std::string& reason);
 
   bool has_on_shutdown() const;
@@ -41,6 +42,9 @@ class EventHandlers {
     std::shared_ptr<const EventHandler> handler;
   };
 
+  // Takes those of the machine, for an event that machines have.
+  template <typename Event>
+  std::vector<Invocation> take_of_machine(const std::string& machine, const EventValues& values);
   // Takes the handlers of the process for which `concerned` is true.
   template <typename Concerned, typename Values>
   std::vector<Invocation> take(const ProcessSpec& spec, const std::string& label, Concerned concerned, Values values);

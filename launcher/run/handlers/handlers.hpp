@@ -46,6 +46,7 @@ class Handlers {
     queue_.add(events_.on_line(spec, label, stream, line));
   }
   void on_lost_machine(const LostMachine& lost) { queue_.add(events_.on_lost_machine(lost)); }
+  void on_returned_machine(const ReturnedMachine& returned) { queue_.add(events_.on_returned_machine(returned)); }
   // Ends all watches outside the launch. Returns the handlers of the shutdown, which are not in the queue.
   std::vector<Invocation> shutdown(const std::string& reason);
 

@@ -156,6 +156,9 @@ std::string Steering::carry_out(Request request, const SteeredProcess& process, 
   }
   const ProcessView view = supervisor_.view(process.id);
   const bool is_over = view.state == ProcessState::kDone;
+  if (!is_over && !view.spec.machine.empty() && reaches_ && !reaches_(view.spec.machine)) {
+    return fmt::format("runs on machine '{}', which is away", view.spec.machine);
+  }
   switch (request) {
     case Request::kStop:
       if (is_over) {

@@ -55,6 +55,9 @@ class Steering {
   Steering(ProcessSupervisor& supervisor, Processes& processes, Callbacks callbacks)
       : supervisor_(supervisor), processes_(processes), callbacks_(std::move(callbacks)) {}
 
+  // Tells whether a machine can be reached now. Without it each can.
+  void use_reach(std::function<bool(const std::string& machine)> reaches) { reaches_ = std::move(reaches); }
+
   // In the order in which they were asked for.
   std::vector<SteeredProcess> processes() const;
   // Which processes are meant: those that a pattern matches, and those in one of the groups, also in a group within it.
@@ -96,6 +99,7 @@ class Steering {
   Processes& processes_;
   Callbacks callbacks_;
   std::function<void(const std::string& reason)> on_end_;
+  std::function<bool(const std::string& machine)> reaches_;
   std::set<ProcessId> stopped_;  // by ask(), and not started since
 };
 

@@ -173,6 +173,9 @@ int run(const CommandLine& command, const Registry& registry, const Environment&
   service.use_condition_watch(conditions);
   service.use_guardian(guardian);
   machines.observe_losses([&service](const LostMachine& lost) { service.on_lost_machine(lost); });
+  machines.observe_returns([&service](const ReturnedMachine& returned) { service.on_returned_machine(returned); });
+  service.observe_end([&machines] { machines.expect_end(); });
+  service.steering().use_reach([&machines](const std::string& machine) { return !machines.is_away(machine); });
   service.give_up_by([&output] {
     output.show_status("");
     end_of_guest();

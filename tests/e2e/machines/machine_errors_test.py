@@ -91,6 +91,11 @@ class MachineErrors(MachinesTest):
                 ('<machine name="a b" connect="ssh x"/>', "error: 'a b' is no name for a machine"),
                 ('<machine name="a" connect=" "/>', 'error: connect is empty'),
                 ('<machine name="a" connect="ssh x" launch="launch; rm -rf ."/>', "error: 'launch; rm -rf .' is no plain path of a program"),
+                ('<machine name="a" connect="ssh x" grace="-1"/>', 'error: grace must be from 0 to 86400 seconds, got -1'),
+                ('<machine name="a" connect="ssh x" on_disconnect="wait"/>', "error: on_disconnect is expected to be stop or keep, got 'wait'"),
+                ('<machine name="a" connect="ssh x" on_disconnect="keep" grace="1"/>',
+                 'error: grace has no effect with on_disconnect="keep"'),
+                ('<machine name="a" connect="ssh x" keep_for="1"/>', 'error: keep_for has no effect with on_disconnect="stop"'),
                 ('<machine name="a" connect="ssh x" keepalive="0"/>', 'error: keepalive must be from 0.5 to 86400 seconds, got 0'),
                 ('<machine name="a" connect="ssh x"/><machine name="a" connect="ssh y"/>',
                  "error: machine 'a' is declared differently in system.launch.xml:2:")):

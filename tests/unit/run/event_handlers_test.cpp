@@ -181,6 +181,24 @@ TEST_F(EventHandlersTest, OnMachineLostHearsOfItsMachineOrOfEach) {
   EXPECT_THAT(journal_, testing::Contains("start instead-2"));
 }
 
+TEST_F(EventHandlersTest, OnMachineBackHearsOfItsMachineOrOfEach) {
+  runner_.default_script({.exits_after = 3s});
+  LaunchService* launch = nullptr;
+  on_service = [&](LaunchService& service) { launch = &service; };
+  const auto first = loop_.after(1s, [&] { launch->on_returned_machine({"arm", 3200ms, 17}); });
+  const auto second = loop_.after(2s, [&] { launch->on_returned_machine({"base", 1s, 0}); });
+  EXPECT_EQ(run(R"xml(<executable cmd="a"/>
+                   <machine name="arm" connect="local"/>
+                   <on_machine_back machine="arm">
+                     <log message="$(var event.machine): $(var event.for) s, $(var event.dropped) lines"/>
+                   </on_machine_back>
+                   <on_machine_back><log message="each: $(var event.machine)"/></on_machine_back>
+                   <on_machine_lost><log message="never"/></on_machine_lost>)xml"),
+            0);
+  EXPECT_THAT(messages_,
+              ElementsAre("[launch.user] arm: 3.2 s, 17 lines", "[launch.user] each: arm", "[launch.user] each: base"));
+}
+
 TEST_F(EventHandlersTest, HandlersAloneKeepNothingAlive) {
   EXPECT_EQ(run(R"xml(<on_process_exit><log message="never"/></on_process_exit>)xml"), 0);
   EXPECT_THAT(messages_, IsEmpty());

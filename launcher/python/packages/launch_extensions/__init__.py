@@ -30,16 +30,19 @@ class Machine(Action):
     """
     Declares another machine, on which the actions with `machine=name` run; <machine> in XML.
 
-    `connect` is the command that leads there, such as 'ssh robot'. `keepalive` and `connect_timeout` are seconds.
+    `connect` is the command that leads there, such as 'ssh robot'. `keepalive`, `connect_timeout`, `grace` and `keep_for` are
+    seconds. `on_disconnect` is 'stop' or 'keep'.
     """
 
-    def __init__(self, name, connect, *, launch=None, setup=None, keepalive=None, connect_timeout=None, **kwargs):
+    def __init__(self, name, connect, *, launch=None, setup=None, keepalive=None, connect_timeout=None, on_disconnect=None,
+                 grace=None, keep_for=None, **kwargs):
         super().__init__(**kwargs)
         self._attributes = [('name', text(name, 'name')), ('connect', text(connect, 'connect'))]
-        self._attributes += [(given, text(value, given)) for given, value in (('launch', launch), ('setup', setup))
-                             if value is not None]
+        self._attributes += [(given, text(value, given)) for given, value in
+                             (('launch', launch), ('setup', setup), ('on_disconnect', on_disconnect)) if value is not None]
         self._attributes += [(given, number(value, given)) for given, value in
-                             (('keepalive', keepalive), ('connect_timeout', connect_timeout)) if value is not None]
+                             (('keepalive', keepalive), ('connect_timeout', connect_timeout), ('grace', grace),
+                              ('keep_for', keep_for)) if value is not None]
 
     def _tags(self):
         return [entity('machine', self._place(), self._with_places([*self._attributes, *self._when()]))]
@@ -112,15 +115,25 @@ class OnHealthChange(_OfProcess):
             self._attributes.append(('to', text(to, 'to')))
 
 
-class OnMachineLost(_OfEvent):
-    """Visits its actions when the connection to another machine is lost; <on_machine_lost> in XML."""
-
-    _TAG = 'on_machine_lost'
+class _OfMachine(_OfEvent):
+    """A handler of an event of another machine, or of every other machine."""
 
     def __init__(self, actions, *, machine=None, **kwargs):
         super().__init__(actions, **kwargs)
         if machine is not None:
             self._attributes.append(('machine', text(machine, 'machine')))
+
+
+class OnMachineLost(_OfMachine):
+    """Visits its actions when the connection to another machine is lost; <on_machine_lost> in XML."""
+
+    _TAG = 'on_machine_lost'
+
+
+class OnMachineBack(_OfMachine):
+    """Visits its actions when a connection to another machine that was lost is made again; <on_machine_back> in XML."""
+
+    _TAG = 'on_machine_back'
 
 
 class OnStartLimit(_OfProcess):
@@ -162,22 +175,5 @@ class OnRate(_OfCondition):
                                  if value is not None]
 
 
-class OnLate(_OfCondition):
-    """
-    Visits its actions each time something takes longer than `max`; <on_late> in XML.
-
-    That is a message on `topic` from sending to the callback, a callback of `node`, or a response of `service`. In
-    `window`, `share` of all may not take longer.
-    """
-
-    _TAG = 'on_late'
-
-    def __init__(self, actions, *, max, topic=None, node=None, service=None, share=None, window=None, **kwargs):
-        super().__init__(actions, (('topic', topic), ('node', node), ('service', service), ('max', max),
-                                   ('window', window)), **kwargs)
-        if share is not None:
-            self._attributes.insert(0, ('share', number(share, 'share')))
-
-
-__all__ = ['AssignMachine', 'Machine', 'OnHealthChange', 'OnLate', 'OnMachineLost', 'OnRate', 'OnSilence', 'OnStartLimit',
-           'RestartProcess', 'WaitFor']
+__all__ = ['AssignMachine', 'Machine', 'OnHealthChange', 'OnLate', 'OnMachineBack', 'OnMachineLost', 'OnRate', 'OnSilence',
+           'OnStartLimit', 'RestartProcess', 'WaitFor']
