@@ -76,6 +76,21 @@ class Host:
             host.run('sh', '-c', f'PATH=$PATH:/usr/sbin:/sbin; ip address add {network}.{number}/24 dev cable; ip link set cable up; '
                                  'ip route add 224.0.0.0/4 dev cable')
 
+    def cut(self):
+        """Kills what connects to it; nobody can connect until open_door()."""
+        door = f'{self.folder}/door'
+        os.rename(door, f'{door}.shut')
+        for entry in Path('/proc').iterdir():
+            try:
+                words = (entry / 'cmdline').read_bytes().split(b'\0') if entry.name.isdigit() else ()
+                if b'enter' in words and door.encode() in words:
+                    os.kill(int(entry.name), signal.SIGKILL)
+            except OSError:
+                continue
+
+    def open_door(self):
+        os.rename(self.folder / 'door.shut', self.folder / 'door')
+
     def end(self):
         self._keeper.kill()
         self._keeper.wait(PATIENCE)

@@ -35,19 +35,6 @@ class MachineKeep(MachinesTest):
             for word in words:
                 fifo.write(f'{word}\n')
 
-    def connections(self):
-        """The connecting commands of this test."""
-        found = []
-        for entry in Path('/proc').iterdir():
-            if entry.name.isdigit():
-                try:
-                    words = (entry / 'cmdline').read_bytes().split(b'\0')
-                except OSError:
-                    continue
-                if b'enter' in words and f'{self.arm.folder}/door'.encode() in words:
-                    found.append(int(entry.name))
-        return found
-
     def agents(self):
         """The agents of the machine that have started something, not those that only lead to one."""
         host = os.readlink(f'/proc/{self.arm._first}/ns/uts')
@@ -64,14 +51,9 @@ class MachineKeep(MachinesTest):
         return [pid for pid in agents if pid in parents]
 
     def cut(self, launch, times=1):
-        """Nobody can connect until open_door()."""
-        os.rename(self.arm.folder / 'door', self.arm.folder / 'door.shut')
-        for pid in self.connections():
-            os.kill(pid, signal.SIGKILL)
+        """Nobody can connect until the door is opened."""
+        self.arm.cut()
         self.wait_for(launch, "the connection to machine 'arm' is lost: ", times)
-
-    def open_door(self):
-        os.rename(self.arm.folder / 'door.shut', self.arm.folder / 'door')
 
     def wait_for(self, launch, text, times=1):
         while len(found := [line for line in launch.lines.seen if text in line]) < times:
@@ -116,7 +98,7 @@ class MachineKeep(MachinesTest):
         launch.lines.wait_for('lost arm with echo-1')
         self.say('meanwhile', '3000', 'last', 'end')
         self.wait_until_ended(str(self.fifo))
-        self.open_door()
+        self.arm.open_door()
         launch.lines.wait_for("machine 'arm' is back after ")
         self.assertRegex(launch.lines.wait_for('back: arm, '), r'back: arm, \d+\.\d, 0$')
         launch.lines.wait_for('process has died [pid ')
@@ -133,7 +115,7 @@ class MachineKeep(MachinesTest):
         for number in range(1, 4):
             self.cut(launch, number)
             self.say(f'away{number}')
-            self.open_door()
+            self.arm.open_door()
             self.wait_for(launch, "machine 'arm' is back after ", number)
             self.say(f'there{number}')
             launch.lines.wait_for(f'got there{number}')
@@ -147,7 +129,7 @@ class MachineKeep(MachinesTest):
         self.say('300000', 'last')  # 2 MB
         self.say('end')
         self.wait_until_ended(str(self.fifo))
-        self.open_door()
+        self.arm.open_door()
         told = launch.lines.wait_for("while machine 'arm' was away, lines of output were dropped: ")
         dropped = int(re.search(r'dropped: (\d+) of echo-1$', told)[1])
         launch.wait(PATIENCE)
@@ -163,7 +145,7 @@ class MachineKeep(MachinesTest):
         for command in 'stop', 'restart':
             refused = self.launch(command, 'echo', '--launch', launch.pid)
             self.assertEqual((refused.returncode, "echo-1 runs on machine 'arm', which is away" in refused.stdout), (1, True), refused.stdout)
-        self.open_door()
+        self.arm.open_door()
         launch.lines.wait_for("machine 'arm' is back after ")
         self.assertEqual(self.launch('restart', 'echo', '--launch', launch.pid).returncode, 0)
         self.wait_for(launch, '[arm:echo-1] ready', 2)
@@ -197,7 +179,7 @@ class MachineKeep(MachinesTest):
         agent, = self.agents()
         os.kill(agent, signal.SIGKILL)
         self.assert_nothing_left('an agent that was killed')
-        self.open_door()
+        self.arm.open_door()
         self.assertIn("machine 'arm' does not come back: the agent there has ended; what ran there: echo-1; the guardian there ends it",
                       launch.lines.wait_for('does not come back'))
         launch.lines.wait_for("[arm:echo-1]: process is lost with machine 'arm'")
@@ -208,7 +190,7 @@ class MachineKeep(MachinesTest):
         self.cut(launch)
         launch.send_signal(signal.SIGINT)
         launch.lines.wait_for("machine 'arm' is away; launch tries to reach it for 5 s before it ends")
-        self.open_door()
+        self.arm.open_door()
         self.assertEqual(launch.wait(PATIENCE), 0)
         self.assert_nothing_left('an end that has reached the machine')
 

@@ -34,9 +34,10 @@ class TracedMachines(MachinesTest):
         self.name = f'walk{self.mark[:12]}'  # others use the session daemon of this machine, too
         self.environment['ROS_TRACE_DIR'] = str(self.traces)
 
-    def start_nodes(self, trace, more='', keepalive=5, cable='', connect=Host.connect):
+    def start_nodes(self, trace, more='', keepalive=5, cable='', connect=Host.connect, machine=''):
         """A talker on one machine and a listener on the other; the talker has said something when this returns."""
-        text = ''.join(f'<machine name="{host.name}" connect="{cable} {connect(host)}" keepalive="{keepalive}"/>\n' for host in self.hosts)
+        text = ''.join(f'<machine name="{host.name}" connect="{cable} {connect(host)}" keepalive="{keepalive}" {machine}/>\n'
+                       for host in self.hosts)
         launch = self.start(self.file(
             f'{text}<set_env name="{MARK}" value="{self.mark}"/>\n{trace}\n'
             '<node pkg="demo_nodes_cpp" exec="talker" machine="arm" output="screen"/>\n'
