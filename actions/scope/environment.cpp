@@ -85,14 +85,18 @@ ActionType set_env_action() {
   return action_of<Variable>({.tag = "set_env", .help = "Sets a variable of the launch environment."},
                              {std::move(name), variable_value("its value")},
                              [](const Fields&, LaunchContext& context, Variable& variable) {
-                               context.scope().environment.insert_or_assign(variable.name, variable.value);
+                               Environment& environment = context.scope().environment;
+                               environment.insert_or_assign(variable.name, variable.value);
+                               environment.decide(variable.name);
                              });
 }
 
 ActionType unset_env_action() {
   return action_of<Variable>({.tag = "unset_env", .help = "Removes a variable from the launch environment."},
                              {variable_name()}, [](const Fields&, LaunchContext& context, Variable& variable) {
-                               context.scope().environment.erase(variable.name);
+                               Environment& environment = context.scope().environment;
+                               environment.erase(variable.name);
+                               environment.decide(variable.name);
                              });
 }
 

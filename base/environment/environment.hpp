@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -60,6 +61,17 @@ class Environment {
     return variables_ != other.variables_ && variables() < other.variables();
   }
 
+  // A launch file has said what this variable is, or that there is none, even if it was so before. So it is on another
+  // machine, too (launcher/substitution/machine_view.hpp).
+  void decide(const std::string& name) {
+    decided_ = std::make_shared<std::set<std::string>>(decided());
+    decided_->insert(name);
+  }
+  const std::set<std::string>& decided() const {
+    static const std::set<std::string> none;
+    return decided_ == nullptr ? none : *decided_;
+  }
+
   // The variables of this environment alone. They must be changed at once: a later copy of this environment would share
   // the changes.
   Variables& own() {
@@ -73,6 +85,7 @@ class Environment {
 
  private:
   std::shared_ptr<Variables> variables_;
+  std::shared_ptr<std::set<std::string>> decided_;
 };
 
 }  // namespace launch

@@ -28,6 +28,16 @@ Environment carry_changes(const Environment& before, const Environment& now, con
       result.erase(name);
     }
   }
+  for (const std::string& name : now.decided()) {
+    result.decide(name);
+    const auto value = now.find(name);
+    const auto old = before.find(name);
+    if (value == now.end()) {
+      result.erase(name);
+    } else if (old != before.end() && old->second == value->second) {
+      result.insert_or_assign(name, value->second);
+    }
+  }
   return result;
 }
 

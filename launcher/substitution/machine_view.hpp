@@ -40,7 +40,7 @@ struct HomeMachine {
 };
 
 // The environment `now`, which has come from `before`, as if it had come from `onto`: the variables that a launch file
-// has set, appended to and removed.
+// has set, appended to and removed. What it has decided (environment.hpp) counts even if it has changed nothing.
 Environment carry_changes(const Environment& before, const Environment& now, const Environment& onto);
 
 // The environment and packages of this machine, with what the launch file has changed.

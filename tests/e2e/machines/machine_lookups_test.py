@@ -34,6 +34,15 @@ class MachineLookups(MachinesTest):
         self.assertEqual(done.returncode, 0, done.stdout)
         self.assertIn('[arm:talker-1] talker: /tmp/ws/share/demo /tmp/ws/lib/demo/talker two words yes /usr/bin/sh --ros-args', done.stdout)
 
+    def test_a_variable_that_is_set_or_removed_without_a_change_here(self):
+        self.environment['SAME'] = 'same'
+        done = self.run_file('''
+            <set_env name="SAME" value="same"/>
+            <unset_env name="ROBOT"/>
+            <executable cmd="sh -c 'echo $SAME, ${ROBOT-none}'" machine="arm" output="screen"/>''')
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn('same, none', done.stdout)
+
     def test_parameter_files_and_generated_ones(self):
         done = self.run_file('''
             <node pkg="demo" exec="talker" machine="arm" output="screen">

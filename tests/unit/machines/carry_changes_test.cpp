@@ -36,4 +36,16 @@ TEST(CarryChanges, AVariableThatIsMissingThereIsSetAsItIs) {
             Environment({{"PATH", "/here/bin:/more"}, {"EMPTY", "full"}}));
 }
 
+TEST(CarryChanges, WhatTheLaunchFileHasDecidedCountsEvenIfItHasChangedNothing) {
+  const Environment here{{"LANG", "C"}, {"OTHER", "1"}};
+  const Environment there{{"LANG", "de"}, {"OTHER", "2"}, {"DISPLAY", ":0"}};
+  Environment now = here;
+  now.decide("LANG");
+  now.decide("DISPLAY");
+  const Environment carried = carry_changes(here, now, there);
+  EXPECT_EQ(carried, Environment({{"LANG", "C"}, {"OTHER", "2"}}));
+  EXPECT_EQ(carry_changes(there, carried, Environment({{"LANG", "fr"}, {"DISPLAY", ":1"}, {"OTHER", "3"}})),
+            Environment({{"LANG", "C"}, {"OTHER", "3"}}));
+}
+
 }  // namespace
