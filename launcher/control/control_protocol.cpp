@@ -131,6 +131,7 @@ void append_process(std::string& text, const SteeredProcess& process, const Proc
     if (!machine.empty()) {
       text += ",\"machine\":";
       append_json_string(text, machine);
+      text += process.away ? ",\"away\":true" : "";
     }
     if (view.pid >= 0) {
       // Who reads "pid" looks for the process here.

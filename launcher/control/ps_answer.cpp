@@ -30,6 +30,8 @@ class PsReader final : public nlohmann::json_sax<Json> {
   bool boolean(bool value) override {
     if (part() == Part::kAnswer && key_ == "ok") {
       ok = value;
+    } else if (part() == Part::kProcess && key_ == "away") {
+      launch.processes.back().away = value;
     }
     return true;
   }

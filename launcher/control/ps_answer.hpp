@@ -21,6 +21,7 @@ struct ListedProcess {
   std::string status;          // what it says of itself
   std::string end;             // of the last run: "exit code 1", "SIGSEGV"; "" if none has ended
   std::string machine;         // on which it runs; "": this one
+  bool away = false;           // that machine can't be reached now
   pid_t pid = -1;              // -1: it does not run here
   pid_t pid_there = -1;        // its number on that machine; -1: it does not run there
   std::int64_t restarts = -1;  // -1: it has not been started

@@ -70,6 +70,7 @@ std::vector<SteeredProcess> Steering::processes() const {
       process.groups = spec->groups;
       process.scalable = spec->scalable;
       process.tty = spec->tty;
+      process.away = !reaches(spec->machine);
     }
   });
   return all;
@@ -156,7 +157,7 @@ std::string Steering::carry_out(Request request, const SteeredProcess& process, 
   }
   const ProcessView view = supervisor_.view(process.id);
   const bool is_over = view.state == ProcessState::kDone;
-  if (!is_over && !view.spec.machine.empty() && reaches_ && !reaches_(view.spec.machine)) {
+  if (!is_over && process.away) {
     return fmt::format("runs on machine '{}', which is away", view.spec.machine);
   }
   switch (request) {

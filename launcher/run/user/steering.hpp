@@ -25,7 +25,8 @@ struct SteeredProcess {
   bool skipped = false;             // it will never start
   std::vector<std::string> groups;  // of the launch file around it, the outermost first
   bool scalable = false;
-  bool tty = false;  // it has a terminal of its own
+  bool tty = false;   // it has a terminal of its own
+  bool away = false;  // its machine can't be reached now
   SourceRange origin;
 };
 
@@ -94,6 +95,7 @@ class Steering {
  private:
   // Returns why the request can't be carried out, or "".
   std::string carry_out(Request request, const SteeredProcess& process, int signal);
+  bool reaches(const std::string& machine) const { return machine.empty() || !reaches_ || reaches_(machine); }
 
   ProcessSupervisor& supervisor_;
   Processes& processes_;

@@ -43,7 +43,7 @@ ProcessRow row_of(const ListedLaunch& launch, const ListedProcess& process, cons
           usage && usage->stopped && process.state == "running"
               ? "stopped"
               : state_text(process.state, process.end, process.health, process.status) +
-                    (process.machine.empty() ? "" : " on " + process.machine),
+                    (process.machine.empty() ? "" : " on " + process.machine) + (process.away ? ", which is away" : ""),
           runs ? std::to_string(pid) : "-",
           process.restarts < 0 ? "-" : std::to_string(process.restarts),
           usage ? cpu_text(*usage, process.running_for) : "-",

@@ -145,8 +145,10 @@ class MachineKeep(MachinesTest):
         for command in 'stop', 'restart':
             refused = self.launch(command, 'echo', '--launch', launch.pid)
             self.assertEqual((refused.returncode, "echo-1 runs on machine 'arm', which is away" in refused.stdout), (1, True), refused.stdout)
+        self.assertIn('running on arm, which is away ', self.launch('ps', '--launch', launch.pid).stdout)
         self.arm.open_door()
         launch.lines.wait_for("machine 'arm' is back after ")
+        self.assertNotIn('away', self.launch('ps', '--launch', launch.pid).stdout)
         self.assertEqual(self.launch('restart', 'echo', '--launch', launch.pid).returncode, 0)
         self.wait_for(launch, '[arm:echo-1] ready', 2)
         self.assertEqual(self.interrupt(launch), 0)
