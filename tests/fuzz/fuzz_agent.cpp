@@ -7,6 +7,7 @@
 
 #include "launcher/machines/fetched_files.hpp"
 #include "launcher/machines/protocol/agent_protocol.hpp"
+#include "launcher/machines/protocol/kept_frames.hpp"
 #include "launcher/machines/protocol/spec_wire.hpp"
 #include "launcher/machines/remote_runs.hpp"
 #include "launcher/machines/remote_traces.hpp"
@@ -42,6 +43,9 @@ void read_as_launcher(std::string_view bytes) {
   recorder->begin(
       "", [](const std::string&) {}, [](const MachineRecorder::Reason&) {}, [](const MachineRecorder::Outcome&) {});
   const auto snapshot = recorder->take_snapshot({}, [](const MachineRecorder::Outcome&) {});
+  KeptFrames kept;
+  kept.add("a");
+  kept.add("b");
   Frames frames;
   frames.add(bytes);
   is_path_of_fetched_file(bytes);
@@ -50,6 +54,8 @@ void read_as_launcher(std::string_view bytes) {
       WireReader reader(frame->content);
       if (static_cast<FromAgent>(frame->kind) == FromAgent::kHello) {
         parse_agent_hello(frame->content);
+      } else if (static_cast<FromAgent>(frame->kind) == FromAgent::kAcknowledge) {
+        kept.acknowledge(reader.u64());
       } else if (static_cast<FromAgent>(frame->kind) >= FromAgent::kTraceTold) {
         traces.receive(static_cast<FromAgent>(frame->kind), reader);
       } else {
@@ -68,6 +74,8 @@ void read_as_agent(std::string_view bytes) {
       WireReader reader(frame->content);
       if (static_cast<ToAgent>(frame->kind) == ToAgent::kSetup) {
         parse_agent_setup(frame->content);
+      } else if (static_cast<ToAgent>(frame->kind) == ToAgent::kResume) {
+        parse_resume_request(frame->content);
       } else if (static_cast<ToAgent>(frame->kind) == ToAgent::kStart) {
         reader.u32();
         get_spec(reader);

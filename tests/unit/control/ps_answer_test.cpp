@@ -59,6 +59,19 @@ TEST(PsAnswer, HasWhatTheLaunchSaysOfItselfAndItsProcesses) {
   EXPECT_EQ(waiting.line, 0);
 }
 
+TEST(PsAnswer, HasTheMachinesOfProcesses) {
+  const ListedLaunch launch = read_ps_answer(
+      R"({"version":1,"ok":true,"launch":{"pid":7,"state":"running"},"processes":[)"
+      R"({"name":"talker-1","names":[],"state":"running","machine":"arm","away":true,"pid_there":8,"place":null},)"
+      R"({"name":"b-2","names":[],"state":"running","machine":"base","pid_there":9,"place":null}]})");
+  ASSERT_EQ(launch.processes.size(), 2U);
+  EXPECT_EQ(launch.processes[0].machine, "arm");
+  EXPECT_TRUE(launch.processes[0].away);
+  EXPECT_EQ(launch.processes[0].pid_there, 8);
+  EXPECT_EQ(launch.processes[1].machine, "base");
+  EXPECT_FALSE(launch.processes[1].away);
+}
+
 TEST(PsAnswer, SkipsWhatALaterLauncherAdds) {
   const ListedLaunch launch = read_ps_answer(
       R"({"version":1,"ok":true,"new":{"processes":[{"name":"no"}],"ok":false},"launch":{"pid":7,"files":[],)"
