@@ -12,7 +12,12 @@
 #include "launcher/process/supervised_process.hpp"
 
 namespace launch {
+
 namespace {
+
+bool ends_processes(int signal) {
+  return asks_to_end(signal) || signal == SIGKILL;
+}
 
 // One look takes 10 ms on a machine with 1,000 processes.
 constexpr std::chrono::milliseconds kBetweenLooksAtGroups{100};
@@ -78,7 +83,12 @@ void Supervision::give_up(Supervised& process) {
 }
 
 void Supervision::send_requested(Supervised& process) {
+  const bool was_told = process.told_to_end;
   send(process, process.requested_signal, 0, Duration{0});
+  process.told_to_end = was_told;
+  if (ends_processes(process.requested_signal)) {
+    process.sent_signal = process.requested_signal;
+  }
 }
 
 void Supervision::end_unasked(Supervised& process) {
@@ -205,6 +215,14 @@ void Supervision::end_tty(Supervised& process) {
   }
 }
 
+// A process that has caught the signal and fails later has failed. A launch that cannot go on without the process was
+// not asked to end.
+bool Supervision::died_of_sent_signal(const Supervised& process, const ProcessExit& exit) {
+  constexpr int kOfShell = 128;
+  return process.sent_signal != 0 && !process.spec.required &&
+         (exit.code == -process.sent_signal || exit.code == kOfShell + process.sent_signal || exit.code == 0);
+}
+
 void Supervision::report_exit(Supervised& process, ProcessExit exit, bool will_respawn) {
   end_tty(process);
   exit.ran_for = process.ran_for = loop.now() - process.started;
@@ -214,12 +232,13 @@ void Supervision::report_exit(Supervised& process, ProcessExit exit, bool will_r
     exit.out_of_memory = runner.was_ended_by_kernel(process.process, process.started);
   }
   process.last_exit = exit;
-  const bool expected = process.signalled || shutting_down;
+  const bool expected = process.told_to_end || shutting_down || died_of_sent_signal(process, exit);
   notify(process, ProcessExited{process.process.pid, exit, expected, will_respawn});
 }
 
 void Supervision::send(Supervised& process, int signal, int escalated_from, Duration waited) {
-  process.signalled = process.signalled || asks_to_end(signal) || signal == SIGKILL;
+  process.signalled = process.signalled || ends_processes(signal);
+  process.told_to_end = process.told_to_end || ends_processes(signal);
   process.refused = !runner.signal_group(process.process, signal);
   notify(process, SignalSent{signal, escalated_from, waited});
 }

@@ -104,7 +104,7 @@ struct ProcessSpec {
   std::vector<HealthWatch> watches;  // for observers: how its health is told; empty: it is not watched
   bool shutdown_on_exit = false;     // for observers: the whole system shall end when this process does
   bool scalable = false;             // for observers: several of it may run side by side
-  bool required = false;             // for observers: the launch ends as this process did
+  bool required = false;             // the launch ends as this process did
   AllowedExits allowed_exits;
   std::string crash_directory;  // for observers: where a bundle of each crash is made; empty: nowhere
   Duration sigterm_timeout = std::chrono::seconds(5);  // from SIGINT to SIGTERM

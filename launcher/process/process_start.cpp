@@ -15,6 +15,8 @@ void Supervision::spawn(Supervised& process) {
   process.timer.reset();
   process.exited = false;
   process.signalled = false;
+  process.told_to_end = false;
+  process.sent_signal = 0;
   process.refused = false;
   process.waits_for_foreground = false;
   process.request = Request::kNone;

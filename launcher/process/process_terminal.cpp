@@ -29,6 +29,7 @@ void Supervision::note_signal_of_terminal(Supervised& process) {
   if (process.process.has_terminal) {
     process.request = Request::kStop;
     process.signalled = true;
+    process.told_to_end = true;
     process.state = ProcessState::kInterrupting;
     start_timer(process, process.spec.sigterm_timeout);
   }

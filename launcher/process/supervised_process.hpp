@@ -91,9 +91,11 @@ struct Supervised {
 
   // The current or last run.
   Process process;
-  bool unreaped = false;  // `process` names a process, alive or a zombie, so its group may be signalled
-  bool exited = false;    // a zombie, kept because descendants hold its output open
-  bool signalled = false;
+  bool unreaped = false;              // `process` names a process, alive or a zombie, so its group may be signalled
+  bool exited = false;                // a zombie, kept because descendants hold its output open
+  bool signalled = false;             // by a signal that ends processes
+  bool told_to_end = false;           // by such a signal, and not because somebody wanted just this signal to be sent
+  int sent_signal = 0;                // the last signal of this kind that somebody wanted to be sent; 0: none
   bool waits_for_foreground = false;  // it has the terminal, and was stopped because it is not ours now
   bool refused = false;               // the last signal: every process of the group belongs to another user
   Duration started{0};
@@ -196,6 +198,7 @@ struct Supervision {
   void begin_run(Supervised& process);
   void fail_to_start(Supervised& process, const std::system_error& error);
   void end_tty(Supervised& process);
+  static bool died_of_sent_signal(const Supervised& process, const ProcessExit& exit);
   void report_exit(Supervised& process, ProcessExit exit, bool will_respawn);
   void send(Supervised& process, int signal, int escalated_from, Duration waited);
   void kill(Supervised& process, int escalated_from, Duration waited);

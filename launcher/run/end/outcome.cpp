@@ -27,6 +27,10 @@ void Outcome::on_process_event(const ProcessEvent& event) {
 }
 
 void Outcome::on_end_by(const ProcessEvent& event) {
+  if (event.spec.required && std::holds_alternative<ProcessStartFailed>(event.what) && !ignore_failures_) {
+    exit_code_ = kExitCodeOfFailedStart;
+    return;
+  }
   const auto* const exited = std::get_if<ProcessExited>(&event.what);
   if (!event.spec.required || exited == nullptr || exited->expected || ignore_failures_ ||
       event.spec.allowed_exits.contains(exited->exit.code)) {

@@ -31,7 +31,7 @@ class Outcome {
   void on_end_by(const ProcessEvent& event);
   void on_component_failure(const std::string& what, const SourceRange& where) { failures_.add(what, where); }
   void on_error() { exit_code_ = 1; }
-  // A second signal has cut the end short.
+  // A second or third signal has cut the end short.
   void on_hurry(int signal) { hurried_by_ = signal; }
 
   int exit_code() const;

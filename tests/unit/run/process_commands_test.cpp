@@ -92,6 +92,26 @@ TEST_F(ProcessCommandsTest, NodesAreKnownByTheirNames) {
   EXPECT_THAT(signals(), ElementsAre("SIGUSR1 2", "SIGUSR1 1", "SIGUSR1 2"));
 }
 
+TEST_F(ProcessCommandsTest, WhatDiesOfASignalThatWasSentHasNotFailed) {
+  EXPECT_EQ(run(R"xml(<executable cmd="a"/><timer period="1.0"><signal process="a" signal="TERM"/></timer>)xml"), 0);
+}
+
+TEST_F(ProcessCommandsTest, WhatFailsAfterASignalThatItHasCaughtHasFailed) {
+  runner_.script("a", {{.exits_after = 5s, .exit_code = 9, .ignores = {SIGHUP}}});
+  EXPECT_EQ(run(R"xml(<executable cmd="a"/><timer period="1.0"><signal process="a" signal="HUP"/></timer>)xml"), 3);
+}
+
+TEST_F(ProcessCommandsTest, ARequiredProcessThatDiesOfASignalThatWasSentGives128AndTheSignal) {
+  EXPECT_EQ(run(R"xml(<executable cmd="brain" required="true"/><executable cmd="other"/>
+                   <timer period="1.0"><signal process="brain" signal="KILL"/></timer>)xml"),
+            128 + SIGKILL);
+}
+
+TEST_F(ProcessCommandsTest, ARequiredProcessThatCannotBeStartedGives127) {
+  runner_.script("brain", {{.spawn_error = ENOENT}});
+  EXPECT_EQ(run(R"xml(<executable cmd="brain" required="true"/><executable cmd="other"/>)xml"), 127);
+}
+
 TEST_F(ProcessCommandsTest, TheEndOfARequiredProcessIsTheEndOfTheSystemWithItsExitCode) {
   runner_.script("brain", {{.exits_after = 2s, .exit_code = 3}});
   EXPECT_EQ(run(R"xml(<executable cmd="other"/><executable cmd="brain" required="true"/>)xml"), 3);
