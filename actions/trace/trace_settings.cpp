@@ -79,6 +79,28 @@ void perform_snapshot_limit(const Fields& fields, Scope& scope, TraceRequest& re
   }
 }
 
+// In milliseconds.
+template <typename Member>
+auto perform_deadline(const char* attribute, Member deadline) {
+  return [attribute, deadline](const Fields& fields, Scope& scope, TraceRequest& request) {
+    const double milliseconds = fields.number(attribute)->perform(scope);
+    if (!(milliseconds > 0)) {
+      throw LaunchError(fmt::format("{} is a number of milliseconds above 0, got {}", attribute, milliseconds),
+                        fields.where(attribute));
+    }
+    request.choices.*deadline = milliseconds;
+  };
+}
+
+void perform_snapshot_size(const Fields& fields, Scope& scope, TraceRequest& request) {
+  NumberField size = *fields.number("snapshot-size");
+  size.require_not_negative();
+  request.config.snapshot_size = static_cast<std::uint64_t>(size.perform(scope));
+  if (request.config.snapshot_size == 0) {
+    throw LaunchError("snapshot-size is at least 1, got 0", fields.where("snapshot-size"));
+  }
+}
+
 SettingPlace tracetools_mode(TraceRequest& request) {
   return SettingChoice{
       {"auto", "own", "theirs"}, static_cast<std::size_t>(request.choices.tracetools), [&request](std::size_t word) {
@@ -315,12 +337,14 @@ std::vector<Setting<TraceRequest>> make_trace_settings() {
       {.attribute = extension("snapshot-on-late-callback", Type::kFloat, "none",
                               "milliseconds: take a snapshot when a callback takes longer; implies snapshot-mode"),
        .place = of_choices(&TraceChoices::callback_deadline),
+       .perform = perform_deadline("snapshot-on-late-callback", &TraceChoices::callback_deadline),
        .shown = "snapshot-on-late-callback"},
       {.attribute =
            extension("snapshot-on-late-message", Type::kFloat, "none",
                      "milliseconds: take a snapshot when a message is taken that was published longer before; implies "
                      "snapshot-mode"),
        .place = of_choices(&TraceChoices::message_deadline),
+       .perform = perform_deadline("snapshot-on-late-message", &TraceChoices::message_deadline),
        .shown = "snapshot-on-late-message"},
       {.attribute = extension("snapshot-limit", Type::kInteger, "10", "snapshots that are kept, the newest ones"),
        .place = at(&Config::snapshot_limit),
@@ -328,7 +352,8 @@ std::vector<Setting<TraceRequest>> make_trace_settings() {
        .shown = "snapshot-limit"},
       {.attribute =
            extension("snapshot-size", Type::kInteger, "10 userspace sub-buffers", "bytes of a snapshot at most"),
-       .place = at(&Config::snapshot_size)},
+       .place = at(&Config::snapshot_size),
+       .perform = perform_snapshot_size},
       {.attribute = extension("max-overhead", Type::kText, "none",
                               "limit of what recording costs in all traced processes together, such as 2% of a "
                               "processor; above it classes of events are dropped"),

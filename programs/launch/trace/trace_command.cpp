@@ -26,6 +26,7 @@
 #include "tracing/record/plan/trace_config.hpp"
 #include "tracing/record/plan/trace_error.hpp"
 #include "tracing/record/session/session_details.hpp"
+#include "tracing/record/session/session_store.hpp"
 
 namespace tracing {
 namespace {
@@ -286,7 +287,8 @@ void run_verb(const TraceOptions& options, Tracer& tracer) {
     case TraceVerb::kCalibrate:
       return print_calibration(options.config.context_fields_ust);
     case TraceVerb::kSave:
-      return tracer.save(session_name, options.directory);
+      tracer.save(session_name, options.directory);
+      return print_line("saved to: " + file_of_saved_session(session_name, options.directory));
     case TraceVerb::kLoad:
       return tracer.load(session_name, options.directory);
     case TraceVerb::kRecordSnapshot:

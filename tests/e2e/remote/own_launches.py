@@ -36,14 +36,14 @@ class Lines:
         self._queue.put(None)
         pipe.close()
 
-    def wait_for(self, text):
-        """The first line with this text, also one that has come before."""
-        while not (found := [line for line in self.seen if text in line]):
+    def wait_for(self, text, times=1):
+        """The first line with this text, or so many of them: the last of these. Also those count that have come before."""
+        while len(found := [line for line in self.seen if text in line]) < times:
             line = self._queue.get(timeout=PATIENCE)
             if line is None:
                 raise AssertionError(f'never: {text}; lines: {self.seen}')
             self.seen.append(line)
-        return found[0]
+        return found[times - 1]
 
 
 class OwnLaunches(unittest.TestCase):

@@ -48,7 +48,8 @@ TEST_F(SetupChecks, RefuseAnEmptyName) {
 TEST_F(SetupChecks, RefuseASlashInTheName) {
   config.session_name = "a/b";
   EXPECT_EQ(config_error(),
-            "trace session name 'a/b' contains a '/'\nthe directory that will hold the trace is given by base-path");
+            "trace session name 'a/b' contains a '/'\nthe directory that will hold the trace is given by base-path "
+            "(launch trace: --path)");
 }
 
 TEST_F(SetupChecks, RefuseANameThatLttngWouldCut) {
@@ -67,9 +68,9 @@ TEST_F(SetupChecks, RefuseATraceWithoutEvents) {
 
 TEST_F(SetupChecks, RefuseADirectoryThatExistsUnlessAppending) {
   std::filesystem::create_directories(directory / "traces" / "run");
-  EXPECT_EQ(config_error(),
-            "trace directory " + config.trace_directory() +
-                " exists already\nset append-trace to true to add to it, or choose another session-name");
+  EXPECT_EQ(config_error(), "trace directory " + config.trace_directory() +
+                                " exists already\nset append-trace to true (launch trace: --append-trace) to add to "
+                                "it, or choose another session-name");
   config.append_trace = true;
   EXPECT_EQ(config_error(), "no error");
 }

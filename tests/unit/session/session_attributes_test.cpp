@@ -273,7 +273,7 @@ TEST_F(SessionAttributes, WhatExcludesEachOtherIsAnErrorAndLeavesNoSession) {
             "name the events one by one, or use a filter");
   EXPECT_EQ(error_with([](TraceConfig& c) { c.url = "/a/directory"; }),
             "'/a/directory' is no address of a relay daemon\n"
-            "write net://HOST[:CONTROL[:DATA]]; a directory is given by base-path");
+            "write net://HOST[:CONTROL[:DATA]]; a directory is given by base-path (launch trace: --path)");
   EXPECT_EQ(error_with([](TraceConfig& c) { c.live_timer = 1000, c.snapshot_mode = true; }),
             "trace session 'run' is both live and a snapshot session\nleave live-timer or snapshot-mode out");
   EXPECT_EQ(error_with([](TraceConfig& c) { c.events_ust = {"ros2:* if ((("}; }),

@@ -37,7 +37,7 @@ TEST_F(LttngTracer, NameTakenIsAnErrorAndLeavesTheOtherSessionAlone) {
   EXPECT_EQ(start_error(same_name),
             "trace session 'taken' exists already\n"
             "it may be that of another launch that runs; choose another session-name, or, if nobody uses it any "
-            "more, end it with `lttng destroy taken`");
+            "more, end it with `launch trace stop taken`");
   TracedApp(5, 10).end();
   tracer->finish(config, never);
   EXPECT_EQ(read_trace(config.trace_directory()).events["ros2:rcl_init"], 1);
@@ -47,9 +47,10 @@ TEST_F(LttngTracer, NameTakenIsAnErrorAndLeavesTheOtherSessionAlone) {
 TEST_F(LttngTracer, DirectoryThatExistsIsAnErrorWithoutAppend) {
   const TraceConfig config = config_named("again");
   std::filesystem::create_directories(config.trace_directory());
-  EXPECT_EQ(start_error(config), "trace directory " + config.trace_directory() +
-                                     " exists already\n"
-                                     "set append-trace to true to add to it, or choose another session-name");
+  EXPECT_EQ(start_error(config),
+            "trace directory " + config.trace_directory() +
+                " exists already\n"
+                "set append-trace to true (launch trace: --append-trace) to add to it, or choose another session-name");
 }
 
 TEST_F(LttngTracer, BasePathBelowAFileIsAnErrorBeforeAnythingIsCreated) {

@@ -19,7 +19,7 @@ namespace {
 void check_relay_daemon(const TraceConfig& config) {
   if (!config.url.empty() && !config.url.starts_with("net://") && !config.url.starts_with("net6://")) {
     throw TraceError(fmt::format("'{}' is no address of a relay daemon", config.url),
-                     "write net://HOST[:CONTROL[:DATA]]; a directory is given by base-path");
+                     "write net://HOST[:CONTROL[:DATA]]; a directory is given by base-path (launch trace: --path)");
   }
   if (config.live_timer != 0 && config.records_snapshots()) {
     throw TraceError(fmt::format("trace session '{}' is both live and a snapshot session", config.session_name),
@@ -36,7 +36,7 @@ void check_config(const TraceConfig& config) {
   const std::string session = config.lttng_session_name();
   if (session.find('/') != std::string::npos) {
     throw TraceError(fmt::format("trace session name '{}' contains a '/'", session),
-                     "the directory that will hold the trace is given by base-path");
+                     "the directory that will hold the trace is given by base-path (launch trace: --path)");
   }
   if (session.size() >= LTTNG_NAME_MAX) {
     throw TraceError(fmt::format("trace session name '{}' is longer than {} characters", session, LTTNG_NAME_MAX - 1));
@@ -53,8 +53,9 @@ void check_config(const TraceConfig& config) {
   std::error_code ignored;
   if (const std::string directory = config.trace_directory();
       !config.append_trace && std::filesystem::exists(directory, ignored)) {
-    throw TraceError(fmt::format("trace directory {} exists already", directory),
-                     "set append-trace to true to add to it, or choose another session-name");
+    throw TraceError(
+        fmt::format("trace directory {} exists already", directory),
+        "set append-trace to true (launch trace: --append-trace) to add to it, or choose another session-name");
   }
   check_writable(config.base_path);
 }

@@ -130,6 +130,7 @@ LTTNG_FUNCTION(lttng_notification_channel_has_pending_notification);
 LTTNG_FUNCTION(lttng_notification_channel_subscribe);
 LTTNG_FUNCTION(lttng_notification_destroy);
 LTTNG_FUNCTION(lttng_notification_get_trigger);
+LTTNG_FUNCTION(lttng_regenerate_statedump);
 LTTNG_FUNCTION(lttng_register_trigger_with_name);
 LTTNG_FUNCTION(lttng_save_session);
 LTTNG_FUNCTION(lttng_save_session_attr_create);

@@ -74,19 +74,19 @@ TakenSnapshot take_snapshot(const TraceConfig& config, SnapshotOrder order) {
   TakenSnapshot taken{.reasons = std::move(order.reasons), .directory = {}, .damage = {}, .error = {}};
   try {
     const std::uint64_t asked = record_snapshot(config.lttng_session_name());
-    if (config.over_network()) {
-      return taken;
+    if (!config.over_network()) {
+      const std::vector<fs::path> snapshots = snapshots_in(config.trace_directory());
+      if (snapshots.empty()) {
+        throw TraceError("LTTng has written no snapshot");
+      }
+      taken.directory = snapshots.back();
+      taken.damage = judge_snapshot(taken.directory, config.lttng_session_name(), config.event_counters, taken.reasons,
+                                    {.asked = asked, .died = std::move(order.died), .of_reason = order.moment});
     }
-    const std::vector<fs::path> snapshots = snapshots_in(config.trace_directory());
-    if (snapshots.empty()) {
-      throw TraceError("LTTng has written no snapshot");
-    }
-    taken.directory = snapshots.back();
-    taken.damage = judge_snapshot(taken.directory, config.lttng_session_name(), config.event_counters, taken.reasons,
-                                  {.asked = asked, .died = std::move(order.died), .of_reason = order.moment});
   } catch (const std::exception& error) {
     taken.error = error.what();
   }
+  have_objects_told_again(config.lttng_session_name());
   return taken;
 }
 

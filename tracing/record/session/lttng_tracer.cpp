@@ -348,17 +348,16 @@ void LttngTracer::resume(const std::string& name) {
 std::string LttngTracer::record_snapshot(const std::string& name) {
   check_daemon_not_stopped();
   const std::uint64_t asked = record_and_clear(name);
-  const std::optional<std::filesystem::path> directory = snapshot_directory(name);
-  if (!directory) {
-    return {};
+  std::string written;
+  if (const std::optional<std::filesystem::path> directory = snapshot_directory(name)) {
+    if (const std::vector<std::filesystem::path> snapshots = snapshots_in(*directory); !snapshots.empty()) {
+      written = snapshots.back();
+      judge_snapshot(written, name, CounterDirectory::of_session(name), {"launch trace record_snapshot"},
+                     {.asked = asked});
+    }
   }
-  const std::vector<std::filesystem::path> snapshots = snapshots_in(*directory);
-  if (snapshots.empty()) {
-    return {};
-  }
-  judge_snapshot(snapshots.back(), name, CounterDirectory::of_session(name), {"launch trace record_snapshot"},
-                 {.asked = asked});
-  return snapshots.back().string();
+  have_objects_told_again(name);
+  return written;
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ NewSession::NewSession(const TraceConfig& config)
         fmt::format("trace session '{}' exists already", name_),
         fmt::format(
             "it may be that of another launch that runs; choose another session-name, or, if nobody uses it any "
-            "more, end it with `lttng destroy {}`",
+            "more, end it with `launch trace stop {}`",
             launch::shell_quoted(name_)));
   }
   check_lttng(result, fmt::format("create trace session '{}'", name_));

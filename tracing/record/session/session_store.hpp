@@ -6,8 +6,11 @@
 
 namespace tracing {
 
-// Both throw TraceError. The file is DIRECTORY/SESSION.lttng; an empty directory is LTTng's own for the user. A file
-// that exists is replaced; a session that exists is not.
+// The file of a session: DIRECTORY/SESSION.lttng. An empty directory is that of LTTng for the user, whoever runs the
+// session daemon: .lttng/sessions in $LTTNG_HOME or the home directory.
+std::string file_of_saved_session(const std::string& lttng_session_name, const std::string& directory);
+
+// Both throw TraceError. A file that exists is replaced; a session that exists is not.
 void save_session(const std::string& lttng_session_name, const std::string& directory);
 void load_session(const std::string& lttng_session_name, const std::string& directory);
 

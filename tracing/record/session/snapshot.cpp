@@ -176,6 +176,10 @@ std::uint64_t record_snapshot(const std::string& name) {
   return record(name, false);
 }
 
+void have_objects_told_again(const std::string& name) {
+  lttng_regenerate_statedump(name.c_str());  // an error costs names in later snapshots, and nothing else
+}
+
 std::uint64_t record_and_clear(const std::string& name) {
   const std::uint64_t asked = record(name, true);
 

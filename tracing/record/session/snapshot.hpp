@@ -47,5 +47,8 @@ std::string judge_snapshot(const std::filesystem::path& snapshot, const std::str
 std::uint64_t record_snapshot(const std::string& lttng_session_name);
 // Records a snapshot, then empties the buffers, so that the next snapshot starts after this one.
 std::uint64_t record_and_clear(const std::string& lttng_session_name);
+// Has the programs tell of their objects again, for the snapshots that follow: each snapshot uses up a sub-buffer of
+// each processor, so a few of them push the beginnings out. To be called when the snapshot is judged.
+void have_objects_told_again(const std::string& lttng_session_name);
 
 }  // namespace tracing
