@@ -175,8 +175,12 @@ int print_comparison(const Arguments& arguments) {
 }
 
 int save_baseline(const Arguments& arguments) {
-  print_out(tracing::save_baseline(arguments.comparison, arguments.paths) + "\n");
-  return kSuccess;
+  const tracing::SavedBaseline saved = tracing::save_baseline(arguments.comparison, arguments.paths);
+  print_out(saved.text + "\n");
+  if (!saved.incomplete.empty()) {
+    fmt::print(stderr, "launch report: warning: the trace of this run is incomplete: {}\n", saved.incomplete);
+  }
+  return judge(arguments, saved.incomplete);
 }
 
 void warn_of_missing(std::string_view kind, const std::string& pattern, std::set<std::string> names) {

@@ -68,6 +68,22 @@ void check_comparison(const CLI::App& app, const Arguments& arguments) {
   }
 }
 
+// They choose what the text shows. All else has everything, and would pass over them without a word.
+void check_text_options(const CLI::App& app, const Arguments& arguments) {
+  const bool writes_files_alone = arguments.files.any() && !arguments.comparison.compares();
+  if (!arguments.json && !arguments.summary && !writes_files_alone) {
+    return;
+  }
+  for (const char* option : {"--top", "--sort", "--node", "--topic", "--chain", "--events"}) {
+    if (app.count(option) > 0) {
+      throw CLI::ValidationError(option,
+                                 fmt::format("is for the text, and {} has everything", arguments.json      ? "--json"
+                                                                                       : arguments.summary ? "--summary"
+                                                                                                           : "a file"));
+    }
+  }
+}
+
 void add_comparison(CLI::App& app, Arguments& arguments) {
   tracing::ComparisonArguments& comparison = arguments.comparison;
   CLI::Option* diff = app.add_option("--diff", comparison.diff,
@@ -192,6 +208,7 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
   try {
     app.parse(argc, argv);
     check_comparison(app, arguments);
+    check_text_options(app, arguments);
     arguments.files.from = time_bound("--from", from, arguments.files);
     arguments.files.to = time_bound("--to", to, arguments.files);
     if (tracing::TimeBound::leave_nothing(arguments.files.from, arguments.files.to)) {

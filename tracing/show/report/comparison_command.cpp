@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "tracing/model/compare/baseline_file.hpp"
 #include "tracing/model/findings/quantity_text.hpp"
@@ -133,17 +134,19 @@ ComparisonOutcome compare_runs(const ComparisonArguments& arguments, const std::
   return {arguments.json ? comparison_json(report, failed) : comparison_text(report, failed, options), !failed.empty()};
 }
 
-std::string save_baseline(const ComparisonArguments& arguments, const std::vector<fs::path>& directories) {
+SavedBaseline save_baseline(const ComparisonArguments& arguments, const std::vector<fs::path>& directories) {
   const fs::path& file = arguments.save_baseline;
   std::vector<compare::RunSummary> runs;
   if (arguments.append && fs::exists(file)) {
     runs = compare::read_baseline(file).runs;
   }
   runs.push_back(read_run(directories, arguments.all));
+  std::string remark = runs.back().remark;
   OutputFile output(file);
   output.write(compare::baseline_text(runs));
   output.finish();
-  return fmt::format("{}: {}, {}", file.native(), format_size(fs::file_size(file)), format_count(runs.size(), "run"));
+  return {fmt::format("{}: {}, {}", file.native(), format_size(fs::file_size(file)), format_count(runs.size(), "run")),
+          std::move(remark)};
 }
 
 }  // namespace tracing

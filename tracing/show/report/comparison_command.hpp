@@ -42,7 +42,11 @@ struct ComparisonOutcome {
 };
 ComparisonOutcome compare_runs(const ComparisonArguments& arguments,
                                const std::vector<std::filesystem::path>& directories, const ReportOptions& options);
-// Returns a line for people: "base.json: 120 kB, 3 runs".
-std::string save_baseline(const ComparisonArguments& arguments, const std::vector<std::filesystem::path>& directories);
+struct SavedBaseline {
+  std::string text;        // for people: "base.json: 120 kB, 3 runs"
+  std::string incomplete;  // why the run that was added is; empty if it is complete
+};
+SavedBaseline save_baseline(const ComparisonArguments& arguments,
+                            const std::vector<std::filesystem::path>& directories);
 
 }  // namespace tracing
