@@ -144,8 +144,7 @@ void ConditionHandlers::on_unseen(const tracing::NameNotSeen& unseen) {
     help = "; " + help;
   }
   callbacks_.message(LogLevel::kWarning,
-                     fmt::format("{} was ever seen, {} after the begin of the recording ({}){}",
-                                 nobody_of(condition),
+                     fmt::format("{} was ever seen, {} after the begin of the recording ({}){}", nobody_of(condition),
                                  tracing::time_text(condition.grace), to_string(handler.where), help));
 }
 

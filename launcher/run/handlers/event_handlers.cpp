@@ -164,6 +164,13 @@ std::vector<Invocation> EventHandlers::on_returned_machine(const ReturnedMachine
                       {"dropped", std::to_string(returned.dropped)}});
 }
 
+bool EventHandlers::has_on_shutdown() const {
+  const auto any = by_process_.find("");
+  return any != by_process_.end() && std::any_of(any->second.begin(), any->second.end(), [](const Registered& each) {
+           return std::holds_alternative<OnShutdown>(each.handler->event);
+         });
+}
+
 std::vector<Invocation> EventHandlers::on_shutdown(const std::string& reason) {
   std::vector<Invocation> invocations;
   if (const auto any = by_process_.find(""); any != by_process_.end()) {

@@ -50,10 +50,10 @@ class MachineErrors(MachinesTest):
                    f"see whether '{silent} true' works; connect_timeout allows more time", ' connect_timeout="1"')
 
     def test_other_versions(self):
-        newer = self.script('newer', 'echo launch-agent 2 99.0.0; exec cat > /dev/null')
+        newer = self.script('newer', 'echo launch-agent 3 99.0.0; exec cat > /dev/null')
         self.fails(newer, f"system.launch.xml:2:30: error: no connection to machine 'arm': launch 99.0.0 there and {VERSION} here can't talk "
                    'with each other', 'install the same version on both machines')
-        patched = self.script('patched', f'{self.plain()} "$@" | {{ read -r line; echo launch-agent 1 99.1.0; exec cat; }}')
+        patched = self.script('patched', f'{self.plain()} "$@" | {{ read -r line; echo launch-agent 2 99.1.0; exec cat; }}')
         self.file(f'<machine name="arm" connect="{patched}"/>\n<executable cmd="true" machine="arm"/>')
         done = self.launch('system.launch.xml')
         self.assertEqual(done.returncode, 0, done.stdout)
@@ -73,7 +73,7 @@ class MachineErrors(MachinesTest):
                 ('early', r'\4\0\0\0\5\0\0\0\1\0', 'a message is about a process that was never asked for'),
                 ('short', r'\1\0\0\0\4\0\0\0\11', 'a message ends too early')):
             with self.subTest(name):
-                hostile = self.script(name, f"echo launch-agent 1 {VERSION}; printf '{bytes_}'; exec sleep 1000")
+                hostile = self.script(name, f"echo launch-agent 2 {VERSION}; printf '{bytes_}'; exec sleep 1000")
                 self.fails(hostile, f"system.launch.xml:2:30: error: no connection to machine 'arm': the agent there sends what it must not: "
                            f'{what}', '')
 

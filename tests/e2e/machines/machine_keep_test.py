@@ -53,14 +53,7 @@ class MachineKeep(MachinesTest):
     def cut(self, launch, times=1):
         """Nobody can connect until the door is opened."""
         self.arm.cut()
-        self.wait_for(launch, "the connection to machine 'arm' is lost: ", times)
-
-    def wait_for(self, launch, text, times=1):
-        while len(found := [line for line in launch.lines.seen if text in line]) < times:
-            line = launch.lines._queue.get(timeout=PATIENCE)
-            self.assertIsNotNone(line, f'never: {text}; lines: {launch.lines.seen}')
-            launch.lines.seen.append(line)
-        return found[-1]
+        launch.lines.wait_for("the connection to machine 'arm' is lost: ", times)
 
     def interrupt(self, launch):
         launch.send_signal(signal.SIGINT)
@@ -116,7 +109,7 @@ class MachineKeep(MachinesTest):
             self.cut(launch, number)
             self.say(f'away{number}')
             self.arm.open_door()
-            self.wait_for(launch, "machine 'arm' is back after ", number)
+            launch.lines.wait_for("machine 'arm' is back after ", number)
             self.say(f'there{number}')
             launch.lines.wait_for(f'got there{number}')
         self.assertEqual(self.printed(launch), ['ready', 'got away1', 'got there1', 'got away2', 'got there2', 'got away3', 'got there3'])
@@ -150,7 +143,7 @@ class MachineKeep(MachinesTest):
         launch.lines.wait_for("machine 'arm' is back after ")
         self.assertNotIn('away', self.launch('ps', '--launch', launch.pid).stdout)
         self.assertEqual(self.launch('restart', 'echo', '--launch', launch.pid).returncode, 0)
-        self.wait_for(launch, '[arm:echo-1] ready', 2)
+        launch.lines.wait_for('[arm:echo-1] ready', 2)
         self.assertEqual(self.interrupt(launch), 0)
         self.assert_nothing_left('a process that was restarted after the return')
 

@@ -32,7 +32,7 @@ class MachineTraceKeep(TracedMachines):
         verdict = self.verdict()
         self.assertTrue(verdict['complete'], (verdict, launch.lines.seen))
         self.assertEqual([part['folder'] for part in verdict['machines']], ['local', 'arm', 'base'])
-        said = sum('[arm:talker-1] [INFO]' in line for line in launch.lines.seen)
+        said = sum('[talker]: Publishing: ' in line for line in launch.lines.seen)
         report = json.loads(subprocess.run([LAUNCH, 'report', self.traces / self.name, '--json'], check=True, stdout=subprocess.PIPE,
                                            timeout=PATIENCE, env=self.environment).stdout)
         chatter, = (topic for topic in report['topics'] if topic['name'] == '/chatter')
@@ -48,7 +48,7 @@ class MachineTraceKeep(TracedMachines):
         launch.lines.wait_for("the connection to machine 'arm' is lost: ")
         self.hosts[0].open_door()
         launch.lines.wait_for("machine 'arm' is back after ")
-        launch.lines.wait_for('[arm:talker-1] [INFO]')
+        launch.lines.wait_for('[talker]: Publishing: ', 3)
         self.assertEqual(self.interrupt(launch), 0, launch.lines.seen)
         self.assert_whole(launch)
 
@@ -57,7 +57,7 @@ class MachineTraceKeep(TracedMachines):
         path.write_text(CUT_ONCE)
         launch = self.start_nodes(f'<trace session-name="{self.name}"/>', machine='on_disconnect="keep"',
                                   cable=f'/usr/bin/python3 {path} {self.folder}/was_cut')
-        launch.lines.wait_for('[arm:talker-1] [INFO]')
+        launch.lines.wait_for('[talker]: Publishing: ', 2)
         self.assertEqual(self.interrupt(launch), 0, launch.lines.seen)
         self.assertTrue(Path(self.folder / 'was_cut').exists())
         self.assertTrue([line for line in launch.lines.seen if ' is back after ' in line], launch.lines.seen)
@@ -69,7 +69,7 @@ class MachineTraceKeep(TracedMachines):
         launch.lines.wait_for("the connection to machine 'arm' is lost: ")
         launch.send_signal(signal.SIGINT)
         launch.lines.wait_for("machine 'arm' does not come back: there was no connection for ")
-        self.interrupt(launch)
+        self.assertEqual(launch.wait(PATIENCE), 3)
         verdict = self.verdict()
         self.assertFalse(verdict['complete'])
         parts = {part['machine']: part for part in verdict['machines']}

@@ -76,8 +76,8 @@ TEST(AgentProtocol, AFrameThatIsTooLongIsNone) {
 }
 
 TEST(AgentProtocol, GreetingIsALineOfItsOwn) {
-  EXPECT_EQ(agent_greeting("1.0.0"), "launch-agent 1 1.0.0\n");
-  EXPECT_EQ(parse_agent_greeting("launch-agent 2 1.0.0\r")->protocol, 2);
+  EXPECT_EQ(agent_greeting("1.0.0"), "launch-agent 2 1.0.0\n");
+  EXPECT_EQ(parse_agent_greeting("launch-agent 3 1.0.0\r")->protocol, 3);
   EXPECT_EQ(parse_agent_greeting("launch-agent 1 1.0.0")->launch_version, "1.0.0");
   for (const char* const line : {"", "launch-agent", "launch-agent 1", "launch-agent 1 ", "launch-agent x 1.0.0",
                                  "launch-agent 99999999999 1.0.0", "Welcome, launch-agent 1 1.0.0"}) {
