@@ -38,6 +38,9 @@ OutputTargets targets(const Template& given, Scope& scope) {
     } else if (word == "own_log") {
       targets.own_log = true;
     } else {
+      if (word == "none") {
+        throw LaunchError("'none' stands alone", given.where(), "leave the other places out, or leave none out");
+      }
       const std::string suggestion = did_you_mean(word, {"screen", "log", "own_log", "none"});
       throw LaunchError(fmt::format("'{}' is no place for output, expected screen, log, own_log or none", word),
                         given.where(), suggestion.empty() ? "write several with commas: screen,log" : suggestion);

@@ -23,7 +23,7 @@ constexpr std::int64_t kLeastOpenFiles = 3;              // the standard streams
 std::int64_t bounded(const Fields& fields, const char* name, Scope& scope, std::int64_t least, std::int64_t most) {
   const auto value = static_cast<std::int64_t>(fields.number(name)->perform(scope));
   if (value < least || value > most) {
-    throw LaunchError(most == std::numeric_limits<int>::max()
+    throw LaunchError(most == std::numeric_limits<int>::max() && value < least
                           ? fmt::format("{} is at least {}, got {}", name, least, value)
                           : fmt::format("{} is a number from {} to {}, got {}", name, least, most, value),
                       fields.where(name));
@@ -91,7 +91,8 @@ void perform_timer_slack(const Fields& fields, Scope& scope, ResourceLimits& lim
 
 void perform_locked_memory(const Fields& fields, Scope& scope, ResourceLimits& limits) {
   const std::string text = fields.text("locked_memory_limit").perform(scope);
-  limits.locked_memory = text == "unlimited" ? kUnlimited : parse_bytes(text, fields.where("locked_memory_limit"));
+  limits.locked_memory =
+      text == "unlimited" ? kUnlimited : parse_bytes(text, fields.where("locked_memory_limit"), ", or unlimited");
 }
 
 void check_deadline(const Fields& fields, const DeadlineSchedule& schedule) {
@@ -143,7 +144,7 @@ void check_resources(const Fields& fields, const ResourceLimits& limits) {
   }
 }
 
-std::uint64_t parse_bytes(const std::string& text, const SourceRange& where) {
+std::uint64_t parse_bytes(const std::string& text, const SourceRange& where, const char* or_else) {
   std::string_view digits = text;
   unsigned shift = 0;
   if (!digits.empty()) {
@@ -156,7 +157,7 @@ std::uint64_t parse_bytes(const std::string& text, const SourceRange& where) {
   std::uint64_t value = 0;
   if (!parse_whole(digits, value) || value == 0 || value > (std::numeric_limits<std::uint64_t>::max() >> shift)) {
     throw LaunchError(fmt::format("'{}' is no amount of memory", text), where,
-                      "write bytes, or a number with K, M or G");
+                      fmt::format("write bytes, or a number with K, M or G{}", or_else));
   }
   return value << shift;
 }

@@ -11,8 +11,8 @@
 
 namespace launch {
 
-// An amount of memory: "1500000", "64K", "512M", "2G". Throws LaunchError at `where`.
-std::uint64_t parse_bytes(const std::string& text, const SourceRange& where);
+// An amount of memory: "1500000", "64K", "512M", "2G". Throws LaunchError at `where`; `or_else` ends its help.
+std::uint64_t parse_bytes(const std::string& text, const SourceRange& where, const char* or_else = "");
 // Time of processors: "50%" is 0.5 of one. Throws LaunchError at `where`.
 double parse_share(const std::string& text, const SourceRange& where);
 

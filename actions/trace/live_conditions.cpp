@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// <on_silence>, <on_rate>, <on_late>: visit actions when the trace of the running system shows that nodes do nothing any
-// more, too much, or too little, or take too long.
+// <on_silence>, <on_rate>, <on_late>: visit actions when the trace of the running system shows that nodes do nothing
+// any more, too much, or too little, or take too long.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -142,9 +142,9 @@ Row share_row() {
           .perform = [](const Fields& fields, Scope& scope, Values& handled) {
             const double share = fields.number("share")->perform(scope);
             if (!(share > 0) || share > 1) {
-              throw LaunchError(fmt::format("share is above 0 and at most 1, got {}", share), fields.where("share"),
-                                share > 1 && share <= 100 ? fmt::format("did you mean {}?", share / 100)
-                                                          : "write 0.99 for 99 %");
+              throw LaunchError(
+                  fmt::format("share is above 0 and at most 1, got {}", share), fields.where("share"),
+                  share > 1 && share <= 100 ? fmt::format("did you mean {}?", share / 100) : "write 0.99 for 99 %");
             }
             handled.event.condition.share = share;
           }};
@@ -208,7 +208,8 @@ ActionType on_late_action() {
       with_common_rows(
           {name_row("topic", false, "a topic to which nodes of the launch are subscribed: from sending to the callback",
                     LiveCondition::Subject::kTopic),
-           name_row("node", false, "a node of the launch: the time that a callback runs", LiveCondition::Subject::kNode),
+           name_row("node", false, "a node of the launch: the time that a callback runs",
+                    LiveCondition::Subject::kNode),
            name_row("service", false, "a service that nodes of the launch call: from the request to the response",
                     LiveCondition::Subject::kService),
            max_row(), share_row(), window_row("window", false, "2s", "over which they are counted")}),

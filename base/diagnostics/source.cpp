@@ -43,7 +43,11 @@ SourceFile::SourceFile(std::string path, std::string text, SourceRange included_
     throw std::length_error(fmt::format("'{}' is larger than 4 GiB", path_));
   }
   line_starts_.push_back(0);
-  for (std::size_t end = text_.find('\n'); end != std::string::npos; end = text_.find('\n', end + 1)) {
+  for (std::size_t end = text_.find_first_of("\r\n"); end != std::string::npos;
+       end = text_.find_first_of("\r\n", end + 1)) {
+    if (text_[end] == '\r' && end + 1 < text_.size() && text_[end + 1] == '\n') {
+      ++end;
+    }
     line_starts_.push_back(static_cast<std::uint32_t>(end + 1));
   }
   std::uint32_t characters = 0;

@@ -52,6 +52,13 @@ ExitCodeFilter::ExitCodeFilter(const std::string& text, const SourceRange& where
     const std::string word(trim(std::string_view(text_).substr(begin, end - begin), kBlanks));
     const std::optional<int> code = exit_code(word);
     if (!code) {
+      if (word == "any" || word == "nonzero") {
+        throw LaunchError(fmt::format("'{}' stands alone", word), where,
+                          fmt::format("leave the other exit codes out, or leave {} out", word));
+      }
+      if (signal_number("SIG" + word) != 0) {
+        throw LaunchError(fmt::format("'{}' is no exit code", word), where, fmt::format("did you mean 'SIG{}'?", word));
+      }
       std::vector<std::string> known = signal_names();
       known.insert(known.end(), {"any", "nonzero"});
       const std::string suggestion = did_you_mean(word, known);

@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <chrono>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "base/overloaded.hpp"
@@ -44,11 +46,23 @@ std::string process_as_script(const ProcessSpec& spec, const Environment& launch
                             change.empty() ? "" : "env" + change + " ", command);
 }
 
+// What the launch does about the process and the script does not.
+std::string remarks_on(const ProcessSpec& spec, Duration delay) {
+  std::string text;
+  if (delay > Duration(0)) {
+    text += fmt::format("# the launch starts it after {} s\n", std::chrono::duration<double>(delay).count());
+  }
+  text += spec.respawn.enabled ? "# the launch starts it again when it has ended\n" : "";
+  text += spec.required ? "# the launch ends with it\n" : "";
+  return text;
+}
+
 }  // namespace
 
 std::string plan_as_shell_script(const LaunchPlan& plan, const Environment& launcher_environment) {
   std::string traces;
-  std::string processes;
+  std::vector<std::string> processes;
+  std::vector<std::string> remarks;  // on each of them
   std::string components;
   std::string handlers;
   std::size_t files = 0;
@@ -67,19 +81,31 @@ std::string plan_as_shell_script(const LaunchPlan& plan, const Environment& laun
                   }
                 },
                 [&](const ProcessSpec& spec) {
-                  processes += spec.machine.empty() ? process_as_script(spec, launcher_environment, files)
-                                                    : fmt::format("\n# not started: {} on machine {}, {}\n", spec.name,
-                                                                  spec.machine, to_string(spec.origin));
+                  remarks.push_back(remarks_on(spec, plan.delays[processes.size()]));
+                  processes.push_back(spec.machine.empty()
+                                          ? process_as_script(spec, launcher_environment, files)
+                                          : fmt::format("\n# not started: {} on machine {}, {}\n", spec.name,
+                                                        spec.machine, to_string(spec.origin)));
+                },
+                [&](const Dependency& dependency) {
+                  remarks[dependency.process] += fmt::format("# the launch waits until {}\n", describe(dependency));
                 },
                 PassOver<ProcessCommand, UnregisterRequest, TestRequest, TimerRequest, TransitionRequest,
-                         CoroutineRequest, ShutdownRequest, NodeDescription, Dependency>(),
+                         CoroutineRequest, ShutdownRequest, NodeDescription>(),
             });
-  std::string text = "#!/bin/sh\n# What the launch would run, without traces and supervision. Ctrl-C ends all of it.\n";
+  // A shell starts what is in the background with SIGINT ignored, so the trap sends SIGTERM.
+  std::string text =
+      "#!/bin/sh\n# What the launch would run, at once, without traces and supervision. Ctrl-C ends all of it.\n"
+      "trap 'trap \"\" TERM; kill 0; wait; exit 130' INT TERM\n";
   text += traces;
   if (files > 0) {
     text += "parameters=$(mktemp -d) || exit 1\nexport parameters\ntrap 'rm -rf \"$parameters\"' EXIT\n";
   }
-  text += processes + components;
+  for (std::size_t i = 0; i < processes.size(); ++i) {
+    const std::size_t end_of_title = processes[i].find('\n', 1) + 1;
+    text += processes[i].insert(end_of_title, remarks[i]);
+  }
+  text += components;
   for (const LeftToRun& left : plan.left_to_run) {
     text += fmt::format("\n# not known without a run: {}, {}\n",
                         left.function.empty() ? "an action" : "function " + left.function, to_string(left.where));

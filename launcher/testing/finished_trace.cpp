@@ -57,8 +57,8 @@ class Judgement {
     for (const FaultRequest& fault : test.faults) {
       failures.push_back(not_told("a fault can't be applied to a finished trace", fault.where));
     }
-    result.not_judged = failures.size();
     if (trace_.skips_others) {
+      result.not_judged = failures.size();
       failures.clear();
     }
     if (of_trace.empty() && failures.empty()) {

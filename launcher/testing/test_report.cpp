@@ -61,8 +61,7 @@ void TestReport::on_result(const TestResult& result) {
     fmt::print(stream_, "{}", failure.text);
   }
   if (result.not_judged > 0) {
-    fmt::print(stream_, "      = not judged, because the run ended: {} expectation{}\n", result.not_judged,
-               result.not_judged == 1 ? "" : "s");
+    fmt::print(stream_, "      = not judged: {} expectation{}\n", result.not_judged, result.not_judged == 1 ? "" : "s");
   }
   fmt::print(stream_, "{}", seed_text(result));
   if (!result.directory.empty()) {

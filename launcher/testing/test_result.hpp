@@ -27,7 +27,7 @@ struct TestResult {
   unsigned line = 0;  // of the <test>
   double seconds = 0;
   std::size_t met = 0;                // expectations that hold
-  std::size_t not_judged = 0;         // because another one failed before
+  std::size_t not_judged = 0;         // because another one failed before, or a finished trace does not tell them
   std::vector<TestFailure> failures;  // none: the test has passed
   std::string directory;              // its files; empty: they were removed
   std::size_t round = 0;              // of --repeat, from 1; 0: there is only one

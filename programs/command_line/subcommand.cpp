@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "base/terminal/terminal.hpp"
+#include "programs/command_line/size_option.hpp"
 
 namespace launch {
 
@@ -29,7 +30,7 @@ void add_python_limits(CLI::App& app, PythonLimits& limits) {
                  "how much memory Python may take where a launch file is only looked at, and for $(eval …): bytes, or "
                  "with K, M or G; 2G by default")
       ->type_name("SIZE")
-      ->transform(CLI::AsSizeValue(false));
+      ->transform(size_in_bytes());
 }
 
 void Subcommand::take_target(LaunchTarget& target, bool optional) {

@@ -12,8 +12,8 @@
 #include <exception>
 #include <optional>
 #include <string>
-#include <vector>
 #include <utility>
+#include <vector>
 
 #include "base/overloaded.hpp"
 #include "programs/watch/processes_of_launch.hpp"
@@ -38,22 +38,22 @@ constexpr std::chrono::seconds kCaughtUp{1};
 // What the conditions need, and the beginnings of all objects.
 std::vector<std::string> events_of_conditions(const std::set<std::string>& needs) {
   std::vector<std::string> events = {"ros2:rcl_init",
-          "ros2:rcl_node_init",
-          "ros2:*_publisher_init",
-          "ros2:rcl_publish",
-          "ros2:rmw_publish",
-          "ros2:rclcpp_intra_publish",
-          "ros2:*_subscription_init",
-          "ros2:rclcpp_subscription_callback_added",
-          "ros2:*_service_init",
-          "ros2:rclcpp_service_callback_added",
-          "ros2:*_client_init",
-          "ros2:*timer*",
-          "ros2:rclcpp_callback_register",
-          "ros2:rcl_lifecycle_state_machine_init",
-          "ros2:callback_start",
-          "ros2:callback_end",
-          "ros2_ext:*_client_callback_*"};
+                                     "ros2:rcl_node_init",
+                                     "ros2:*_publisher_init",
+                                     "ros2:rcl_publish",
+                                     "ros2:rmw_publish",
+                                     "ros2:rclcpp_intra_publish",
+                                     "ros2:*_subscription_init",
+                                     "ros2:rclcpp_subscription_callback_added",
+                                     "ros2:*_service_init",
+                                     "ros2:rclcpp_service_callback_added",
+                                     "ros2:*_client_init",
+                                     "ros2:*timer*",
+                                     "ros2:rclcpp_callback_register",
+                                     "ros2:rcl_lifecycle_state_machine_init",
+                                     "ros2:callback_start",
+                                     "ros2:callback_end",
+                                     "ros2_ext:*_client_callback_*"};
   if (needs.contains("messages")) {
     events.insert(events.end(), {"ros2:rmw_take", "ros2:rclcpp_construct_ring_buffer", "ros2:rclcpp_buffer_to_ipb",
                                  "ros2:rclcpp_ipb_to_subscription", "ros2:rclcpp_ring_buffer_*"});

@@ -29,17 +29,23 @@ std::string with_escapes(std::string_view text) {
       continue;
     }
     const char letter = text[++i];
-    const bool hexadecimal = letter == 'x';
+    const std::size_t width = letter == 'x' ? 2 : letter == 'u' ? 4 : letter == 'U' ? 8 : 0;
+    const bool hexadecimal = width > 0;
     const bool octal = letter >= '0' && letter <= '7';
     if (const std::size_t at = kLetters.find(letter); at != std::string_view::npos) {
       result += kMeanings[at];
     } else if (hexadecimal || octal) {
-      const std::string_view digits = hexadecimal ? text.substr(i + 1, 2) : text.substr(i, 3);
+      const std::string_view digits = hexadecimal ? text.substr(i + 1, width) : text.substr(i, 3);
       unsigned value = 0;
       const auto end = std::from_chars(digits.data(), digits.data() + digits.size(), value, hexadecimal ? 16 : 8).ptr;
       const auto size = static_cast<std::size_t>(end - digits.data());
+      const bool is_character = value < 0xd800 || (value > 0xdfff && value <= 0x10ffff);
+      if (width > 2 && (size < width || !is_character)) {
+        result.append({'\\', letter});
+        continue;
+      }
       i += hexadecimal ? size : size - 1;
-      // Python's codec reads the number as a character of Latin-1.
+      // Python's codec reads the number of \x and of octal digits as a character of Latin-1.
       append_utf8(result, value);
     } else {
       result.append({'\\', letter});

@@ -14,6 +14,7 @@
 
 #include "base/diagnostics/command_error.hpp"
 #include "launcher/process/output/old_logs.hpp"
+#include "programs/command_line/size_option.hpp"
 #include "programs/launch/commands.hpp"
 
 namespace launch {
@@ -99,7 +100,7 @@ std::variant<CommandLine, ExitNow> parse_command_line(const std::vector<std::str
   app.add_option("--log-size", command.log_size,
                  "begin a new log file when one has this size: bytes, or with K, M or G; 64M by default, 0: never")
       ->type_name("SIZE")
-      ->transform(CLI::AsSizeValue(false));
+      ->transform(size_in_bytes());
   app.add_option("--log-files", command.log_files, "how many files of each log are kept, 5 by default")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));

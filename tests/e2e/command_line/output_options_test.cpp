@@ -134,6 +134,16 @@ TEST_F(OutputOptions, LogFilesHaveALimitedSizeAndNumber) {
                  "are kept\n"));
 }
 
+TEST_F(OutputOptions, ASizeThatIsNoneIsAnError) {
+  const std::string file = write(R"xml(<executable cmd="true"/>)xml");
+  for (const char* const size : {"-1", "-5M", "10Q", "", "1.5G", "99999999999G"}) {
+    const CommandResult result = run_command({LAUNCH_PROGRAM, "--log-size", size, file});
+    EXPECT_EQ(result.exit_code, 2) << size;
+    EXPECT_THAT(result.err,
+                HasSubstr("'" + std::string(size) + "' is no size; write bytes, or a number with K, M or G"));
+  }
+}
+
 TEST_F(OutputOptions, LogsOfEarlierLaunchesAreRemoved) {
   const std::string file = write(R"xml(<executable cmd="true"/>)xml");
   std::vector<fs::path> logs;

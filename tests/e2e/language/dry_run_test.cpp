@@ -7,6 +7,7 @@
 namespace {
 
 using namespace test_support;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -67,6 +68,40 @@ TEST_F(WithoutRunning, DryRunAsAScriptRunsTheProcesses) {
   EXPECT_THAT(result.out, HasSubstr("two words it's gone\n"));
   EXPECT_THAT(result.out, HasSubstr("/\n"));
   EXPECT_THAT(result.out, HasSubstr("2\n"));  // they run at the same time, so the order is open
+}
+
+TEST_F(WithoutRunning, DryRunAsAScriptSaysWhatTheLaunchWouldDoBeyondIt) {
+  const std::string path = file("a.launch.xml", R"xml(<launch>
+  <executable cmd="sleep 100" name="first" respawn="true"/>
+  <executable cmd="true" name="second"><depends_on process="first" condition="started"/></executable>
+  <timer period="1.5"><executable cmd="true" name="third" required="true"/></timer>
+</launch>
+)xml");
+  const CommandResult script = launch({"--dry-run=shell", path});
+  EXPECT_THAT(script.out, ContainsRegex("\n# first, [^\n]*\n# the launch starts it again when it has ended\n\\("));
+  EXPECT_THAT(script.out, ContainsRegex("\n# second, [^\n]*\n# the launch waits until 'first' has started\n\\("));
+  EXPECT_THAT(script.out,
+              ContainsRegex("\n# third, [^\n]*\n# the launch starts it after 1.5 s\n# the launch ends with it\n\\("));
+}
+
+// What is in the background of a script ignores SIGINT.
+TEST_F(WithoutRunning, CtrlCEndsAllOfAScript) {
+  const std::string path = file("a.launch.xml", R"xml(<launch>
+  <executable cmd="sleep 1000"/>
+  <executable cmd="sh -c 'echo ready; exec sleep 1000'"/>
+</launch>
+)xml");
+  const std::string saved = file("run.sh", launch({"--dry-run=shell", path}).out);
+  const CommandResult result = run_command(Command{{"/usr/bin/python3", "-c", R"py(
+import os, signal, subprocess, sys
+script = subprocess.Popen(['/bin/sh', sys.argv[1]], stdout=subprocess.PIPE, text=True, process_group=0)
+script.stdout.readline()
+os.killpg(script.pid, signal.SIGINT)
+script.stdout.read()  # ends with the last process
+print(script.wait())
+)py",
+                                                    saved}});
+  EXPECT_EQ(result.out, "130\n") << result.err;
 }
 
 TEST_F(WithoutRunning, DryRunAsAScriptWritesParameterFiles) {

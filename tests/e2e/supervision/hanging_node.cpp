@@ -48,7 +48,8 @@ int main(int argc, char** argv) {
     std::printf("tick %d\n", ++ticks);
     std::fflush(stdout);
     // One that falls silent goes on in all other ways.
-    if (const bool goes_on = ticks < 20; goes_on || (what == "slow" && ticks % 10 == 0) || what == "ever" || what == "late") {
+    if (const bool goes_on = ticks < 20;
+        goes_on || (what == "slow" && ticks % 10 == 0) || what == "ever" || what == "late") {
       std_msgs::msg::Int32 beat;
       beat.data = ticks;
       beats->publish(beat);

@@ -63,7 +63,7 @@ a.launch.xml:3:4: error: p-1 has exited with code 3
       = help: if that is right: <exit process="p" code="3"/>
       = last lines of p-1:
           ready
-      = not judged, because the run ended: 1 expectation
+      = not judged: 1 expectation
       = seed 1: 1 of 1 fault applied
           1  a.launch.xml:5:6: kill of 'p' by SIGTERM at T s
       = again: launch test a.launch.xml --seed 1

@@ -79,7 +79,7 @@ a.launch.xml:3:4: error: bad-1 has exited with code 7
       = help: if that is right: <exit process="bad" code="7"/>
       = last lines of bad-1:
           oh
-      = not judged, because the run ended: 1 expectation
+      = not judged: 1 expectation
       = files: DIR/0001-t
 
 1 test: 0 passed, 1 failed, in T s

@@ -55,6 +55,16 @@ TEST(SourceFile, GivesLinesWithoutTheirEnds) {
   EXPECT_EQ(file.line(0), "");
 }
 
+TEST(SourceFile, LinesMayEndInCarriageReturnsAlone) {
+  const SourceFile file("a.xml", "one\rtwo\r\rfour\r");
+  EXPECT_EQ(file.line(1), "one");
+  EXPECT_EQ(file.line(2), "two");
+  EXPECT_EQ(file.line(3), "");
+  EXPECT_EQ(file.line(4), "four");
+  EXPECT_EQ(file.position(5).line, 2U);
+  EXPECT_EQ(file.position(5).column, 2U);
+}
+
 TEST(SourceFile, ReadsAWholeFile) {
   std::string path = "/tmp/launch_source_test_XXXXXX";
   ASSERT_GE(::close(::mkstemp(path.data())), 0);

@@ -74,7 +74,8 @@ TEST(Conditions, SayWhatMustBeRecordedForThem) {
 }
 
 TEST(MessagesOfConditions, ComeBackAsTheyWere) {
-  for (const LiveCondition& condition : {kSilentTopic, kSilentNode, kSlow, kFast, kLateTopic, kLateNode, kLateService}) {
+  for (const LiveCondition& condition :
+       {kSilentTopic, kSilentNode, kSlow, kFast, kLateTopic, kLateNode, kLateService}) {
     const std::string line = to_line(ConditionOrder(WatchCondition{7, condition}));
     EXPECT_EQ(std::get<WatchCondition>(parse_condition_order(line)).condition, condition) << line;
   }
@@ -107,7 +108,9 @@ TEST(MessagesOfConditions, OfAnotherKindAreErrors) {
   for (const char* const wrong : {"", "{", "[1]", "{}", "{\"condition\":1}", "{\"unseen\":\"x\",\"known\":[]}"}) {
     EXPECT_THROW(parse_condition_report(wrong), std::runtime_error) << wrong;
   }
-  for (const char* const wrong : {"", "{}", "{\"watch\":1}", R"({"watch":1,"kind":"odd","topic":"/a","window":1,"grace":1})", "{\"forget\":\"x\"}"}) {
+  for (const char* const wrong :
+       {"", "{}", "{\"watch\":1}", R"({"watch":1,"kind":"odd","topic":"/a","window":1,"grace":1})",
+        "{\"forget\":\"x\"}"}) {
     EXPECT_THROW(parse_condition_order(wrong), std::runtime_error) << wrong;
   }
 }

@@ -39,6 +39,8 @@ TEST(MessageFormat, TakesDoubleBracesAsBraces) {
 TEST(MessageFormat, DecodesEscapesAsPythonDoes) {
   EXPECT_EQ(formatted("\\033[1m{msg}\\x1b[0m\\t\\\\ \\q"), "\033[1mtoo late\033[0m\t\\ \\q");
   EXPECT_EQ(formatted("\\xe9"), "\xC3\xA9");
+  EXPECT_EQ(formatted("\\u00e9 \\U0001f600"), "\xC3\xA9 \xF0\x9F\x98\x80");
+  EXPECT_EQ(formatted("\\u00e \\ud800 \\uz"), "\\u00e \\ud800 \\uz");
 }
 
 TEST(MessageFormat, SaysWhatIsWrong) {

@@ -86,7 +86,10 @@ constexpr char kSharedMemory = LOCATOR_KIND_SHM;  // has the number of the major
 TEST(AnnouncedHosts, AreThoseOfSharedMemoryInEachAnnouncement) {
   Message message;
   message.data(std::string("\0\0\1\3", 4)).end();  // of an application
-  message.data(kParticipants).locator(kDefaultUnicast, LOCATOR_KIND_UDPv4, 1).locator(kDefaultUnicast, kSharedMemory, 2).end();
+  message.data(kParticipants)
+      .locator(kDefaultUnicast, LOCATOR_KIND_UDPv4, 1)
+      .locator(kDefaultUnicast, kSharedMemory, 2)
+      .end();
   message.add("\x09\1\10\0timetime").add("\x09\3\0\0");  // the second one: no time
   message.data(kPublications, true).locator(kUnicast, kSharedMemory, 3).locator(0x50, kSharedMemory, 4).end();
   EXPECT_THAT(message.found(), ElementsAre(message.places()[1], message.places()[2]));

@@ -94,17 +94,17 @@ TEST_F(ConditionHandlersTest, SayWhatWasLate) {
 <on_late node="/planner" max="1s"><log message="$(var event.node), $(var event.process)"/></on_late>
 <on_late service="/plann" max="1s"/>)xml"),
             0);
-  EXPECT_THAT(watch_.diary,
-              ElementsAre("watch 1: on_late of topic /scan above 20ms, 0.99 of all in 5s",
-                          "watch 2: on_late of node /planner above 1s", "watch 3: on_late of service /plann above 1s",
-                          "close"));
-  EXPECT_THAT(messages_,
-              ElementsAre("[launch.condition] 4 % of the messages on /scan in 5s took longer than 20ms, the last of "
-                          "them 31.2 ms (mapper-1)",
-                          "[launch.user] /scan: 0.0312 of 20ms, 0.96 in 5s",
-                          "[launch.condition] messages on /scan take no longer than 20ms again (mapper-1)",
-                          "[launch.condition] a callback of /planner took 1.25 s, more than 1s (planner-2)",
-                          "[launch.user] /planner, planner-2", testing::HasSubstr("no client of /plann was ever seen")));
+  EXPECT_THAT(watch_.diary, ElementsAre("watch 1: on_late of topic /scan above 20ms, 0.99 of all in 5s",
+                                        "watch 2: on_late of node /planner above 1s",
+                                        "watch 3: on_late of service /plann above 1s", "close"));
+  EXPECT_THAT(
+      messages_,
+      ElementsAre("[launch.condition] 4 % of the messages on /scan in 5s took longer than 20ms, the last of "
+                  "them 31.2 ms (mapper-1)",
+                  "[launch.user] /scan: 0.0312 of 20ms, 0.96 in 5s",
+                  "[launch.condition] messages on /scan take no longer than 20ms again (mapper-1)",
+                  "[launch.condition] a callback of /planner took 1.25 s, more than 1s (planner-2)",
+                  "[launch.user] /planner, planner-2", testing::HasSubstr("no client of /plann was ever seen")));
 }
 
 TEST_F(ConditionHandlersTest, WithOnceAreForgottenAfterTheFirstTime) {

@@ -46,7 +46,7 @@ MetadataText read_metadata_text(const std::filesystem::path& file) {
     return translated(bytes, false);
   }
   if (bytes.size() < sizeof kMagic) {
-    return {bytes};
+    return {bytes, true};
   }
   const bool swapped = word(bytes, 0, true) == kMagic;
   if (!swapped && word(bytes, 0, false) != kMagic) {

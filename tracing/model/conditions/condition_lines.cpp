@@ -76,34 +76,33 @@ auto reading(std::string_view text, Read read) {
 }  // namespace
 
 std::string to_line(const ConditionOrder& order) {
-  return line_of(
-      std::visit(launch::Overloaded{
-                     [](const WatchCondition& watch) {
-                       const LiveCondition& condition = watch.condition;
-                       ConditionJson json{
-                           {"watch", watch.id},
-                           {"kind", name_of(condition.kind)},
-                           {tracing::name_of(condition.subject), condition.name},
-                           {"window", seconds_of(condition.window)},
-                           {"grace", seconds_of(condition.grace)},
-                       };
-                       if (condition.below) {
-                         json["below"] = *condition.below;
-                       }
-                       if (condition.above) {
-                         json["above"] = *condition.above;
-                       }
-                       if (condition.kind == LiveCondition::Kind::kLate) {
-                         json["max"] = seconds_of(condition.max);
-                         json["share"] = condition.share;
-                       }
-                       return json;
-                     },
-                     [](const ForgetCondition& forget) {
-                       return ConditionJson{{"forget", forget.id}};
-                     },
-                 },
-                 order));
+  return line_of(std::visit(launch::Overloaded{
+                                [](const WatchCondition& watch) {
+                                  const LiveCondition& condition = watch.condition;
+                                  ConditionJson json{
+                                      {"watch", watch.id},
+                                      {"kind", name_of(condition.kind)},
+                                      {tracing::name_of(condition.subject), condition.name},
+                                      {"window", seconds_of(condition.window)},
+                                      {"grace", seconds_of(condition.grace)},
+                                  };
+                                  if (condition.below) {
+                                    json["below"] = *condition.below;
+                                  }
+                                  if (condition.above) {
+                                    json["above"] = *condition.above;
+                                  }
+                                  if (condition.kind == LiveCondition::Kind::kLate) {
+                                    json["max"] = seconds_of(condition.max);
+                                    json["share"] = condition.share;
+                                  }
+                                  return json;
+                                },
+                                [](const ForgetCondition& forget) {
+                                  return ConditionJson{{"forget", forget.id}};
+                                },
+                            },
+                            order));
 }
 
 std::string to_line(const ConditionReport& report) {

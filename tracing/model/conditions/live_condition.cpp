@@ -104,9 +104,8 @@ std::string describe(const LiveCondition& condition) {
     return fmt::format("on_silence {} for {}", of, time_text(condition.window));
   }
   if (condition.kind == LiveCondition::Kind::kLate) {
-    const std::string most = condition.share < 1 ? fmt::format(", {:.6g} of all in {}", condition.share,
-                                                               time_text(condition.window))
-                                                 : "";
+    const std::string most =
+        condition.share < 1 ? fmt::format(", {:.6g} of all in {}", condition.share, time_text(condition.window)) : "";
     return fmt::format("on_late {} above {}{}", of, time_text(condition.max), most);
   }
   return fmt::format("on_rate {} {} {:.4g} Hz in {}", of, condition.below ? "below" : "above",

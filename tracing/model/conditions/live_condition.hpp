@@ -27,8 +27,8 @@ struct LiveCondition {
   std::chrono::nanoseconds window{0};
   std::optional<double> below = std::nullopt;  // of kRate: one of both, in Hz
   std::optional<double> above = std::nullopt;
-  std::chrono::nanoseconds max{0};  // of kLate
-  double share = 1;                 // of kLate, above 0: 1 means that none may take longer
+  std::chrono::nanoseconds max{0};                            // of kLate
+  double share = 1;                                           // of kLate, above 0: 1 means that none may take longer
   std::chrono::nanoseconds grace = std::chrono::seconds(10);  // if the name was not seen until then, that is told
 
   bool operator==(const LiveCondition&) const = default;
@@ -40,8 +40,8 @@ struct ConditionChange {
   // Of silence: for how many seconds nothing had happened. Of a rate: Hz. Of what is late: how many seconds the last
   // one took that was; of a callback that still runs, up to now.
   double figure = 0;
-  // Labels of the processes whose publishers or nodes have the name, of kLate those whose subscriptions, nodes or clients
-  // do: of those that run, or if none does, of all.
+  // Labels of the processes whose publishers or nodes have the name, of kLate those whose subscriptions, nodes or
+  // clients do: of those that run, or if none does, of all.
   std::vector<std::string> processes = {};
   double late = 0;  // of kLate: which part of what has happened in the window took too long
 

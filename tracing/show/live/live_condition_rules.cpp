@@ -10,10 +10,6 @@ namespace {
 
 using Kind = LiveCondition::Kind;
 
-double seconds_in(std::int64_t nanoseconds) {
-  return static_cast<double>(nanoseconds) / 1e9;
-}
-
 }  // namespace
 
 std::int64_t LiveConditions::counts_from(const Rule& rule) const {

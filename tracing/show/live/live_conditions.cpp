@@ -10,10 +10,6 @@ namespace {
 using Kind = LiveCondition::Kind;
 using Subject = LiveCondition::Subject;
 
-double seconds_in(std::int64_t nanoseconds) {
-  return static_cast<double>(nanoseconds) / 1e9;
-}
-
 }  // namespace
 
 LiveConditions::LiveConditions(LaunchedProcesses& processes, Tell tell)

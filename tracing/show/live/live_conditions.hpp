@@ -117,6 +117,7 @@ class LiveConditions : public ExecutionSink, public TraceSink {
   void check_rate_part(Rule& rule, std::int64_t end_ns);
   void check_late_part(Rule& rule, std::int64_t end_ns);
   bool is_late(const Rule& rule) const;
+  static double seconds_in(std::int64_t nanoseconds) { return static_cast<double>(nanoseconds) / 1e9; }
   void change(Rule& rule, bool holds, double figure);
   bool lives(const Rule& rule);
 

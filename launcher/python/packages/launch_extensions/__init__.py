@@ -175,5 +175,22 @@ class OnRate(_OfCondition):
                                  if value is not None]
 
 
+class OnLate(_OfCondition):
+    """
+    Visits its actions each time something takes longer than `max`; <on_late> in XML.
+
+    That is a message on `topic` from sending to the callback, a callback of `node`, or a response of `service`. In
+    `window`, `share` of all may not take longer.
+    """
+
+    _TAG = 'on_late'
+
+    def __init__(self, actions, *, max, topic=None, node=None, service=None, share=None, window=None, **kwargs):
+        super().__init__(actions, (('topic', topic), ('node', node), ('service', service), ('max', max),
+                                   ('window', window)), **kwargs)
+        if share is not None:
+            self._attributes.insert(0, ('share', number(share, 'share')))
+
+
 __all__ = ['AssignMachine', 'Machine', 'OnHealthChange', 'OnLate', 'OnMachineBack', 'OnMachineLost', 'OnRate', 'OnSilence',
            'OnStartLimit', 'RestartProcess', 'WaitFor']
