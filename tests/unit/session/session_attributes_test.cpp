@@ -12,6 +12,7 @@
 #include "tracing/record/lttng/session_daemon.hpp"
 #include "tracing/record/plan/trace_config.hpp"
 #include "tracing/record/plan/trace_error.hpp"
+#include "tracing/record/session/session_store.hpp"
 #include "tracing/record/session/tracer.hpp"
 
 namespace {
@@ -315,12 +316,15 @@ TEST_F(SessionAttributes, ASavedSessionIsLoadedAsItWas) {
 TEST_F(SessionAttributes, LoadingWhatWasNotSavedIsAnError) {
   tracing::ensure_session_daemon();
   std::filesystem::create_directories(sandbox.directory() / "saved");
-  try {
-    tracer->load("run", sandbox.directory() / "saved");
-    FAIL() << "no error";
-  } catch (const TraceError& error) {
-    EXPECT_STREQ(error.what(), "there is no saved session 'run'");
-    EXPECT_EQ(error.remedy(), "`launch trace save` writes one");
+  for (const std::string& directory : {(sandbox.directory() / "saved").string(), std::string()}) {
+    try {
+      tracer->load("run", directory);
+      FAIL() << "no error";
+    } catch (const TraceError& error) {
+      EXPECT_EQ(error.what(), "there is no saved session 'run': " + tracing::file_of_saved_session("run", directory) +
+                                  " does not exist");
+      EXPECT_EQ(error.remedy(), "`launch trace save` writes one");
+    }
   }
 }
 
