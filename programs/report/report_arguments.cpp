@@ -68,10 +68,11 @@ void check_comparison(const CLI::App& app, const Arguments& arguments) {
   }
 }
 
-// They choose what the text shows. All else has everything, and would pass over them without a word.
+// They choose what the text shows, which --live draws in any case. All else has everything, and would pass over them
+// without a word.
 void check_text_options(const CLI::App& app, const Arguments& arguments) {
   const bool writes_files_alone = arguments.files.any() && !arguments.comparison.compares();
-  if (!arguments.json && !arguments.summary && !writes_files_alone) {
+  if (arguments.live || (!arguments.json && !arguments.summary && !writes_files_alone)) {
     return;
   }
   for (const char* option : {"--top", "--sort", "--node", "--topic", "--chain", "--events"}) {

@@ -351,6 +351,21 @@ TEST_F(LaunchReport, RefusesWrongArguments) {
             "      = help: see 'launch report --help'\n");
 }
 
+TEST_F(LaunchReport, RefusesWhatTheOutputWouldPassOver) {
+  for (const char* const option :
+       {"--top 3", "--sort max", "--node /ping", "--topic /ping", "--chain /ping /pong", "--events"}) {
+    const std::string name = std::string(option).substr(0, std::string(option).find(' '));
+    for (const auto& [output, what] :
+         {std::pair("--json", "--json"), std::pair("--summary", "--summary"), std::pair("--html x.html", "a file")}) {
+      const Outcome result = launch_report(std::string(output) + " " + path_ + " " + option);
+      EXPECT_EQ(result.exit_code, 2);
+      EXPECT_EQ(result.err.substr(0, result.err.find('\n')),
+                "launch report: error: " + name + ": is for the text, and " + what + " has everything");
+    }
+  }
+  EXPECT_EQ(launch_report("--json --all " + path_).exit_code, 1) << "it counts there, and this is no trace yet";
+}
+
 TEST_F(LaunchReport, ExplainsItself) {
   const Outcome outcome = launch_report("--help");
   EXPECT_EQ(outcome.exit_code, 0);
