@@ -6,8 +6,10 @@
 #include <fmt/format.h>
 #include <netinet/in.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,6 +19,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <system_error>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -64,12 +67,47 @@ bool accepts(std::uint16_t port) {
   return connect(client.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
 }
 
-std::string make_directory() {
-  std::string name = (std::filesystem::temp_directory_path() / "launch-watch-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) {
-    throw std::system_error(errno, std::generic_category(), "create " + name);
+constexpr const char* kDirectory = "launch-watch-";
+
+launch::UniqueFd open_directory(const std::string& path) {
+  return launch::UniqueFd(open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+}
+
+// Whose program was killed. A program that lives has a lock on its own.
+void remove_left_directories() {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::temp_directory_path(), error)) {
+    if (!entry.path().filename().string().starts_with(kDirectory)) {
+      continue;
+    }
+    const launch::UniqueFd directory = open_directory(entry.path());
+    struct stat status {};
+    if (directory && fstat(directory.get(), &status) == 0 && status.st_uid == geteuid() &&
+        flock(directory.get(), LOCK_EX | LOCK_NB) == 0) {
+      std::filesystem::remove_all(entry.path(), error);
+    }
   }
-  return name;
+}
+
+// Returns its path, and a lock on it.
+std::pair<std::string, launch::UniqueFd> make_directory() {
+  while (true) {
+    std::string name = (std::filesystem::temp_directory_path() / (std::string(kDirectory) + "XXXXXX")).string();
+    if (mkdtemp(name.data()) == nullptr) {
+      throw std::system_error(errno, std::generic_category(), "create " + name);
+    }
+    launch::UniqueFd directory = open_directory(name);
+    if (!directory) {
+      throw std::system_error(errno, std::generic_category(), "open " + name);
+    }
+    // A file system without locks keeps what is left. Before this program has the lock, another one may have taken the
+    // directory for one that was left.
+    struct stat status {};
+    if (flock(directory.get(), LOCK_EX) == 0 && fstat(directory.get(), &status) == 0 && status.st_nlink == 0) {
+      continue;
+    }
+    return {std::move(name), std::move(directory)};
+  }
 }
 
 // In the child: becomes the daemon, which ends when its parent does.
@@ -94,7 +132,9 @@ std::string make_directory() {
 
 }  // namespace
 
-PrivateRelay::PrivateRelay() : directory_(make_directory()) {
+PrivateRelay::PrivateRelay() {
+  remove_left_directories();
+  std::tie(directory_, lock_) = make_directory();
   try {
     for (int attempt = 1; pid_ < 0 && attempt <= kAttempts; ++attempt) {
       start();

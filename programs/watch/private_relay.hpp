@@ -9,10 +9,12 @@
 #include <cstdint>
 #include <string>
 
+#include "base/files/unique_fd.hpp"
+
 namespace tracing {
 
-// It ends with this object, and with this process however that ends. What it has recorded is removed. To be made while
-// the process has one thread.
+// It ends with this object, and with this process however that ends. What it has recorded is removed with it; if this
+// process is killed, by the next one that makes such a daemon. To be made while the process has one thread.
 class PrivateRelay {
  public:
   // Waits until it listens. Throws std::runtime_error.
@@ -35,6 +37,7 @@ class PrivateRelay {
   void end();
 
   std::string directory_;
+  launch::UniqueFd lock_;  // on the directory
   std::array<std::uint16_t, kPorts> ports_{};
   pid_t pid_ = -1;
 };

@@ -24,7 +24,7 @@ class LiveConditions(OwnLaunches):
     def setUp(self):
         super().setUp()
         self.traces = self.folder / 'traces'
-        # What a relay daemon had recorded stays behind when launch-watch is killed.
+        # What a relay daemon had recorded stays behind when launch-watch is killed, until the next one starts.
         self.environment.update(ROS_TRACE_DIR=str(self.traces), TMPDIR=str(self.folder))
         self.name = f'conditions-{self.folder.name}'
         self.trace = f'<trace session-name="{self.name}"/>\n'
@@ -142,6 +142,7 @@ class LiveConditions(OwnLaunches):
         os.kill(self.pid_of(launch, 'driver-1'), signal.SIGSTOP)
         launch.lines.wait_for('silent')
         self.interrupt(launch)
+        self.assertEqual(list(self.folder.glob('launch-watch-*')), [])
 
     def test_kill_9_of_the_launcher_leaves_no_session(self):
         launch = self.run_launch(f'''{self.trace}{node('ever')}<on_silence topic="/beats" for="1s"/>''')
