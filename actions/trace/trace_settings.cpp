@@ -374,10 +374,12 @@ std::vector<Setting<TraceRequest>> make_trace_settings() {
        .place = at(&Config::drop_order),
        .perform =
            [](const Fields& fields, Scope& scope, TraceRequest& request) {
-             if (fields.has("max-overhead")) {
-               request.config.drop_order = perform_names(fields, "drop-order", scope);
-               check_drop_order(request.config.drop_order, fields.where("drop-order"));
+             if (!fields.has("max-overhead")) {
+               throw LaunchError("drop-order is for max-overhead, which is not given", fields.where("drop-order"),
+                                 "add max-overhead=\"2%\", or leave drop-order out", Finding::kMissingAttribute);
              }
+             request.config.drop_order = perform_names(fields, "drop-order", scope);
+             check_drop_order(request.config.drop_order, fields.where("drop-order"));
            },
        .shown = "drop-order"},
       {.attribute = {"dual-session", Type::kBoolean, false, "false", "be the snapshot half of a dual session"},

@@ -40,7 +40,9 @@ void print_difference(const Json& report) {
   print_lines(report["sets"], '~', "gets parameters while it runs");
   print_lines(report["takes_over"], '~', "goes on with other settings");
   const auto stays = report["stays"].get<std::size_t>();
-  fmt::print("= {} {}\n", stays, stays == 1 ? "process goes on" : "processes go on");
+  const bool others_go_on = !report["sets"].empty() || !report["takes_over"].empty();  // but not as they were
+  fmt::print("= {} {}{}\n", stays, stays == 1 ? "process goes on" : "processes go on",
+             !others_go_on ? "" : stays == 1 ? " as it was" : " as they were");
   for (const Json& note : report["notes"]) {
     fmt::print("! {}\n", note.get<std::string>());
   }

@@ -71,6 +71,21 @@ TEST_F(Reload, DoesWhatTheEditedFileSaysAndTouchesNothingElse) {
   EXPECT_EQ(run.wait(kPatience).exit_code, 0);
 }
 
+TEST_F(Reload, WhatGoesOnWithOtherSettingsIsNotCountedAsWhatGoesOnAsItWas) {
+  const std::string file = write(sleeper("a") + sleeper("b"));
+  RunningCommand run(launch({file}));
+  ASSERT_TRUE(run.wait_for_output("[b-2]: process started", kPatience)) << run.err();
+  std::string required = sleeper("a");
+  required.insert(required.find(" name="), " required=\"true\"");
+  write(required + sleeper("b"));
+  EXPECT_EQ(ask({"reload"}).out,
+            "~ a-1                  goes on with other settings  system.launch.xml:2\n"
+            "    respawn, timeouts or exits\n"
+            "= 1 process goes on as it was\n");
+  run.send_signal(SIGINT);
+  EXPECT_EQ(run.wait(kPatience).exit_code, 0);
+}
+
 TEST_F(Reload, AnErrorIsShownAtItsPlaceAndChangesNothing) {
   const std::string file = write(sleeper("a"));
   RunningCommand run(launch({file}));
