@@ -42,7 +42,9 @@ void print_difference(const Json& report) {
   const auto stays = report["stays"].get<std::size_t>();
   const bool others_go_on = !report["sets"].empty() || !report["takes_over"].empty();  // but not as they were
   fmt::print("= {} {}{}\n", stays, stays == 1 ? "process goes on" : "processes go on",
-             !others_go_on ? "" : stays == 1 ? " as it was" : " as they were");
+             !others_go_on ? ""
+             : stays == 1  ? " as it was"
+                           : " as they were");
   for (const Json& note : report["notes"]) {
     fmt::print("! {}\n", note.get<std::string>());
   }
