@@ -195,7 +195,8 @@ class AgentReturn(MachinesTest):
         self.wait_for_end_of_marked()
         kind, content = launcher.come_back()
         received, count, run, dropped = struct.unpack('>QIIQ', content)
-        self.assertEqual((kind, received, count, run), (RESUMED, 2, 1, 1))
+        self.assertEqual((kind, count, run), (RESUMED, 1, 1))
+        self.assertIn(received, (2, 3))  # the setup, the start, and the credit for the first line if the cut came after it
         launcher.take_until(EXITED)
         lines = launcher.output[1].decode().split()
         self.assertEqual(lines, ['begin', *map(str, range(1, len(lines)))])
