@@ -34,12 +34,12 @@ namespace launch {
   ACTION(node)                         \
   ACTION(node_container)               \
   ACTION(on_health_change)             \
+  ACTION(on_late)                      \
   ACTION(on_machine_back)              \
   ACTION(on_machine_lost)              \
   ACTION(on_process_exit)              \
   ACTION(on_process_io)                \
   ACTION(on_process_start)             \
-  ACTION(on_late)                      \
   ACTION(on_rate)                      \
   ACTION(on_shutdown)                  \
   ACTION(on_silence)                   \

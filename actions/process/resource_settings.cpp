@@ -7,7 +7,10 @@
 #include <charconv>
 #include <chrono>
 #include <limits>
+#include <optional>
 #include <string_view>
+
+#include "base/text/byte_size.hpp"
 
 namespace launch {
 
@@ -29,12 +32,6 @@ std::int64_t bounded(const Fields& fields, const char* name, Scope& scope, std::
                       fields.where(name));
   }
   return value;
-}
-
-template <typename Number>
-bool parse_whole(std::string_view text, Number& value) {
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  return !text.empty() && result.ec == std::errc() && result.ptr == text.data() + text.size();
 }
 
 std::vector<int> parse_cpus(const std::string& text, const SourceRange& where) {
@@ -145,21 +142,12 @@ void check_resources(const Fields& fields, const ResourceLimits& limits) {
 }
 
 std::uint64_t parse_bytes(const std::string& text, const SourceRange& where, const char* or_else) {
-  std::string_view digits = text;
-  unsigned shift = 0;
-  if (!digits.empty()) {
-    constexpr std::string_view kUnits = "KMG";
-    if (const std::size_t unit = kUnits.find(digits.back()); unit != std::string_view::npos) {
-      shift = static_cast<unsigned>(unit + 1) * 10;
-      digits.remove_suffix(1);
-    }
-  }
-  std::uint64_t value = 0;
-  if (!parse_whole(digits, value) || value == 0 || value > (std::numeric_limits<std::uint64_t>::max() >> shift)) {
+  const std::optional<std::uint64_t> size = parse_byte_size(text);
+  if (!size || *size == 0) {
     throw LaunchError(fmt::format("'{}' is no amount of memory", text), where,
                       fmt::format("write bytes, or a number with K, M or G{}", or_else));
   }
-  return value << shift;
+  return *size;
 }
 
 double parse_share(const std::string& text, const SourceRange& where) {

@@ -74,7 +74,7 @@ class LaunchService {
 
   // By a source of the loop: the connection to a machine has been lost.
   void on_lost_machine(const LostMachine& lost);
-  // The same, of one whose connection is made again.
+  // By a source of the loop: a connection that was lost is made again.
   void on_returned_machine(const ReturnedMachine& returned);
 
   // For a test of the system that is launched.

@@ -3,36 +3,27 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cstdint>
-#include <limits>
+#include <optional>
 #include <string>
-#include <string_view>
-#include <system_error>
+
+#include "base/text/byte_size.hpp"
 
 namespace launch {
 
 CLI::Validator size_in_bytes() {
   return CLI::Validator(
       [](std::string& text) -> std::string {
-        constexpr std::string_view kUnits = "KMG";
-        std::string_view digits = text;
-        unsigned shift = 0;
-        if (!digits.empty()) {
-          const auto last = static_cast<char>(std::toupper(static_cast<unsigned char>(digits.back())));
-          if (const std::size_t unit = kUnits.find(last); unit != std::string_view::npos) {
-            shift = static_cast<unsigned>(unit + 1) * 10;
-            digits.remove_suffix(1);
-          }
-        }
-        std::uint64_t number = 0;
-        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-        if (digits.empty() || error != std::errc() || end != digits.data() + digits.size() ||
-            number > (std::numeric_limits<std::uint64_t>::max() >> shift)) {
+        std::string upper = text;
+        std::transform(upper.begin(), upper.end(), upper.begin(),
+                       [](unsigned char letter) { return std::toupper(letter); });
+        const std::optional<std::uint64_t> size = parse_byte_size(upper);
+        if (!size) {
           return fmt::format("'{}' is no size; write bytes, or a number with K, M or G", text);
         }
-        text = std::to_string(number << shift);
+        text = std::to_string(*size);
         return {};
       },
       "");

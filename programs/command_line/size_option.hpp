@@ -6,7 +6,7 @@
 
 namespace launch {
 
-// Turns "64M" into "67108864"; anything else is an error.
+// Turns "64M" or "64m" into "67108864"; anything else is an error.
 CLI::Validator size_in_bytes();
 
 }  // namespace launch

@@ -285,7 +285,20 @@ TEST_F(LiveConditionsTest, AResponseIsLateForItsClient) {
   EXPECT_THAT(told_until(500), ElementsAre("1 holds 0.150 talker-3"));
 }
 
-TEST_F(LiveConditionsTest, LostEventsMakeNoDoubtOfOneThatIsLateButOfAShare) {
+// The end of one run and the begin of the next are lost: what is left looks like one long run.
+TEST_F(LiveConditionsTest, ARunAroundLostEventsIsNotLate) {
+  conditions_.watch(1, late(Subject::kNode, "/listener", 50ms));
+  make_listener(0);
+  write(1000, kListener, ros2::CallbackStart{0x63, false});
+  writer_.end_packet(0);
+  writer_.discard_events(0, 2);
+  write(1200, kListener, ros2::CallbackEnd{0x63});
+  write(1300, kListener, ros2::CallbackStart{0x63, false});
+  write(1310, kListener, ros2::CallbackEnd{0x63});
+  EXPECT_THAT(told_until(1400), IsEmpty());
+}
+
+TEST_F(LiveConditionsTest, AfterLostEventsOneMayBeLateButNoShareIsKnown) {
   conditions_.watch(1, late(Subject::kTopic, "/chatter", 20ms));
   conditions_.watch(2, late(Subject::kTopic, "/chatter", 20ms, 0.5));
   make(0);
@@ -293,6 +306,8 @@ TEST_F(LiveConditionsTest, LostEventsMakeNoDoubtOfOneThatIsLateButOfAShare) {
   writer_.end_packet(0);
   write(1200, kTalker, ros2::RclNodeInit{0x99, 0x98, "other", "/"});
   writer_.discard_events(0, 3);
+  write(1210, kTalker, ros2::RclNodeInit{0x97, 0x96, "another", "/"});
+  writer_.end_packet(0);
   publish(1300);
   hear(1300, 30);
   EXPECT_THAT(told_until(1400), ElementsAre("1 holds 0.030 talker-3"));

@@ -30,7 +30,7 @@ void LiveConditions::on_message(const MessageFlow& message) {
     return;
   }
   for (Rule* const rule : of_subscription_[message.subscription]) {
-    took(*rule, message.callback_begin_ns, message.callback_begin_ns - message.publication.published_ns);
+    took(*rule, message.publication.published_ns, message.callback_begin_ns);
   }
 }
 
@@ -39,7 +39,7 @@ void LiveConditions::on_call(const ServiceCall& call) {
     return;
   }
   for (Rule* const rule : of_client_[call.client]) {
-    took(*rule, call.received_ns, call.received_ns - call.sent_ns);
+    took(*rule, call.sent_ns, call.received_ns);
   }
 }
 
@@ -73,7 +73,7 @@ void LiveConditions::on_callback(const CallbackInstance& instance) {
     if (rule->condition.kind != Kind::kLate) {
       happened(*rule, instance.end_ns);
     } else if (!late.contains(rule->id)) {
-      took(*rule, instance.end_ns, instance.end_ns - instance.begin_ns);
+      took(*rule, instance.begin_ns, instance.end_ns);
     }
   }
 }
@@ -85,11 +85,10 @@ void LiveConditions::look_at_running() {
     return !vpid || !processes_.lives(*vpid);
   });
   for (Running& running : running_) {
-    const std::int64_t took_ns = now_ns_ - running.begin_ns;
     for (Rule* const rule : rules_of_node(running.callback)) {
-      if (rule->condition.kind == Kind::kLate && took_ns > rule->condition.max.count() &&
+      if (rule->condition.kind == Kind::kLate && now_ns_ - running.begin_ns > rule->condition.max.count() &&
           running.late.insert(rule->id).second) {
-        took(*rule, now_ns_, took_ns);
+        took(*rule, running.begin_ns, now_ns_);
       }
     }
   }
@@ -108,21 +107,25 @@ void LiveConditions::happened(Rule& rule, std::int64_t time_ns) {
   }
 }
 
-// Lost events are no reason for doubt of what took too long, but one of how much of all that was.
-void LiveConditions::took(Rule& rule, std::int64_t time_ns, std::int64_t took_ns) {
-  check(rule, time_ns);
+// If events were lost meanwhile, the begin may be that of one and the end that of a later one. A share is known when
+// nothing was lost in its whole window.
+void LiveConditions::took(Rule& rule, std::int64_t begin_ns, std::int64_t end_ns) {
+  check(rule, end_ns);
   if (!rule.seen_ns) {
-    rule.seen_ns = time_ns;
+    rule.seen_ns = end_ns;
   }
-  const bool is_too_long = took_ns > rule.condition.max.count();
+  if (begin_ns < doubt_ns_) {
+    return;
+  }
+  const bool is_too_long = end_ns - begin_ns > rule.condition.max.count();
   rule.parts.add(is_too_long);
-  const bool is_sure = rule.condition.share >= 1 || time_ns - rule.condition.window.count() >= doubt_ns_;
+  const bool is_sure = rule.condition.share >= 1 || end_ns - rule.condition.window.count() >= doubt_ns_;
   if (!is_too_long || !is_late(rule) || !is_sure) {
     return;
   }
-  rule.last_bad_ns = time_ns;
+  rule.last_bad_ns = end_ns;
   if (!rule.holds) {
-    change(rule, true, seconds_in(took_ns));
+    change(rule, true, seconds_in(end_ns - begin_ns));
   }
 }
 

@@ -92,7 +92,7 @@ class LiveConditions : public ExecutionSink, public TraceSink {
     std::set<ConditionId> late = {};  // conditions that have counted it already
   };
 
-  // Takes note of publishers and nodes that are new.
+  // Takes note of objects that are new.
   void find_objects();
   bool is_named(const Rule& rule, const EndpointObject& endpoint, bool publishes);
   bool is_named(const Rule& rule, const NodeObject& node);
@@ -108,7 +108,7 @@ class LiveConditions : public ExecutionSink, public TraceSink {
   bool is_ours(ProcessId process);
   std::int64_t counts_from(const Rule& rule) const;
   void happened(Rule& rule, std::int64_t time_ns);
-  void took(Rule& rule, std::int64_t time_ns, std::int64_t took_ns);
+  void took(Rule& rule, std::int64_t begin_ns, std::int64_t end_ns);
   void look_at_running();
   const std::vector<Rule*>& rules_of_node(ObjectId callback) const;
   void check(Rule& rule, std::int64_t until_ns);
