@@ -18,6 +18,7 @@
 #include "programs/twin/twin_arguments.hpp"
 #include "programs/twin/twin_table.hpp"
 #include "tracing/decode/reader/trace_read_error.hpp"
+#include "tracing/model/findings/quantity_text.hpp"
 #include "tracing/model/twin/build_twin.hpp"
 #include "tracing/model/twin/contention.hpp"
 #include "tracing/model/twin/description/description_file.hpp"
@@ -96,6 +97,10 @@ std::string head_of(const Arguments& arguments, const System& system) {
   if (!arguments.folder.empty()) {
     text += fmt::format("Run it with    launch {}\n", (arguments.folder / "twin.xml").string());
   }
+  if (system.up_ns >= 1'000'000) {
+    text += fmt::format("Figures        without the first {}, until each callback had run once\n",
+                        tracing::format_duration(static_cast<double>(system.up_ns)));
+  }
   for (std::size_t i = 0; i < system.missing.size(); ++i) {
     text += fmt::format("{:<14} {}\n", i == 0 ? "Not as it was" : "", system.missing[i]);
   }
@@ -143,6 +148,7 @@ int twin(const Arguments& arguments) {
       arguments.duration_s > 0 ? static_cast<std::int64_t>(arguments.duration_s * 1e9) : system.active_ns;
   twin_program::Comparison comparison;
   comparison.recorded = recorded;
+  comparison.left_out_ns = system.up_ns;
   System simulated = system;
   take_off_simulated_waits(simulated);
   comparison.simulated = Simulation(simulated).run(duration_ns);

@@ -78,7 +78,6 @@ std::string errors(const std::optional<FigureSummary>& of, const FigureSummary& 
 }
 
 // Of fewer runs, the median and the p99 are those of single runs.
-constexpr std::uint64_t kEnoughRuns = 10;
 
 // How well a twin fits: of the rows that both have, the median of the errors, and how many are near enough.
 struct Fit {
@@ -182,6 +181,7 @@ std::string json_of(const Comparison& comparison) {
   const std::vector<Row> rows = rows_of(comparison);
   nlohmann::ordered_json json;
   json["version"] = 1;
+  json["left_out_ns"] = comparison.left_out_ns;
   json["figures"] = nlohmann::ordered_json::array();
   for (const Row& row : rows) {
     nlohmann::ordered_json one = {{"kind", kKinds[static_cast<std::size_t>(row.key.kind)]},

@@ -2,6 +2,7 @@
 // The figures of a recorded system beside those of its twin.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -15,6 +16,7 @@ struct Comparison {
   std::optional<tracing::twin::Figures> changed;  // simulated, with the changes
   std::optional<tracing::twin::Figures> run;      // the twin, with the changes, as it was recorded
   bool run_is_changed = false;
+  std::int64_t left_out_ns = 0;  // of the recording, at its begin: System::up_ns
 };
 
 // `top`: rows of each part, those with the longest times; 0: all.

@@ -175,8 +175,43 @@ TEST(BuildTwin, ASubscriptionWithIntraProcessCommunicationIsOne) {
   EXPECT_TRUE(twin.nodes[1].intra_process);
   EXPECT_FALSE(twin.nodes[2].intra_process);
   const Figures figures = figures_of(hand.recording, twin);
-  EXPECT_EQ(figures.at({FigureKind::kHop, "/talker to /here, subscription /a"}).size(), 100u);
+  EXPECT_EQ(figures.at({FigureKind::kHop, "/talker to /here, subscription /a"}).size(), 99u);  // without the one before the first run
   EXPECT_EQ(figures.at({FigureKind::kHop, "/there to /here, subscription /a"}).size(), 100u);
+}
+
+// Two timers; the second one begins later.
+testing::HandRecording late_by(std::int64_t late_ns) {
+  testing::HandRecording hand;
+  hand.add_process();
+  const timeline::Index node = hand.add_node("/node");
+  const timeline::Index thread = hand.add_thread(1);
+  const timeline::Index first = hand.add_timer(node);
+  const timeline::Index second = hand.add_timer(node);
+  for (std::int64_t time = 1'000; time < 5'000; time += 100) {
+    hand.run(first, thread, time, time + 10);
+    if (time >= 1'000 + late_ns) {
+      hand.run(second, thread, time + 20, time + 30);
+    }
+  }
+  return hand;
+}
+
+TEST(BeginOfFigures, IsWhenEachCallbackHasRunOnce) {
+  const testing::HandRecording hand = late_by(800);
+  EXPECT_EQ(begin_of_figures(hand.recording.timeline), 1'820);
+  const System twin = build_twin(hand.recording, {});
+  EXPECT_EQ(twin.up_ns, 820);
+  EXPECT_EQ(figures_of(hand.recording, twin).begin()->second.size(), 31u);
+}
+
+TEST(BeginOfFigures, IsTheFirstRunIfOneBeginsInTheSecondHalfOrLeavesTooFewOfAnother) {
+  EXPECT_EQ(begin_of_figures(late_by(2'500).recording.timeline), 1'000);
+  testing::HandRecording few = late_by(800);
+  const timeline::Index third = few.add_timer(0);
+  for (std::int64_t time = 1'040; time < 2'040; time += 100) {
+    few.run(third, 0, time, time + 10);
+  }
+  EXPECT_EQ(begin_of_figures(few.recording.timeline), 1'000);
 }
 
 TEST(BuildTwin, ASubscriptionKeepsItsQualityOfService) {

@@ -100,6 +100,30 @@ TEST(StallInContention, IsWhereItWasRecorded) {
   }
 }
 
+// What was slow in the start is simulated, and neither counted nor made the reason to change what was recorded later.
+TEST_F(Contention, FiguresCountFromTheTimeWhenTheSystemWasUp) {
+  std::vector<Sample> samples;
+  for (std::int64_t place = 0; place < 400; ++place) {
+    samples.push_back({place * 10 * kMs, place < 50 ? 8 * kMs : kMs});
+  }
+  small.system.callbacks[receiver].delays = Distribution::of(samples);
+  small.system.callbacks[receiver].ways = small.system.callbacks[receiver].delays;
+  small.system.cpus = 4;
+  EXPECT_EQ(way().count, 400u);
+  EXPECT_EQ(way().p99_ns, 8 * kMs);
+  small.system.up_ns = 500 * kMs;
+  EXPECT_EQ(way().count, 350u);
+  EXPECT_EQ(way().p99_ns, kMs);
+  take_off_simulated_waits(small.system);
+  EXPECT_EQ(small.system.callbacks[receiver].delays.values.back(), 8 * kMs);
+  // A recording that is played twice has two starts; of a short part of it all counts.
+  EXPECT_EQ(
+      summary_of(Simulation(small.system).run(8'000 * kMs)[{FigureKind::kHop, hop_name("/one", "receiver")}]).count,
+      700u);
+  EXPECT_EQ(summary_of(Simulation(small.system).run(999 * kMs)[{FigureKind::kHop, hop_name("/one", "receiver")}]).count,
+            100u);
+}
+
 // A timer of 10 ms publishes for a second; its messages arrived from the first to the last of these.
 class LifetimeInSimulation : public ::testing::Test {
  protected:

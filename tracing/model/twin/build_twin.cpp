@@ -11,6 +11,7 @@
 
 #include "tracing/model/twin/delays.hpp"
 #include "tracing/model/twin/executors.hpp"
+#include "tracing/model/twin/figures.hpp"
 #include "tracing/model/twin/outputs.hpp"
 #include "tracing/model/twin/recorded_names.hpp"
 #include "tracing/model/twin/run_times.hpp"
@@ -253,12 +254,9 @@ class Builder {
       callback.near_delays = ways[index].near_delays;
       callback.gaps = ways[index].gaps;
       callback.ways = ways[index].ways;
-      if (callback.kind == Callback::Kind::kTimer) {
-        callback.phase_ns = runs.first_due_ns(index, recorded.period_ns) - timeline_.begin_ns;
-      }
-      if (runs.has_intra_process(index)) {
-        system_.nodes[node_of(recorded.node)].intra_process = true;
-      }
+      callback.phase_ns = runs.first_due_ns(index, recorded.period_ns) - timeline_.begin_ns;  // of a timer
+      Node& node = system_.nodes[node_of(recorded.node)];
+      node.intra_process = node.intra_process || runs.has_intra_process(index);
       callback_of_[index] = system_.callbacks.size();
       system_.callbacks.push_back(std::move(callback));
     }
@@ -350,6 +348,7 @@ class Builder {
       last = std::max(last, instance.end_ns - timeline_.begin_ns);
     }
     system_.active_ns = first < last ? last - first : system_.duration_ns;
+    system_.up_ns = std::max<std::int64_t>(0, begin_of_figures(timeline_) - system_.begin_ns);
   }
 
   void name_assumptions() {

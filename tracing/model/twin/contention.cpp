@@ -37,12 +37,18 @@ auto& source_of(Of& callback, SimulatedTime::Source source) {
   return callback.silent_run_times;
 }
 
-// In ascending order.
-std::vector<std::int64_t> lengths_of(const Callback& callback) {
-  std::vector<std::int64_t> lengths = callback.run_times.values;
-  lengths.insert(lengths.end(), callback.silent_run_times.values.begin(), callback.silent_run_times.values.end());
-  std::sort(lengths.begin(), lengths.end());
-  return lengths;
+// What was recorded of a callback when the system was up, in ascending order.
+struct Recorded {
+  std::vector<std::int64_t> ways;
+  std::vector<std::int64_t> lengths;
+};
+
+Recorded recorded_of(const Callback& callback, std::int64_t up_ns) {
+  Recorded recorded{callback.ways.values_from(up_ns), callback.run_times.values_from(up_ns)};
+  const std::vector<std::int64_t> silent = callback.silent_run_times.values_from(up_ns);
+  recorded.lengths.insert(recorded.lengths.end(), silent.begin(), silent.end());
+  std::sort(recorded.lengths.begin(), recorded.lengths.end());
+  return recorded;
 }
 
 void sort_by_total(std::vector<SimulatedTime>& times) {
@@ -97,9 +103,12 @@ void fit(const std::vector<std::int64_t>& recorded, const std::vector<SimulatedT
 // Rounds of simulations, each of which fits the times better. Keeps the best one.
 class Rounds {
  public:
-  explicit Rounds(const System& system) : whole_(system.callbacks), lengths_(whole_.size()), best_(system) {
-    if (!system.processor_times) {
-      std::transform(whole_.begin(), whole_.end(), lengths_.begin(), lengths_of);
+  explicit Rounds(const System& system) : whole_(system.callbacks), best_(system) {
+    for (const Callback& callback : whole_) {
+      recorded_.push_back(recorded_of(callback, system.begin_ns + system.up_ns));
+      if (system.processor_times) {
+        recorded_.back().lengths.clear();
+      }
     }
   }
 
@@ -115,9 +124,10 @@ class Rounds {
         SimulatedTimes times = simulation.times()[index];
         sort_by_total(times.ways);
         sort_by_total(times.runs);
-        sum += misfit(whole_[index].ways.values, times.ways) + misfit(lengths_[index], times.runs);
-        fit(whole_[index].ways.values, times.ways, whole_[index], next[index]);
-        fit(lengths_[index], times.runs, whole_[index], next[index]);
+        const Recorded& recorded = recorded_[index];
+        sum += misfit(recorded.ways, times.ways) + misfit(recorded.lengths, times.runs);
+        fit(recorded.ways, times.ways, whole_[index], next[index]);
+        fit(recorded.lengths, times.runs, whole_[index], next[index]);
         runs += times.runs.size();
       }
       if (sum < least_) {
@@ -134,7 +144,7 @@ class Rounds {
 
  private:
   std::vector<Callback> whole_;
-  std::vector<std::vector<std::int64_t>> lengths_;
+  std::vector<Recorded> recorded_;
   System best_;
   double least_ = std::numeric_limits<double>::infinity();
 };

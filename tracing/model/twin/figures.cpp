@@ -15,6 +15,30 @@ std::string call_name(const std::string& client, const std::string& service) {
   return client + " calls " + service;
 }
 
+std::int64_t begin_of_figures(const timeline::Timeline& timeline) {
+  std::vector<std::vector<std::int64_t>> starts(timeline.callbacks.size());
+  std::int64_t begin_ns = timeline.end_ns;
+  std::int64_t end_ns = timeline.begin_ns;
+  for (const timeline::Instance& instance : timeline.instances) {
+    starts[instance.callback].push_back(instance.start_ns);
+    begin_ns = std::min(begin_ns, instance.start_ns);
+    end_ns = std::max(end_ns, instance.start_ns);
+  }
+  std::erase_if(starts, [](const auto& of) { return of.size() < kEnoughRuns; });
+  std::int64_t up_ns = begin_ns;
+  for (const std::vector<std::int64_t>& of : starts) {
+    if (const std::int64_t first_ns = *std::min_element(of.begin(), of.end());
+        first_ns < begin_ns + (end_ns - begin_ns) / 2) {
+      up_ns = std::max(up_ns, first_ns);
+    }
+  }
+  const auto has_enough = [&](const std::vector<std::int64_t>& of) {
+    return std::count_if(of.begin(), of.end(), [&](std::int64_t start_ns) { return start_ns >= up_ns; }) >=
+           static_cast<std::ptrdiff_t>(kEnoughRuns);
+  };
+  return std::all_of(starts.begin(), starts.end(), has_enough) ? up_ns : begin_ns;
+}
+
 Figures figures_of(const Recording& recording, const System& twin) {
   const timeline::Timeline& timeline = recording.timeline;
   std::set<std::string> known;
@@ -26,14 +50,16 @@ Figures figures_of(const Recording& recording, const System& twin) {
     services.insert(client.service);
   }
   const std::vector<std::string> names = callback_names(timeline);
+  const std::int64_t up_ns = begin_of_figures(timeline);
   Figures figures;
   for (const timeline::Instance& instance : timeline.instances) {
-    if (instance.finished && known.contains(names[instance.callback])) {
+    if (instance.start_ns >= up_ns && instance.finished && known.contains(names[instance.callback])) {
       figures[{FigureKind::kCallback, names[instance.callback]}].push_back(instance.end_ns - instance.start_ns);
     }
   }
   for (const timeline::Message& message : timeline.messages) {
-    if (message.receiving_instance == timeline::kNone || message.publisher == timeline::kNone) {
+    if (message.published_ns < up_ns || message.receiving_instance == timeline::kNone ||
+        message.publisher == timeline::kNone) {
       continue;
     }
     const timeline::Instance& instance = timeline.instances[message.receiving_instance];
@@ -44,7 +70,7 @@ Figures figures_of(const Recording& recording, const System& twin) {
     }
   }
   for (const ServiceCall& call : recording.calls) {
-    if (call.client == kNoObject || call.received_ns < call.sent_ns) {
+    if (call.sent_ns < up_ns || call.client == kNoObject || call.received_ns < call.sent_ns) {
       continue;
     }
     const Recording::Named& client = recording.clients[call.client];

@@ -32,7 +32,15 @@ using Figures = std::map<FigureKey, std::vector<std::int64_t>>;
 std::string hop_name(const std::string& publisher, const std::string& callback);
 std::string call_name(const std::string& client, const std::string& service);
 
-// Of what the twin has.
+// Figures with fewer values than that say little.
+inline constexpr std::size_t kEnoughRuns = 10;
+
+// When the system is up: each callback with enough runs has run once, without those that begin in the second half of
+// the recording. Before it processes find each other, and what happens then happens once. The first run of all if one
+// of these callbacks would not have enough runs from then on.
+std::int64_t begin_of_figures(const timeline::Timeline& timeline);
+
+// Of what the twin has, from the time on when the system is up.
 Figures figures_of(const Recording& recording, const System& twin);
 
 // What a table shows of the values of one figure.

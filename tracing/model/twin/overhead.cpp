@@ -10,8 +10,7 @@ namespace tracing::twin {
 
 namespace {
 
-constexpr std::size_t kEnoughRuns = 10;  // of a callback
-constexpr std::int64_t kMost = 10'000;   // more is the machine, not the stand-in
+constexpr std::int64_t kMost = 10'000;  // more is the machine, not the stand-in
 
 // Of the quick runs: what makes others long is the machine, and it is never twice the same.
 std::int64_t quick(std::vector<std::int64_t> values) {

@@ -69,6 +69,8 @@ void Simulation::schedule_timer(Index callback) {
 }
 
 Figures Simulation::run(std::int64_t duration_ns) {
+  up_ns_ = duration_ns > 2 * system_.up_ns ? system_.up_ns : 0;
+  is_repeated_ = system_.active_ns > 0 && duration_ns > system_.active_ns;
   for (Index index = 0; index < system_.callbacks.size(); ++index) {
     callbacks_[index].lifetime = lifetime_of(system_.callbacks[index], duration_ns);
     // A timer that never ran was cancelled, or its node ended first.
@@ -246,11 +248,14 @@ void Simulation::step_done(std::size_t index) {
     thread.begin_ns = now_ns_;
     thread.run = rules_.next_run(thread.callback, now_ns_);
     const Message& message = thread.message;
-    times_[thread.callback].ways.push_back({message.way.source, message.way.place, now_ns_ - message.sent_ns});
-    if (callback.kind == Callback::Kind::kSubscription) {
+    const bool counted = counts(message.sent_ns);
+    if (counted) {
+      times_[thread.callback].ways.push_back({message.way.source, message.way.place, now_ns_ - message.sent_ns});
+    }
+    if (counted && callback.kind == Callback::Kind::kSubscription) {
       const std::string& node = system_.nodes[system_.publishers[message.publisher].node].name;
       figures_[{FigureKind::kHop, hop_name(node, callback.name)}].push_back(now_ns_ - message.sent_ns);
-    } else if (callback.kind == Callback::Kind::kClient) {
+    } else if (callback.kind == Callback::Kind::kClient && counts(message.requested_ns)) {
       const Client& client = system_.clients[callback.client];
       figures_[{FigureKind::kCall, call_name(system_.nodes[client.node].name, client.service)}].push_back(
           now_ns_ - message.requested_ns);
@@ -305,10 +310,12 @@ void Simulation::send(const Output& output) {
 void Simulation::end(std::size_t index) {
   Thread& thread = threads_[index];
   const Callback& callback = system_.callbacks[thread.callback];
-  figures_[{FigureKind::kCallback, callback.name}].push_back(now_ns_ - thread.begin_ns);
-  times_[thread.callback].runs.push_back(
-      {thread.run.is_silent ? SimulatedTime::Source::kSilentRun : SimulatedTime::Source::kRun, thread.run.place,
-       now_ns_ - thread.begin_ns});
+  if (counts(thread.begin_ns)) {
+    figures_[{FigureKind::kCallback, callback.name}].push_back(now_ns_ - thread.begin_ns);
+    times_[thread.callback].runs.push_back(
+        {thread.run.is_silent ? SimulatedTime::Source::kSilentRun : SimulatedTime::Source::kRun, thread.run.place,
+         now_ns_ - thread.begin_ns});
+  }
   --running_[callback.group];
   if (callback.kind == Callback::Kind::kService) {
     if (const auto answer = answers_.find(thread.message.client); answer != answers_.end()) {

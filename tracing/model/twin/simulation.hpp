@@ -41,9 +41,10 @@ class Simulation {
  public:
   // The system must outlive it.
   explicit Simulation(const System& system);
-  // For this long, in virtual time. To be called once.
+  // For this long, in virtual time. To be called once. Figures count from System::up_ns on, and if the simulation is
+  // no longer than twice that, all of it.
   Figures run(std::int64_t duration_ns);
-  // After it.
+  // After it, of what figures count.
   const std::vector<SimulatedTimes>& times() const { return times_; }
 
  private:
@@ -100,6 +101,8 @@ class Simulation {
 
   // Whether it ends when the recording did. A longer one is several recordings, one after the other.
   bool as_recorded(std::int64_t duration_ns) const { return duration_ns == system_.active_ns; }
+  // Whether figures have what began at this time.
+  bool counts(std::int64_t time_ns) const { return (is_repeated_ ? time_ns % system_.active_ns : time_ns) >= up_ns_; }
   Lifetime lifetime_of(const Callback& callback, std::int64_t duration_ns) const;
   void push(Event event);
   // Whether its executor has a free thread, and its group nothing that runs.
@@ -121,6 +124,8 @@ class Simulation {
   OutputRules rules_;
   Scheduler scheduler_;
   std::int64_t now_ns_ = 0;
+  std::int64_t up_ns_ = 0;
+  bool is_repeated_ = false;  // the recording
   std::uint64_t events_ = 0;
   std::priority_queue<Event> queue_;
   std::vector<CallbackState> callbacks_;

@@ -41,6 +41,20 @@ Distribution Distribution::of(std::vector<Sample> recorded) {
   return distribution;
 }
 
+std::vector<std::int64_t> Distribution::values_from(std::int64_t time_ns) const {
+  if (moments.empty()) {
+    return values;
+  }
+  std::vector<std::int64_t> from;
+  for (const Moment& moment : moments) {
+    if (moment.time_ns >= time_ns) {
+      from.push_back(values[moment.place]);
+    }
+  }
+  std::sort(from.begin(), from.end());
+  return from;
+}
+
 std::int64_t Distribution::quantile(double part) const {
   if (values.empty()) {
     return 0;

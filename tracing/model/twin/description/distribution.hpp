@@ -30,6 +30,8 @@ struct Distribution {
   static Distribution of(std::vector<std::int64_t> recorded);
   static Distribution of(std::vector<Sample> recorded);
   bool empty() const { return values.empty(); }
+  // Those that were recorded from this time on, in ascending order; all if their times are not known.
+  std::vector<std::int64_t> values_from(std::int64_t time_ns) const;
   // Nearest rank, as in reports; 0 without values.
   std::int64_t quantile(double part) const;
   bool operator==(const Distribution& other) const { return values == other.values; }

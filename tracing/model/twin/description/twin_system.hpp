@@ -120,6 +120,7 @@ struct System {
   std::int64_t duration_ns = 0;  // of the recording
   std::int64_t begin_ns = 0;     // when the first timer was due
   std::int64_t active_ns = 0;    // from the time when the first timer was due to the end of the last callback
+  std::int64_t up_ns = 0;        // from the time when the first timer was due to begin_of_figures()
   double slack = 1;              // of a simulation: Cycle::slack
   Cycle cycle() const { return {begin_ns, active_ns, slack}; }
   std::size_t cpus = 1;
