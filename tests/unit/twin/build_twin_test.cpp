@@ -175,7 +175,8 @@ TEST(BuildTwin, ASubscriptionWithIntraProcessCommunicationIsOne) {
   EXPECT_TRUE(twin.nodes[1].intra_process);
   EXPECT_FALSE(twin.nodes[2].intra_process);
   const Figures figures = figures_of(hand.recording, twin);
-  EXPECT_EQ(figures.at({FigureKind::kHop, "/talker to /here, subscription /a"}).size(), 99u);  // without the one before the first run
+  EXPECT_EQ(figures.at({FigureKind::kHop, "/talker to /here, subscription /a"}).size(),
+            99u);  // without the one before the first run
   EXPECT_EQ(figures.at({FigureKind::kHop, "/there to /here, subscription /a"}).size(), 100u);
 }
 
