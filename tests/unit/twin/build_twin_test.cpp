@@ -104,6 +104,30 @@ TEST(BuildTwin, TimersKeepTheirDistanceAlthoughTheirFirstCallsAreLate) {
   EXPECT_EQ(twin.active_ns, 661 - 20);  // without what the process does before
 }
 
+// A thread that sleeps is called late, one that is busy with another callback finds the timer at once. One call in 200
+// came earlier: the timer was set anew.
+TEST(BuildTwin, ATimerIsDueAtItsEarliestCall) {
+  testing::HandRecording hand;
+  hand.add_process();
+  const timeline::Index node = hand.add_node("/node");
+  const timeline::Index thread = hand.add_thread(1);
+  const timeline::Index other = hand.add_timer(node, 20'000);
+  const timeline::Index timer = hand.add_timer(node, 10'000);
+  for (std::int64_t call = 0; call < 200; ++call) {
+    const std::int64_t due = 5'000 + call * 10'000;
+    if (call % 2 == 0) {
+      hand.run(other, thread, due - 3'000, due - 2'990);
+    }
+    const std::int64_t late = call == 100 ? -2'000 : call % 20 == 5 ? 0 : 60;
+    hand.run(timer, thread, due + late, due + late + 10);
+  }
+  const System twin = build_twin(hand.recording, {});
+  ASSERT_EQ(twin.callbacks.size(), 2u);
+  EXPECT_EQ(twin.callbacks[0].phase_ns, 0);
+  EXPECT_EQ(twin.callbacks[1].phase_ns, 3'000);
+  EXPECT_EQ(twin.callbacks[1].delays.quantile(0.5), 60);
+}
+
 // A node that publishes at these times, outside of callbacks.
 testing::HandRecording loop_of(const std::vector<std::int64_t>& times, std::int64_t end_ns) {
   testing::HandRecording hand;

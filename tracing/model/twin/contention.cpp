@@ -153,7 +153,7 @@ class Rounds {
 
 void take_off_simulated_waits(System& system) {
   Rounds rounds(system);
-  for (const double slack : {1.0, 1.5}) {
+  for (const double slack : {0.6, 1.0, 1.5}) {
     system.slack = slack;
     rounds.run(system);
   }
