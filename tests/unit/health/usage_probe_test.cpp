@@ -6,6 +6,8 @@
 
 #include <chrono>
 
+#include "tests/support/emulated.hpp"
+
 namespace launch {
 namespace {
 
@@ -84,6 +86,7 @@ TEST_F(UsageProbes, NothingIsSaidOfAProcessThatHasGone) {
 }
 
 TEST_F(UsageProbes, AProcessIsReallyLookedAt) {
+  NEEDS_PROC_SELF();
   MemoryProbe probe({.most = 1, .most_growth = {}}, 1s, 0s);
   probe.begin(::getpid());
   EXPECT_EQ(probe.look(1s, 1s).result, Look::Result::kBad);
