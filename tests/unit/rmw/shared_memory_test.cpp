@@ -208,6 +208,7 @@ TEST(SharedMemory, ALargeMessageHasPlaceAlthoughNobodyReads) {
 // Fast DDS sends to such a locator when it has found several readers that listen to one multicast address, as those of
 // Cyclone DDS do, and ended the process then.
 TEST(Udp, AMessageGoesToALocatorWhoseChannelWasNeverOpened) {
+  NEEDS_NETWORK_DEVICES();
   const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   sockaddr_in address{};
   address.sin_family = AF_INET;
