@@ -28,6 +28,8 @@ std::string needs_missing_file(std::string_view name) {
     text += ": this installation has been built without tests in launch files";
   } else if (name == "launch-serve") {
     text += ": this installation has been built without it (libmicrohttpd-dev was missing)";
+  } else if (name == "launch-twin") {
+    text += ": the package launch-twin has it";
   } else if (name == "launch-trace-probe") {
     text += ": this installation has been built without tracepoints";
   }

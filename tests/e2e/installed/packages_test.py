@@ -12,7 +12,7 @@ import unittest
 from pathlib import Path
 
 SOURCE = Path(os.environ['SOURCE_DIRECTORY'])
-NAMES = ('launch-tools', 'launch-companion', 'launch-stack', 'launch-stack-dev', 'python3-launch-trace')
+NAMES = ('launch-tools', 'launch-twin', 'launch-companion', 'launch-stack', 'launch-stack-dev', 'python3-launch-trace')
 
 
 def folder_of_packages():
@@ -71,6 +71,12 @@ class Packages(unittest.TestCase):
         for path in self.files['launch-companion']:
             self.assertTrue(path.startswith((share, '/usr/share/doc/launch-companion/')), path)
         self.assertEqual([path for path in self.files['launch-tools'] if path.startswith(share)], [])
+
+    def test_the_twin_is_apart(self):
+        self.assertLessEqual({'/opt/launch/lib/launch/launch-twin', '/opt/launch/lib/launch_twin/twin_node', '/usr/share/man/man1/launch-twin.1.gz'},
+                             self.files['launch-twin'])
+        for name in ('launch-tools', 'launch-stack'):
+            self.assertEqual([path for path in self.files[name] if 'twin' in path], [], name)
 
     def test_the_tools_are_small(self):
         self.assertLess(int(self.fields['launch-tools']['Installed-Size']) * 1024, 25e6)
