@@ -29,8 +29,7 @@ TEST(OwnPrefix, NamesThePartThatIsMissing) {
             "needs launch-serve, which is not in " + own_prefix() +
                 "/lib/launch: this installation has been built without it (libmicrohttpd-dev was missing)");
   EXPECT_EQ(needs_missing_file("launch-twin"),
-            "needs launch-twin, which is not in " + own_prefix() +
-                "/lib/launch: the package launch-twin has it");
+            "needs launch-twin, which is not in " + own_prefix() + "/lib/launch: the package launch-twin has it");
   EXPECT_EQ(needs_missing_file("launch-report"),
             "needs launch-report, which is not in " + own_prefix() + "/lib/launch");
 }
