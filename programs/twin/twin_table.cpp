@@ -77,8 +77,6 @@ std::string errors(const std::optional<FigureSummary>& of, const FigureSummary& 
             : fmt::format("{:>7} {:>7}", "-", "-");
 }
 
-// Of fewer runs, the median and the p99 are those of single runs.
-
 // How well a twin fits: of the rows that both have, the median of the errors, and how many are near enough.
 struct Fit {
   std::size_t rows = 0;

@@ -66,11 +66,8 @@ class Twin(unittest.TestCase):
                 if one['kind'] == 'callback':
                     # Runs that the recording has not seen are drawn from its own, so the medians differ a little.
                     self.assertAlmostEqual(one['simulated']['p50_ns'] / one['recorded']['p50_ns'], 1, delta=0.5)
-                    # On a busy machine a part of a run was waiting for a processor, which no change of durations makes longer.
-                    factor = one['what_if']['p50_ns'] / one['simulated']['p50_ns']
-                    changed = one['name'] == '/pong, subscription /ping'
-                    self.assertGreater(factor, 1.5 if changed else 0.9)
-                    self.assertLess(factor, 3.3 if changed else 1.1)
+                    factor = 3 if one['name'] == '/pong, subscription /ping' else 1
+                    self.assertAlmostEqual(one['what_if']['p50_ns'] / one['simulated']['p50_ns'], factor, delta=0.1 * factor)
 
     def test_a_simulation_of_many_processes_has_their_figures(self):
         self.launch('--isolate', EXAMPLES / '12_reference_system.launch.xml', 'messages:=60')

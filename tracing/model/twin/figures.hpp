@@ -32,12 +32,12 @@ using Figures = std::map<FigureKey, std::vector<std::int64_t>>;
 std::string hop_name(const std::string& publisher, const std::string& callback);
 std::string call_name(const std::string& client, const std::string& service);
 
-// Figures with fewer values than that say little.
+// Of fewer runs, the median and the p99 are those of single runs.
 inline constexpr std::size_t kEnoughRuns = 10;
 
 // When the system is up: each callback with enough runs has run once, without those that begin in the second half of
-// the recording. Before it processes find each other, and what happens then happens once. The first run of all if one
-// of these callbacks would not have enough runs from then on.
+// the recording. Before that time processes find each other, which they do once. If one of these callbacks had too
+// few runs left, it is the time of the first run of all.
 std::int64_t begin_of_figures(const timeline::Timeline& timeline);
 
 // Of what the twin has, from the time on when the system is up.

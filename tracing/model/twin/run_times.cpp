@@ -112,9 +112,9 @@ std::int64_t RunTimes::first_due_ns(std::size_t callback, std::int64_t period_ns
       due = places[place];
     }
   }
-  // Of these the first one still was late, if a thread that sleeps is called late. No timer is called early, so it is
-  // due at the earliest call of all, but for those that are before because the timer was set anew, and for the first
-  // one.
+  // Most of these calls are late, too, because a thread that sleeps is woken late. No timer is called early, so it is
+  // due at its earliest call. The first call does not count, and one in a hundred may be earlier: the timer was set
+  // anew.
   std::vector<std::int64_t> early;
   for (std::size_t call = 1; call < starts.size(); ++call) {
     const std::int64_t before = (due + period_ns - (starts[call] - starts.front()) % period_ns) % period_ns;
@@ -122,7 +122,7 @@ std::int64_t RunTimes::first_due_ns(std::size_t callback, std::int64_t period_ns
       early.push_back(before);
     }
   }
-  constexpr std::size_t kOneOf = 100;  // calls may be before
+  constexpr std::size_t kOneOf = 100;
   if (const std::size_t left_out = starts.size() / kOneOf; early.size() > left_out) {
     std::nth_element(early.begin(), early.begin() + static_cast<std::ptrdiff_t>(left_out), early.end(),
                      std::greater<>());
