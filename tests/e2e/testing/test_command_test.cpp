@@ -21,13 +21,13 @@ TEST_F(TestCommand, TellsWhatHasFailedAtItsPlace) {
   const std::string file = write("a.launch.xml", R"xml(
   <executable name="counter" shell="true" cmd="for i in 1 2 3; do echo count $i; done; exec cat"/>
   <test name="counts to four">
-    <output process="counter" text="count 4" within="0.2"/>
+    <output process="counter" text="count 4" within="2"/>
   </test>)xml");
   const CommandResult result = run({file});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(plain(result.out), R"(FAIL  a.launch.xml: counts to four  T s
-a.launch.xml:5:6: error: there was not a line with 'count 4' from 'counter' within 0.2 s
-    5 |     <output process="counter" text="count 4" within="0.2"/>
+a.launch.xml:5:6: error: there was not a line with 'count 4' from 'counter' within 2 s
+    5 |     <output process="counter" text="count 4" within="2"/>
       |      ^~~~~~
       = expected: a line with 'count 4'
       = seen: none in 3 lines
