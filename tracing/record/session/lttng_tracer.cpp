@@ -191,10 +191,7 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
   // One that was paused has written its last packets before.
   const std::uint64_t stopped = session && session->active ? static_cast<std::uint64_t>(launch::monotonic_time()) : 0;
   const std::optional<Absence> relay_daemon_gone = session ? wait_for_relay_daemon(*session) : std::nullopt;
-  LossAccount losses;
-  try {
-    losses = stop_and_account(name, session ? session->path : "", give_up, timer);
-  } catch (const TraceError& error) {
+  const auto write_failure = [&](const TraceError& error) {
     const bool is_known = session && !session->path.empty();
     const std::string directory = is_known ? session->path : config.over_network() ? "" : config.trace_directory();
     end_kernel_recorder(directory);
@@ -202,11 +199,27 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
     if (!config.records_snapshots() && !ended_before) {
       write_failed_verdict(name, directory, error.what());
     }
+  };
+  LossAccount losses;
+  bool is_destroyed = false;
+  try {
+    losses = stop_and_account(name, session ? session->path : "", give_up, timer);
+  } catch (const ConsumerEnded& error) {
+    // With LTTng 2.13.15 the consumer was now and then gone after the relay daemon was.
+    if (!relay_daemon_gone) {
+      write_failure(error);
+      throw;
+    }
+    is_destroyed = true;
+  } catch (const TraceError& error) {
+    write_failure(error);
     throw;
   }
   const bool local = session && session->path.starts_with('/');  // else it went to a relay daemon
   LossesByProcess by_process(with_counters(config), losses);
-  if (relay_daemon_gone) {
+  if (is_destroyed) {
+    losses.absences.push_back(lost_with_consumer());
+  } else if (relay_daemon_gone) {
     losses.absences.push_back(*relay_daemon_gone);
   }
   timer.finished("losses");
@@ -240,7 +253,9 @@ LossAccount LttngTracer::finish(const TraceConfig& config, const std::function<b
     const auto no_longer = [&give_up, stuck = losses.stuck, latest] {
       return (give_up && give_up()) || (stuck && std::chrono::steady_clock::now() > latest);
     };
-    rotated ? static_cast<void>(destroy_rotated_session(name, no_longer)) : destroy_session(name, no_longer);
+    if (!is_destroyed) {
+      rotated ? static_cast<void>(destroy_rotated_session(name, no_longer)) : destroy_session(name, no_longer);
+    }
   } catch (const TraceError& error) {
     failure = error;  // what has been written is judged all the same
   }

@@ -50,6 +50,13 @@ std::optional<Absence> look_for_relay_daemon(const SessionSummary& session) {
                  .is_loss = true};
 }
 
+Absence lost_with_consumer() {
+  return {.text =
+              "LTTng's consumer daemon and its connection to the relay daemon ended before the session: what was "
+              "recorded since then is lost, and LTTng does not tell how much",
+          .is_loss = true};
+}
+
 std::optional<Absence> wait_for_relay_daemon(const SessionSummary& session) {
   constexpr std::chrono::seconds kLongest{2};
   constexpr std::chrono::milliseconds kPause{50};

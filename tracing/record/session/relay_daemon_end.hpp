@@ -27,5 +27,7 @@ std::string end_it_later(const std::string& session_name);
 std::optional<Absence> look_for_relay_daemon(const SessionSummary& session);
 // The same once it goes on, which somebody sees to (daemons_kept_going.hpp).
 std::optional<Absence> wait_for_relay_daemon(const SessionSummary& session);
+// What is lost if LTTng's consumer has gone, too.
+Absence lost_with_consumer();
 
 }  // namespace tracing
