@@ -18,7 +18,8 @@ constexpr const char* kWatchProgram = "launch-watch";
 // A recording ends within tenths of a second, unless the session daemon does not answer.
 constexpr std::chrono::milliseconds kLongestEndOfRecording{15'000};
 constexpr int kMostRestarts = 5;
-constexpr std::chrono::seconds kBeforeRestart{1};  // and twice as long each time
+constexpr int kMostRestartsOfOneThatSaysNothing = 2;  // and has never recorded
+constexpr std::chrono::seconds kBeforeRestart{1};     // and twice as long each time
 
 }  // namespace
 
@@ -77,7 +78,7 @@ void ConditionWatchProcess::start() {
                          [this](const std::string& how) {
                            running_.reset();
                            if (!has_failed_) {
-                             fail(std::string(kWatchProgram) + " " + how, "");
+                             fail(std::string(kWatchProgram) + " " + how, "", kMostRestartsOfOneThatSaysNothing);
                            }
                          }});
   } catch (const std::system_error& error) {
@@ -104,9 +105,10 @@ void ConditionWatchProcess::on_line(std::string_view line) {
   tell_(report);
 }
 
-// A program that has recorded is started again: what has ended it may be over.
-void ConditionWatchProcess::fail(const std::string& error, const std::string& help) {
-  const bool goes_on = has_recorded_ && restarts_ < kMostRestarts;
+// A program that has recorded is started again: what has ended it may be over. So is one that ends without a word:
+// libbabeltrace2 2.1 is ended by SIGSEGV if it attaches when LTTng has described the session, but none of its streams.
+void ConditionWatchProcess::fail(const std::string& error, const std::string& help, int most_restarts) {
+  const bool goes_on = restarts_ < (has_recorded_ ? kMostRestarts : most_restarts);
   if (goes_on) {
     again_ = loop_.after(kBeforeRestart * (1 << restarts_++), [this] { start(); });
   }

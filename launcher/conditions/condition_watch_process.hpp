@@ -26,7 +26,8 @@ class ConditionWatchProcess final : public ConditionWatch {
   ConditionWatchProcess& operator=(const ConditionWatchProcess&) = delete;
 
   void observe(Tell tell) override { tell_ = std::move(tell); }
-  // A program that ends although it has recorded is started again some times, with all conditions.
+  // A program that ends although it has recorded, or without saying why, is started again some times, with all
+  // conditions.
   void watch(tracing::ConditionId id, const tracing::LiveCondition& condition) override;
   void forget(tracing::ConditionId id) override;
   void close() override;
@@ -35,7 +36,8 @@ class ConditionWatchProcess final : public ConditionWatch {
   void start();
   void write(const tracing::ConditionOrder& order) { running_->write(to_line(order)); }
   void on_line(std::string_view line);
-  void fail(const std::string& error, const std::string& help);
+  // `most_restarts`: of a program that has never recorded.
+  void fail(const std::string& error, const std::string& help, int most_restarts = 0);
 
   EventLoop& loop_;
   std::string launch_;
