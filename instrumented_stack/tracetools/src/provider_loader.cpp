@@ -56,9 +56,9 @@ bool is_verbose() {
 
 // Sessions that start later also record the objects that live then. False if that is not possible.
 bool offer_state_dumps() {
-  const bool offered = on_state_dump([](Session* session) {
+  const bool offered = on_state_dump([](Session* session, bool lives) {
     const bool first = session_reaches_process();
-    const std::size_t dumped = ObjectState::instance().dump_to(session);
+    const std::size_t dumped = ObjectState::instance().dump_to(session, lives);
     if (first) {
       make_good(dumped);
     }

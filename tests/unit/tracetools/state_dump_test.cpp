@@ -150,6 +150,25 @@ TEST_F(StateDump, CanBeAskedForAgain) {
   EXPECT_THAT(recorded("late"), ElementsAreArray(twice(state_dump(kInitEvents))));
 }
 
+// Such a session has the objects from their beginning, and has never got a dump.
+TEST_F(StateDump, CanBeAskedForByASessionThatWasThereBeforeTheProcess) {
+  run({"lttng-sessiond", "--daemonize"});
+  create_session("early");
+  run({"lttng", "start", "early"});
+  RunningCommand process({.argv = {FIRE_ALL_EVENTS, "--stay"}});
+  ASSERT_TRUE(process.wait_for_output("ready"));
+  run({"lttng", "regenerate", "statedump", "--session=early"});
+  // A pause is no wish for all objects.
+  run({"lttng", "stop", "early"});
+  run({"lttng", "start", "early"});
+  finish_session("early");
+  const Lines events = recorded("early");
+  const Lines dump = state_dump(kInitEvents);
+  ASSERT_GT(events.size(), dump.size());
+  EXPECT_THAT(Lines(events.end() - static_cast<std::ptrdiff_t>(dump.size()), events.end()), ElementsAreArray(dump));
+  EXPECT_EQ(std::count(events.begin(), events.end(), dump.front()), 1);
+}
+
 TEST_F(StateDump, LeavesOutObjectsThatAreGone) {
   run({"lttng-sessiond", "--daemonize"});
   RunningCommand process({.argv = {FIRE_ALL_EVENTS, "--stay-empty"}});

@@ -109,8 +109,19 @@ InitEvent& ObjectState::insert(InitEvent event) {
 }
 
 void ObjectState::record_live(InitEvent& event) {
-  const ProbesInUse probes;
+  bool is_reference = false;
+  {
+    const ProbesInUse probes;
+    is_reference = record_live(event, probes);
+  }
+  if (is_reference) {
+    ProbeMark::move_to_end(*event.tracepoint);
+  }
+}
+
+bool ObjectState::record_live(InitEvent& event, const ProbesInUse& probes) {
   bool recorded = false;
+  bool is_reference = false;
   for_each_probe(probes, *event.tracepoint, [&](const Probe& probe) {
     Session* const session = session_of(probe);
     if (session == nullptr) {
@@ -124,7 +135,12 @@ void ObjectState::record_live(InitEvent& event) {
     }
     event.record(probe);
     recorded = true;
-    const std::uint32_t mark = sessions_[session].mark;
+    KnownSession& known = sessions_[session];
+    const std::uint32_t mark = known.mark;
+    if (known.was_first && known.reference == nullptr) {
+      known.reference = event.tracepoint;
+      is_reference = true;
+    }
     // If the session has just paused, it is unknown whether it has the event. Then a resume will record it again.
     const bool certain = records(*session);
     if (certain && std::find(event.got_live.begin(), event.got_live.end(), mark) == event.got_live.end()) {
@@ -136,6 +152,7 @@ void ObjectState::record_live(InitEvent& event) {
   } else {
     count_unrecorded();
   }
+  return is_reference;
 }
 
 void ObjectState::forget(ObjectKey object) {
@@ -145,14 +162,20 @@ void ObjectState::forget(ObjectKey object) {
   }
 }
 
-std::size_t ObjectState::dump_to(Session* session) {
+std::size_t ObjectState::dump_to(Session* session, bool lives) {
   const std::lock_guard lock(mutex_);
   KnownSession* known = nullptr;
   std::vector<const InitEvent*> due;
   {
     const ProbesInUse probes;
     const Tracepoint* const reference = recorded_init_tracepoint(probes, session);
-    if (reference == nullptr || wants_no_dump(probes, session)) {
+    if (reference == nullptr) {
+      if (lives) {
+        sessions_[session].was_first = true;
+      }
+      return 0;
+    }
+    if (wants_no_dump(probes, session)) {
       return 0;
     }
     known = &sessions_[session];

@@ -35,7 +35,8 @@ class ObjectState {
   // that starts has none. A session that resumes lacks those that were fired while it paused. A session that asks
   // again without a pause gets all again. Does nothing if the session records none of them, or wants no dumps. Objects
   // neither begin nor end meanwhile: threads that try must wait. Returns the number of these events.
-  std::size_t dump_to(Session* session);
+  // `lives`: LTTng does not free the session meanwhile, whether it records events or not.
+  std::size_t dump_to(Session* session, bool lives);
 
  private:
   using InitEvents = std::list<InitEvent>;
@@ -47,6 +48,8 @@ class ObjectState {
   InitEvent& insert(InitEvent event);
   void erase(InitEvents::iterator event);
   void record_live(InitEvent& event);
+  // True if the event's tracepoint is the reference of a session from now on.
+  bool record_live(InitEvent& event, const ProbesInUse& probes);
 
   std::mutex mutex_;
   InitEvents events_;

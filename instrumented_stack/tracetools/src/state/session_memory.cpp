@@ -32,7 +32,7 @@ void set_mark(Session* session, std::uint32_t mark) {
 KnownSession& SessionMemory::operator[](Session* session) {
   KnownSession& known = known_[session];
   if (known.mark == 0 || mark_of(session) != known.mark) {
-    known = {.mark = ++last_mark_, .dumped = {}, .reference = nullptr};
+    known = {.mark = ++last_mark_, .dumped = {}, .reference = nullptr, .was_first = false};
     set_mark(session, known.mark);
   }
   return known;

@@ -15,6 +15,8 @@ struct KnownSession {
   std::unordered_map<const Tracepoint*, std::uint64_t> dumped;
   // A tracepoint that has a ProbeMark after the session's probe; null before the first dump.
   const Tracepoint* reference = nullptr;
+  // It has asked for the state when it knew no init event yet: it was there before the process.
+  bool was_first = false;
 };
 
 // The sessions that this process has seen. LTTng gives a session no number. The address alone does not identify it,

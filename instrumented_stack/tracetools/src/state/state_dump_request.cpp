@@ -15,7 +15,7 @@
 namespace tracetools {
 namespace {
 
-std::atomic<void (*)(Session*)> dump_state{nullptr};
+std::atomic<void (*)(Session*, bool)> dump_state{nullptr};
 
 // The sessions that have asked before LTTng knew the events of the provider. Never destroyed, because LTTng's thread
 // runs to the end of the process.
@@ -38,7 +38,7 @@ void on_lttng_ust_statedump_start(void* /*data*/, Session* session) {
       return;
     }
   }
-  dump_state.load()(session);
+  dump_state.load()(session, true);
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ void begin_state_dumps() {
   }
   // A session that has ended meanwhile has no probes, so nothing is done for it.
   for (Session* const session : sessions) {
-    dump_state.load()(session);
+    dump_state.load()(session, false);
   }
 }
 
@@ -71,11 +71,11 @@ void dump_to_sessions_before() {
     }
   }
   for (Session* const session : sessions) {
-    dump_state.load()(session);
+    dump_state.load()(session, false);
   }
 }
 
-bool on_state_dump(void (*dump)(Session* session)) {
+bool on_state_dump(void (*dump)(Session* session, bool lives)) {
   if (!lttng_functions().exist()) {
     return false;
   }
