@@ -128,6 +128,28 @@ TEST(BuildTwin, ATimerIsDueAtItsEarliestCall) {
   EXPECT_EQ(twin.callbacks[1].delays.quantile(0.5), 60);
 }
 
+// What the thread finds due at the end of a callback was due before it ended.
+TEST(BuildTwin, ATimerThatWaitsForACallbackIsDueBeforeTheCallbackEnds) {
+  testing::HandRecording hand;
+  hand.add_process();
+  const timeline::Index node = hand.add_node("/node");
+  const timeline::Index thread = hand.add_thread(1);
+  const timeline::Index other = hand.add_timer(node, 100'000'000);
+  const timeline::Index timer = hand.add_timer(node, 10'000'000);
+  for (std::int64_t call = 0; call < 40; ++call) {
+    const std::int64_t due = 5'000'000 + call * 10'000'000;
+    if (call % 10 == 0) {
+      hand.run(other, thread, due - 200'000, due + 3'000);
+      hand.run(timer, thread, due + 10'000, due + 20'000);
+    } else {
+      hand.run(timer, thread, due + 60'000, due + 70'000);
+    }
+  }
+  const System twin = build_twin(hand.recording, {});
+  ASSERT_EQ(twin.callbacks.size(), 2u);
+  EXPECT_EQ(twin.callbacks[1].phase_ns, 200'000 + 3'000 - 1'000);
+}
+
 // A node that publishes at these times, outside of callbacks.
 testing::HandRecording loop_of(const std::vector<std::int64_t>& times, std::int64_t end_ns) {
   testing::HandRecording hand;

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -37,17 +39,54 @@ auto& source_of(Of& callback, SimulatedTime::Source source) {
   return callback.silent_run_times;
 }
 
-// What was recorded of a callback when the system was up, in ascending order.
-struct Recorded {
-  std::vector<std::int64_t> ways;
-  std::vector<std::int64_t> lengths;
+// Lengths that were recorded: those that figures count, in ascending order, and all by the time of their begin, which
+// is that of a simulation.
+struct RecordedLengths {
+  std::vector<std::int64_t> sorted;
+  std::vector<Sample> by_time;
+
+  void add(const Distribution& lengths, const System& system) {
+    const std::vector<std::int64_t> counted = lengths.values_from(system.begin_ns + system.up_ns);
+    sorted.insert(sorted.end(), counted.begin(), counted.end());
+    std::sort(sorted.begin(), sorted.end());
+    for (const Distribution::Moment& moment : lengths.moments) {
+      by_time.push_back({moment.time_ns - system.begin_ns, lengths.values[moment.place]});
+    }
+    std::sort(by_time.begin(), by_time.end(),
+              [](const Sample& left, const Sample& right) { return left.time_ns < right.time_ns; });
+  }
+
+  // What began next to this time, if that is nearer than a quarter of the usual interval.
+  std::optional<std::int64_t> at(std::int64_t time_ns) const {
+    if (by_time.size() < 2) {
+      return std::nullopt;
+    }
+    auto next =
+        std::lower_bound(by_time.begin(), by_time.end(), time_ns,
+                         [](const Sample& sample, std::int64_t wanted_ns) { return sample.time_ns < wanted_ns; });
+    if (next == by_time.end() ||
+        (next != by_time.begin() && time_ns - std::prev(next)->time_ns < next->time_ns - time_ns)) {
+      --next;
+    }
+    const std::int64_t usual_ns =
+        (by_time.back().time_ns - by_time.front().time_ns) / static_cast<std::int64_t>(by_time.size());
+    return std::abs(next->time_ns - time_ns) > usual_ns / 4 ? std::nullopt : std::optional(next->value);
+  }
 };
 
-Recorded recorded_of(const Callback& callback, std::int64_t up_ns) {
-  Recorded recorded{callback.ways.values_from(up_ns), callback.run_times.values_from(up_ns)};
-  const std::vector<std::int64_t> silent = callback.silent_run_times.values_from(up_ns);
-  recorded.lengths.insert(recorded.lengths.end(), silent.begin(), silent.end());
-  std::sort(recorded.lengths.begin(), recorded.lengths.end());
+// Of a callback.
+struct Recorded {
+  RecordedLengths ways;
+  RecordedLengths runs;
+};
+
+Recorded recorded_of(const Callback& callback, const System& system) {
+  Recorded recorded;
+  recorded.ways.add(callback.ways, system);
+  if (!system.processor_times) {
+    recorded.runs.add(callback.run_times, system);
+    recorded.runs.add(callback.silent_run_times, system);
+  }
   return recorded;
 }
 
@@ -57,9 +96,11 @@ void sort_by_total(std::vector<SimulatedTime>& times) {
   });
 }
 
-// How far the median and the p99 are from what was recorded; 1 for each is as far as a twin may be. Both in order.
+// How far the median and the p99 are from what was recorded; 1 for each is as far as a twin may be, and more costs
+// extra. Both in order.
 double misfit(const std::vector<std::int64_t>& recorded, const std::vector<SimulatedTime>& simulated) {
   constexpr double kMost = 3;
+  constexpr double kTooFar = 3;
   const auto of = [&](double part, double allowed) {
     const auto at = [&](std::size_t count) {
       return std::clamp<std::size_t>(static_cast<std::size_t>(std::ceil(part * static_cast<double>(count))), 1, count) -
@@ -67,16 +108,22 @@ double misfit(const std::vector<std::int64_t>& recorded, const std::vector<Simul
     };
     const auto was = static_cast<double>(std::max<std::int64_t>(1, recorded[at(recorded.size())]));
     const auto is = static_cast<double>(std::max<std::int64_t>(1, simulated[at(simulated.size())].total_ns));
-    return std::min(kMost, std::abs(std::log(is / was)) / std::log(allowed));
+    const double off = std::min(kMost, std::abs(std::log(is / was)) / std::log(allowed));
+    return off > 1 ? off + kTooFar : off;
   };
   return recorded.empty() || simulated.empty() ? 0 : of(0.5, 1.1) + of(0.99, 1.25);
 }
 
-// Moves each time that was used so far that the n-th of the simulated totals comes nearer to the n-th recorded one.
-// Both in order.
-void fit(const std::vector<std::int64_t>& recorded, const std::vector<SimulatedTime>& simulated, const Callback& whole,
-         Callback& callback) {
-  if (recorded.empty()) {
+// What a simulated way or run should have taken.
+enum class Wanted {
+  kSameRank,  // the n-th of the recorded lengths, for the n-th of the simulated ones
+  kSameTime,  // what was recorded at that time; what has no such time, as kSameRank
+};
+
+// Moves each time that was used nearer to what is wanted of it. `simulated` is in order.
+void fit(const RecordedLengths& recorded, const std::vector<SimulatedTime>& simulated, Wanted wanted,
+         const Callback& whole, Callback& callback) {
+  if (recorded.sorted.empty()) {
     return;
   }
   struct Sum {
@@ -86,9 +133,10 @@ void fit(const std::vector<std::int64_t>& recorded, const std::vector<SimulatedT
   std::map<std::pair<SimulatedTime::Source, std::uint32_t>, Sum> sums;
   for (std::size_t rank = 0; rank < simulated.size(); ++rank) {
     const SimulatedTime& time = simulated[rank];
-    const std::int64_t wanted = recorded[(2 * rank + 1) * recorded.size() / (2 * simulated.size())];
+    const std::int64_t of_rank = recorded.sorted[(2 * rank + 1) * recorded.sorted.size() / (2 * simulated.size())];
+    const std::int64_t wanted_ns = wanted == Wanted::kSameTime ? recorded.at(time.begin_ns).value_or(of_rank) : of_rank;
     Sum& sum = sums[{time.source, time.place}];
-    sum.difference += static_cast<double>(wanted - time.total_ns);
+    sum.difference += static_cast<double>(wanted_ns - time.total_ns);
     ++sum.count;
   }
   for (const auto& [of, sum] : sums) {
@@ -105,14 +153,11 @@ class Rounds {
  public:
   explicit Rounds(const System& system) : whole_(system.callbacks), best_(system) {
     for (const Callback& callback : whole_) {
-      recorded_.push_back(recorded_of(callback, system.begin_ns + system.up_ns));
-      if (system.processor_times) {
-        recorded_.back().lengths.clear();
-      }
+      recorded_.push_back(recorded_of(callback, system));
     }
   }
 
-  void run(System system) {
+  void run(System system, Wanted wanted) {
     std::size_t rounds = kMostRounds;
     for (std::size_t round = 0; round < rounds; ++round) {
       Simulation simulation(system);
@@ -125,9 +170,9 @@ class Rounds {
         sort_by_total(times.ways);
         sort_by_total(times.runs);
         const Recorded& recorded = recorded_[index];
-        sum += misfit(recorded.ways, times.ways) + misfit(recorded.lengths, times.runs);
-        fit(recorded.ways, times.ways, whole_[index], next[index]);
-        fit(recorded.lengths, times.runs, whole_[index], next[index]);
+        sum += misfit(recorded.ways.sorted, times.ways) + misfit(recorded.runs.sorted, times.runs);
+        fit(recorded.ways, times.ways, wanted, whole_[index], next[index]);
+        fit(recorded.runs, times.runs, wanted, whole_[index], next[index]);
         runs += times.runs.size();
       }
       if (sum < least_) {
@@ -155,7 +200,9 @@ void take_off_simulated_waits(System& system) {
   Rounds rounds(system);
   for (const double slack : {0.6, 1.0, 1.5}) {
     system.slack = slack;
-    rounds.run(system);
+    for (const Wanted wanted : {Wanted::kSameRank, Wanted::kSameTime}) {
+      rounds.run(system, wanted);
+    }
   }
   system = rounds.best();
 }

@@ -250,7 +250,8 @@ void Simulation::step_done(std::size_t index) {
     const Message& message = thread.message;
     const bool counted = counts(message.sent_ns);
     if (counted) {
-      times_[thread.callback].ways.push_back({message.way.source, message.way.place, now_ns_ - message.sent_ns});
+      times_[thread.callback].ways.push_back(
+          {message.way.source, message.way.place, now_ns_ - message.sent_ns, message.sent_ns});
     }
     if (counted && callback.kind == Callback::Kind::kSubscription) {
       const std::string& node = system_.nodes[system_.publishers[message.publisher].node].name;
@@ -314,7 +315,7 @@ void Simulation::end(std::size_t index) {
     figures_[{FigureKind::kCallback, callback.name}].push_back(now_ns_ - thread.begin_ns);
     times_[thread.callback].runs.push_back(
         {thread.run.is_silent ? SimulatedTime::Source::kSilentRun : SimulatedTime::Source::kRun, thread.run.place,
-         now_ns_ - thread.begin_ns});
+         now_ns_ - thread.begin_ns, thread.begin_ns});
   }
   --running_[callback.group];
   if (callback.kind == Callback::Kind::kService) {

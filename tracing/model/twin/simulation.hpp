@@ -29,6 +29,7 @@ struct SimulatedTime {
   Source source = Source::kDelay;
   std::uint32_t place = 0;  // in the values of that distribution
   std::int64_t total_ns = 0;
+  std::int64_t begin_ns = 0;  // of the way or the run, in the simulation
 };
 
 // Of a callback.
