@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
+#include <string.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
@@ -31,13 +33,17 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 }  // namespace
 
-NodeWatch::NodeWatch(Tells tells) : lines_{"A recording of the nodes begins."} {
+NodeWatch::NodeWatch(Tells tells) : tells_(tells), lines_{"A recording of the nodes begins."} {
   ::signal(SIGPIPE, SIG_IGN);  // launch-watch may have ended when a width is written
+  start();
+}
+
+void NodeWatch::start() {
   Pipe input = make_pipe();
   Pipe output = make_pipe();
   const std::string program = own_library_file("launch-watch");
   std::vector<std::string> argv = {program};
-  if (tells == Tells::kMetrics) {
+  if (tells_ == Tells::kMetrics) {
     argv.emplace_back("--metrics");
   }
   pid_ = spawn({.program = program,
@@ -60,7 +66,11 @@ void NodeWatch::set_width(std::size_t columns) {
     return;
   }
   width_ = columns;
-  const std::string line = fmt::format("{}\n", columns);
+  write_width();
+}
+
+void NodeWatch::write_width() {
+  const std::string line = fmt::format("{}\n", width_);
   // A program that has ended says why, see read_some().
   [[maybe_unused]] const ssize_t written = ::write(input_.get(), line.data(), line.size());
 }
@@ -69,8 +79,30 @@ void NodeWatch::update() {
   for (pollfd readable{output_.get(), POLLIN, 0}; output_ && ::poll(&readable, 1, 0) > 0;) {
     if (!read_some()) {
       output_.reset();
+      begin_again_after_crash();
     }
+    readable.fd = output_.get();
   }
+}
+
+// libbabeltrace2 2.1 is ended by SIGSEGV if it attaches when LTTng has described the session, but none of its streams.
+void NodeWatch::begin_again_after_crash() {
+  constexpr int kMostRestarts = 2;
+  const int status = wait_for(std::exchange(pid_, -1));
+  if (!WIFSIGNALED(status)) {
+    return;  // it has said why it ends
+  }
+  const std::string how = fmt::format("launch-watch was ended by SIG{}", ::sigabbrev_np(WTERMSIG(status)));
+  if (restarts_++ == kMostRestarts) {
+    lines_ = {how};
+    return;
+  }
+  received_.clear();
+  start();
+  if (width_ > 0) {
+    write_width();
+  }
+  lines_ = {how + ". The recording of the nodes begins anew."};
 }
 
 bool NodeWatch::read_some() {

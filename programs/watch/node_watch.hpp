@@ -25,7 +25,7 @@ class NodeWatch {
   NodeWatch(const NodeWatch&) = delete;
   NodeWatch& operator=(const NodeWatch&) = delete;
 
-  // Takes what has come. Does not block.
+  // Takes what has come. Does not block. A program that crashes is started again, twice at most.
   void update();
   // False when the recording has ended by itself; lines() says why.
   bool goes_on() const { return static_cast<bool>(output_); }
@@ -43,10 +43,15 @@ class NodeWatch {
   std::string end();
 
  private:
+  void start();
+  void write_width();
+  void begin_again_after_crash();
   void take(const std::string& text);
   // False at the end.
   bool read_some();
 
+  Tells tells_;
+  int restarts_ = 0;
   pid_t pid_ = -1;
   UniqueFd input_;
   UniqueFd output_;

@@ -229,6 +229,32 @@ TEST_F(TopTest, KnowsTheStateOfLifecycleNodesThatAreOlder) {
   EXPECT_EQ(figure_of(seen, "Lifecycle nodes", "/here/led", "state at the end"), "active") << seen;
 }
 
+TEST_F(TopTest, ARecordingOfTheNodesThatCrashesBeginsAnew) {
+  RunningCommand run(launch(R"xml(<lifecycle_node pkg="lifecycle" exec="lifecycle_talker" name="led" namespace="/here"
+    autostart="true"/><trace session-name="all"/>)xml"));
+  ASSERT_TRUE(run.wait_for_output("[lifecycle_talker-1]: process started", kPatience)) << run.out() << run.err();
+  Terminal top(top_of(run, {"--trace"}), environment_);
+  const auto crash = [&] {
+    const std::string watch = run_command({"pgrep", "-P", std::to_string(top.pid()), "launch-watch"}).out;
+    ASSERT_NE(watch, "");
+    ASSERT_EQ(::kill(std::stoi(watch), SIGSEGV), 0);
+  };
+  for (int crashes = 1; crashes <= 2; ++crashes) {
+    ASSERT_TRUE(top.shows("  /here/led timer ")) << top.screen();
+    crash();
+    ASSERT_TRUE(top.shows("launch-watch was ended by SIGSEGV. The recording of the nodes begins anew."))
+        << top.screen();
+  }
+  ASSERT_TRUE(top.shows("  /here/led timer ")) << top.screen();
+  crash();
+  ASSERT_TRUE(top.hides("  /here/led timer ")) << top.screen();
+  EXPECT_TRUE(top.shows("launch-watch was ended by SIGSEGV")) << top.screen();
+  top.type("tq");
+  EXPECT_EQ(top.wait(), 0);
+  run.send_signal(SIGINT);
+  EXPECT_EQ(run.wait(kPatience).exit_code, 0);
+}
+
 TEST_F(TopTest, SaysWhyItCannotShowWhatTheNodesDo) {
   RunningCommand run(launch(kTalker));
   ASSERT_TRUE(run.wait_for_output("[talker-1] ready", kPatience));
