@@ -98,7 +98,12 @@ void NodeWatch::begin_again_after_crash() {
     return;
   }
   received_.clear();
-  start();
+  try {
+    start();
+  } catch (const SpawnError& error) {
+    lines_ = {how, error.what()};
+    return;
+  }
   if (width_ > 0) {
     write_width();
   }
