@@ -55,9 +55,12 @@ class PythonValues(unittest.TestCase):
         self.assertGreater(len(json.loads(done.stdout)), 1000)
 
     def test_an_error_has_the_line(self):
-        for value in ('None', '5', 'b"x"', '{"a"}', '"a\\0b"', '["a", None]', 'object()', '"\\ud800"'):
-            for name in ('EnvironmentVariable', 'LaunchConfiguration', 'FindExecutable', 'Command', 'PythonExpression',
-                         'FileContent', 'AnonName', 'LocalSubstitution', 'PathJoinSubstitution'):
+        # Each value with three classes, each class with two or three values. Above, all are tried in one launch.
+        values = ('None', '5', 'b"x"', '{"a"}', '"a\\0b"', '["a", None]', 'object()', '"\\ud800"')
+        names = ('EnvironmentVariable', 'LaunchConfiguration', 'FindExecutable', 'Command', 'PythonExpression',
+                 'FileContent', 'AnonName', 'LocalSubstitution', 'PathJoinSubstitution')
+        for number, value in enumerate(values):
+            for name in names[number % 3::3]:
                 with self.subTest(f'{name}({value})'):
                     done = self.launch('--dry-run', self.file(f'        LogInfo(msg={name}({value}))'))
                     self.assertEqual(done.returncode, 1, done.stderr)
