@@ -196,8 +196,9 @@ TEST_F(AttachTest, WithoutStandardInputItOnlyShows) {
 
 TEST_F(AttachTest, AProgramOnTheWholeScreenDrawsAgainAndTheScreenIsSetBack) {
   write_file(sandbox_.directory() / "screen.py",
-             "import signal\n"
-             "signal.signal(signal.SIGWINCH, lambda *_: print('drawn', flush=True))\n"
+             "import os, signal\n"
+             // Not print(), which may be in the middle of its text when the signal comes.
+             "signal.signal(signal.SIGWINCH, lambda *_: os.write(1, b'drawn\\n'))\n"
              "print('\\033[?1049h\\033[?25lready', flush=True)\n"
              "while True:\n"
              "    signal.pause()\n");
