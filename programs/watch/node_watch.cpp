@@ -98,6 +98,7 @@ void NodeWatch::begin_again_after_crash() {
     return;
   }
   received_.clear();
+  metrics_.clear();  // old figures are no figures
   try {
     start();
   } catch (const SpawnError& error) {

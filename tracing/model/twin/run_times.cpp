@@ -13,8 +13,8 @@ using State = ThreadInterval::State;
 // A thread that sleeps is called later than that after its timer is due. One that has just ended a callback begins the
 // next one sooner: it found the timer due when it ended.
 constexpr std::int64_t kLongestGap = 20'000;
-constexpr std::int64_t kShortestPeriodOfGap = 100;  // in gaps
-constexpr std::int64_t kLook = 1'000;               // a timer that is found due is due that long at least
+constexpr std::int64_t kGapsInPeriod = 100;  // a gap is at most that part of the timer's period
+constexpr std::int64_t kLook = 1'000;        // a timer that is found due is due that long at least
 
 // How much of a time each thread did what. States of one thread follow one another.
 class States {
@@ -59,9 +59,8 @@ RunTimes::RunTimes(const Recording& recording) : callbacks_(recording.timeline.c
     const timeline::Instance& instance = timeline.instances[index];
     Of& of = callbacks_[instance.callback];
     of.starts.push_back(instance.start_ns);
-    std::int64_t& end_ns = ends[instance.thread];
-    of.ends_before.push_back(end_ns);
-    end_ns = std::max(end_ns, instance.end_ns);
+    of.ends_before.push_back(ends[instance.thread]);
+    ends[instance.thread] = instance.finished ? instance.end_ns : 0;
     ++of.count;
     of.intra_process = of.intra_process || instance.intra_process;
     if (!instance.finished) {
@@ -126,10 +125,11 @@ std::int64_t RunTimes::first_due_ns(std::size_t callback, std::int64_t period_ns
   // Most of these calls are late, too, because a thread that sleeps is woken late. No timer is called early, so it is
   // due at its earliest call. The first call does not count, and one in a hundred may be earlier: the timer was set
   // anew.
-  const std::int64_t longest_gap = std::min(kLongestGap, period_ns / kShortestPeriodOfGap);
+  const std::int64_t longest_gap = std::min(kLongestGap, period_ns / kGapsInPeriod);
   std::vector<std::int64_t> early;
   for (std::size_t call = 1; call < starts.size(); ++call) {
-    const bool is_found_due = starts[call] - ends_before[call] < longest_gap;
+    const std::int64_t gap = starts[call] - ends_before[call];
+    const bool is_found_due = gap >= 0 && gap < longest_gap;
     const std::int64_t known_ns = is_found_due ? ends_before[call] - kLook : starts[call];
     const std::int64_t before = (due + 2 * period_ns - (known_ns - starts.front()) % period_ns) % period_ns;
     if (before < period_ns / 2) {

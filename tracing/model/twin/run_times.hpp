@@ -31,7 +31,7 @@ class RunTimes {
     std::vector<Sample> sending;
     std::vector<Sample> silent;
     std::vector<std::int64_t> starts;
-    std::vector<std::int64_t> ends_before;  // of each start: when its thread ended what it ran before, or 0
+    std::vector<std::int64_t> ends_before;  // of each start: when its thread ended what it ran before; 0: not known
     double work_ns = 0;
     double blocked_ns = 0;
     bool intra_process = false;

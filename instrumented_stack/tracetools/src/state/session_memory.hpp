@@ -13,9 +13,10 @@ struct KnownSession {
   std::uint32_t mark = 0;
   // By tracepoint: the number of the newest event that existed at the last dump. The session has all up to it.
   std::unordered_map<const Tracepoint*, std::uint64_t> dumped;
-  // A tracepoint that has a ProbeMark after the session's probe; null before the first dump.
+  // A tracepoint that has a ProbeMark after the session's probe. Null before the first dump, or, if the session was
+  // first, before the first init event.
   const Tracepoint* reference = nullptr;
-  // It has asked for the state when it knew no init event yet: it was there before the process.
+  // The session has asked for the state before it could record an init event: it was there before the process.
   bool was_first = false;
 };
 

@@ -9,8 +9,9 @@ namespace tracetools {
 // or resumes, or when a user runs `lttng regenerate statedump`. Call it once, before liblttng-ust.so is loaded. False
 // if this lttng-ust cannot do it.
 //
-// While `dump` runs, the tracer's control of this process waits. `dump` may record events. `lives` is false if the
-// session may have been freed when it was put off, see below.
+// While `dump` runs, the tracer's control of this process waits. `dump` may record events. `lives` is true
+// when LTTng asks for the session itself: LTTng does not free it meanwhile. One that was put off, see below, may be
+// freed.
 bool on_state_dump(void (*dump)(Session* session, bool lives));
 
 // Until this is called, sessions that ask are put off; it calls `dump` for them. Call it when LTTng knows the events
