@@ -35,8 +35,11 @@ namespace launch {
   ACTION(node_container)               \
   ACTION(on_health_change)             \
   ACTION(on_late)                      \
+  ACTION(on_loss)                      \
   ACTION(on_machine_back)              \
   ACTION(on_machine_lost)              \
+  ACTION(on_memory)                    \
+  ACTION(on_overload)                  \
   ACTION(on_process_exit)              \
   ACTION(on_process_io)                \
   ACTION(on_process_start)             \
@@ -53,11 +56,13 @@ namespace launch {
   ACTION(reset)                        \
   ACTION(reset_env)                    \
   ACTION(restart)                      \
+  ACTION(restore_priority)             \
   ACTION(ros_timer)                    \
   ACTION(send_goal)                    \
   ACTION(set_env)                      \
   ACTION(set_parameter)                \
   ACTION(set_parameters_from_file)     \
+  ACTION(set_priority)                 \
   ACTION(set_remap)                    \
   ACTION(set_ros_log_dir)              \
   ACTION(set_use_sim_time)             \

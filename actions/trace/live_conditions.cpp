@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// <on_silence>, <on_rate>, <on_late>: visit actions when the trace of the running system shows that nodes do nothing
-// any more, too much, or too little, or take too long.
+// <on_silence>, <on_rate>, <on_late>, <on_loss>: visit actions when the trace of the running system shows that nodes do
+// nothing any more, too much, or too little, or take too long, or that messages are lost.
 #include <fmt/format.h>
 
 #include <chrono>
 #include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
 
-#include "actions/process/handler_action.hpp"
+#include "actions/trace/condition_rows.hpp"
 #include "actions/values/ros_names.hpp"
 #include "tracing/model/conditions/live_condition.hpp"
 
@@ -15,40 +18,12 @@ namespace launch {
 namespace {
 
 using tracing::LiveCondition;
-using Values = Handled<OnCondition>;
-using Row = Setting<Values>;
+using Values = HandledCondition;
+using Row = ConditionRow;
 
-constexpr Duration kShortestWindow = std::chrono::milliseconds(100);
 constexpr Duration kShortestMax = std::chrono::microseconds(1);
 constexpr Duration kUsualWindow = std::chrono::seconds(2);
 constexpr double kFewestMessages = 2;
-
-// A time with its unit, at least so long.
-Duration perform_time_with_unit(const char* attribute, const Fields& fields, Scope& scope, Duration least) {
-  const Template& given = fields.text(attribute);
-  const std::string text = given.perform(scope);
-  const std::optional<Duration> time = tracing::parse_time_text(text);
-  if (!time) {
-    const bool lacks_unit = tracing::parse_time_text(text + "s").has_value();
-    throw LaunchError(fmt::format("{} is a time with a unit, got '{}'", attribute, text), given.where(),
-                      lacks_unit ? fmt::format("did you mean '{}s'? Units are us, ms, s and min", text)
-                                 : "write it as 2s, 500ms or 1min");
-  }
-  if (*time < least) {
-    throw LaunchError(fmt::format("{} is at least {}, got '{}'", attribute, tracing::time_text(least), text),
-                      given.where(), fmt::format("write {} or more", tracing::time_text(least)));
-  }
-  return *time;
-}
-
-Row window_row(const char* attribute, bool required, const char* fallback, const char* help) {
-  return {.attribute = {attribute, AttributeType::kText, required, fallback, help},
-          .perform =
-              [attribute](const Fields& fields, Scope& scope, Values& handled) {
-                handled.event.condition.window = perform_time_with_unit(attribute, fields, scope, kShortestWindow);
-              },
-          .checks_literal = true};
-}
 
 Row name_row(const char* attribute, bool required, const char* help, LiveCondition::Subject subject) {
   return {.attribute = {attribute, AttributeType::kText, required, "", help},
@@ -56,26 +31,6 @@ Row name_row(const char* attribute, bool required, const char* help, LiveConditi
             handled.event.condition.subject = subject;
             handled.event.condition.name = resolve_name(fields.text(attribute), scope);
           }};
-}
-
-// The rows that every condition has, behind its own.
-HandlerRows<OnCondition> with_common_rows(HandlerRows<OnCondition> rows) {
-  rows.push_back({.attribute = {"cool_down", AttributeType::kText, false, "0s", "the least time between two visits"},
-                  .perform =
-                      [](const Fields& fields, Scope& scope, Values& handled) {
-                        handled.event.cool_down = perform_time_with_unit("cool_down", fields, scope, Duration(0));
-                      },
-                  .checks_literal = true});
-  rows.push_back({.attribute = {"grace", AttributeType::kText, false, "10s",
-                                "if nothing of the launch has the name until then, a warning says so"},
-                  .perform =
-                      [](const Fields& fields, Scope& scope, Values& handled) {
-                        handled.event.condition.grace = perform_time_with_unit("grace", fields, scope, Duration(0));
-                      },
-                  .checks_literal = true});
-  rows.push_back(once_row<OnCondition>());
-  rows.push_back(handler_name_row<OnCondition>());
-  return rows;
 }
 
 void check_silence(const Fields& fields) {
@@ -111,20 +66,63 @@ void check_rate_limits(const Fields& fields) {
 
 void check_one_subject(const Fields& fields) {
   const char* first = nullptr;
-  for (const char* const attribute : {"topic", "node", "service"}) {
+  for (const LiveCondition::Subject subject : tracing::kRecordedSubjects) {
+    const char* const attribute = name_of(subject);
     if (!fields.has(attribute)) {
       continue;
     }
     if (first != nullptr) {
-      throw LaunchError("on_late is about a topic, a node or a service, one of them", fields.where(attribute),
-                        "write an on_late for each", Finding::kExclusive);
+      throw LaunchError(fmt::format("on_late is about one thing, but both '{}' and '{}' are given", first, attribute),
+                        fields.where(attribute), "write an on_late for each", Finding::kExclusive);
     }
     first = attribute;
   }
   if (first == nullptr) {
     throw LaunchError("it is not said what must not be late", fields.where(),
-                      "give topic=\"…\", node=\"…\" or service=\"…\"", Finding::kMissingAttribute);
+                      "give topic=\"…\", node=\"…\", service=\"…\", action=\"…\", timer=\"…\" or chain=\"…\"",
+                      Finding::kMissingAttribute);
   }
+}
+
+// The nodes of a chain, by their full names; patterns are left as they are.
+Row chain_row() {
+  return {.attribute =
+              {"chain", AttributeType::kText, false, "",
+               "nodes that messages go through, as in /camera -> /fusion -> /brake: from the begin of a callback of "
+               "the first one to the end of one of the last one"},
+          .perform =
+              [](const Fields& fields, Scope& scope, Values& handled) {
+                const Template& given = fields.text("chain");
+                const std::string text = given.perform(scope);
+                std::optional<std::vector<std::string>> nodes = tracing::nodes_of_chain(text);
+                if (!nodes) {
+                  throw LaunchError(fmt::format("a chain is two or more nodes with -> between them, got '{}'", text),
+                                    given.where(), "write it as /camera -> /fusion -> /brake");
+                }
+                for (std::string& node : *nodes) {
+                  if (node.find('*') == std::string::npos) {
+                    node = resolve_name(node, scope, given.where());
+                  }
+                }
+                handled.event.condition.subject = LiveCondition::Subject::kChain;
+                handled.event.condition.name = tracing::chain_of_nodes(*nodes);
+              },
+          .checks_literal = true};
+}
+
+Row lost_share_row() {
+  return {.attribute = {"above", AttributeType::kFloat, false, "0",
+                        "in the window, so much of all may be lost: 0.01 allows one of 100 to be lost"},
+          .perform = [](const Fields& fields, Scope& scope, Values& handled) {
+            const double share = fields.number("above")->perform(scope);
+            if (!(share >= 0) || share >= 1) {
+              throw LaunchError(
+                  fmt::format("above is a share of all messages, at least 0 and below 1, got {}", share),
+                  fields.where("above"),
+                  share >= 1 && share < 100 ? fmt::format("did you mean {}?", share / 100) : "write 0.01 for 1 %");
+            }
+            handled.event.condition.share = 1 - share;
+          }};
 }
 
 Row max_row() {
@@ -204,7 +202,8 @@ ActionType on_late_action() {
   return handler_of<OnCondition>(
       "on_late",
       "Visits its actions each time messages on a topic take too long to their callbacks, callbacks of a node run too "
-      "long, or responses of a service take too long; needs a trace.",
+      "long, timers are called too late, responses of a service or results of an action take too long, or the way "
+      "through a chain of nodes does; needs a trace.",
       with_common_rows(
           {name_row("topic", false, "a topic to which nodes of the launch are subscribed: from sending to the callback",
                     LiveCondition::Subject::kTopic),
@@ -212,10 +211,30 @@ ActionType on_late_action() {
                     LiveCondition::Subject::kNode),
            name_row("service", false, "a service that nodes of the launch call: from the request to the response",
                     LiveCondition::Subject::kService),
-           max_row(), share_row(), window_row("window", false, "2s", "over which they are counted")}),
+           name_row("action", false,
+                    "an action that nodes of the launch are clients of: from the request for the result to the result",
+                    LiveCondition::Subject::kAction),
+           name_row("timer", false, "a node of the launch: from when a timer of it is due to the callback",
+                    LiveCondition::Subject::kTimer),
+           chain_row(), max_row(), share_row(), window_row("window", false, "2s", "over which they are counted")}),
       check_one_subject, [](const Fields& fields, LaunchContext&, Values& handled) {
         LiveCondition& condition = handled.event.condition;
         condition.kind = LiveCondition::Kind::kLate;
+        if (!fields.has("window")) {
+          condition.window = kUsualWindow;
+        }
+      });
+}
+
+ActionType on_loss_action() {
+  return handler_of<OnCondition>(
+      "on_loss", "Visits its actions each time subscriptions to a topic miss messages; needs a trace.",
+      with_common_rows({name_row("topic", true, "a topic to which nodes of the launch are subscribed",
+                                 LiveCondition::Subject::kTopic),
+                        lost_share_row(), window_row("window", false, "2s", "over which they are counted")}),
+      {}, [](const Fields& fields, LaunchContext&, Values& handled) {
+        LiveCondition& condition = handled.event.condition;
+        condition.kind = LiveCondition::Kind::kLoss;
         if (!fields.has("window")) {
           condition.window = kUsualWindow;
         }

@@ -93,11 +93,14 @@ void restore_namespace(const std::optional<std::string>& pushed, Scope& scope) {
 }
 
 std::string resolve_name(const Template& given, Scope& scope) {
+  return resolve_name(given.perform(scope), scope, given.where());
+}
+
+std::string resolve_name(const std::string& text, const Scope& scope, const SourceRange& where) {
   const auto pushed = scope.configurations.find(kNamespaceConfiguration);
-  const std::string text = given.perform(scope);
   const std::string name = combine_namespaces(pushed == scope.configurations.end() ? "" : pushed->second, text);
   if (text.empty() || text.ends_with('/') || !is_valid_namespace(name)) {
-    throw LaunchError(fmt::format("'{}' is no valid name", text), given.where(),
+    throw LaunchError(fmt::format("'{}' is no valid name", text), where,
                       "each part is letters, digits and underscores, not starting with a digit", Finding::kInvalidName);
   }
   return name;

@@ -28,6 +28,8 @@ void restore_namespace(const std::optional<std::string>& pushed, Scope& scope);
 // The full name of a node, a topic or a service in the scope: a relative one is below its namespace. Throws LaunchError
 // at the template when the result is no valid name.
 std::string resolve_name(const Template& given, Scope& scope);
+// Of a text that was a part of what stands at `where`.
+std::string resolve_name(const std::string& text, const Scope& scope, const SourceRange& where);
 
 // "/left" and "talker" are "/left/talker".
 std::string qualified_name(const std::string& name_space, const std::string& name);

@@ -206,6 +206,13 @@ struct EventWriter {
     json["event"] = "signalled";
     json["signal"] = signal_name(sent.signal);
   }
+  void operator()(const SchedulingChanged& change) const {
+    json["event"] = "scheduling";
+    json["to"] = change.to;
+    if (!change.failure.empty()) {
+      json["error"] = change.failure;
+    }
+  }
   void operator()(const ProcessLeft& left) const {
     json["event"] = "left_running";
     json["pid"] = number_outside(left.pid);
@@ -310,11 +317,18 @@ std::string condition_line(const ConditionEvent& event) {
             {"condition", tracing::describe(condition)},
             {tracing::name_of(condition.subject), condition.name},
             {"holds", event.change.holds}};
-  if (condition.kind != Kind::kLate) {
+  if (is_of_process(condition)) {
+    if (event.change.holds) {
+      json[condition.kind == Kind::kMemory   ? "memory"
+           : condition.kind == Kind::kGrowth ? "growth"
+                                             : "processor"] = event.change.figure;
+    }
+  } else if (condition.kind == Kind::kSilence || condition.kind == Kind::kRate) {
     json[condition.kind == Kind::kSilence ? "silent_for" : "rate"] = event.change.figure;
   } else if (event.change.holds) {
-    json["took"] = event.change.figure;
-    json["late"] = event.change.late;
+    const bool is_loss = condition.kind == Kind::kLoss;
+    json[is_loss ? "lost" : "took"] = event.change.figure;
+    json[is_loss ? "lost_share" : "late"] = event.change.late;
   }
   json["processes"] = event.change.processes;
   json["place"] = place;

@@ -38,6 +38,16 @@ class MachineRunner final : public ProcessRunner {
     return process.machine.empty() ? here_.limit(process, resource, soft) : std::nullopt;
   }
 
+  std::optional<SchedulingFailure> change_scheduling(const Process& process, const ResourceLimits& wanted,
+                                                     GroupScheduling& before) override {
+    return process.machine.empty() ? here_.change_scheduling(process, wanted, before)
+                                   : ProcessRunner::change_scheduling(process, wanted, before);
+  }
+  std::optional<SchedulingFailure> restore_scheduling(const Process& process, const GroupScheduling& before) override {
+    return process.machine.empty() ? here_.restore_scheduling(process, before)
+                                   : ProcessRunner::restore_scheduling(process, before);
+  }
+
   std::vector<bool> groups_live(const std::vector<const Process*>& leaders) override {
     std::map<std::string, std::vector<const Process*>> of_machines;
     for (const Process* const leader : leaders) {

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <string.h>
 
 #include <memory>
 #include <optional>
@@ -123,13 +122,6 @@ std::string counted(std::size_t count, std::string_view one, std::string_view se
   return fmt::format("{} {}", count, count == 1 ? one : several);
 }
 
-// A command to a process as text: "stop 'talker'", "signal SIGUSR1 to 'talker'".
-std::string command_as_text(const ProcessCommand& command) {
-  return command.kind == ProcessCommand::Kind::kSignal
-             ? fmt::format("signal SIG{} to '{}'", ::sigabbrev_np(command.signal), command.process)
-             : fmt::format("{} '{}'", name_of(command.kind), command.process);
-}
-
 std::string dependency_as_text(const Dependency& dependency) {
   std::string text = fmt::format("waits until {}", describe(dependency));
   if (dependency.timeout) {
@@ -236,7 +228,7 @@ std::string content_as_text(const LaunchPlan& plan, const Environment& launcher_
       plan,
       Overloaded{
           [&](const RunScopePtr& scope) { traces += scope_as_text(*scope) + "\n"; },
-          [&](const ProcessCommand& command) { effects += command_as_text(command) + "\n"; },
+          [&](const ProcessCommand& command) { effects += describe(command) + "\n"; },
           [&](const EventHandler& handler) { handlers += handler_as_text(handler, *reaction++, launcher_environment); },
           [&](const LoadRequest& load) { to_nodes += load_request_as_text(load) + "\n"; },
           [&](const TransitionRequest& request) {
@@ -332,39 +324,38 @@ void add_content(Json& root, const LaunchPlan& plan, const Environment& launcher
   Json handlers;
   auto reaction = plan.reactions.begin();
   for_each_request(
-      plan,
-      Overloaded{
-          [&](const RunScopePtr& scope) { traces.push_back(scope_as_json(*scope)); },
-          [&](const ProcessCommand& command) {
-            commands.push_back({{"command", command_as_text(command)}, {"source", source_as_json(command.where)}});
-          },
-          [&](const EventHandler& handler) {
-            handlers.push_back(handler_as_json(handler, *reaction++, launcher_environment));
-          },
-          [&](const LoadRequest& load) { loads.push_back(load_request_as_json(load)); },
-          [&](const TransitionRequest& request) {
-            transitions.push_back({{"node", request.node}, {"transitions", request.transitions}});
-          },
-          [&](const ProcessSpec& spec) {
-            const Duration delay = plan.delays[processes.size()];
-            Json& process = processes.emplace_back(process_as_json(spec, launcher_environment));
-            if (delay > Duration(0)) {
-              process["after"] = std::chrono::duration<double>(delay).count();
-            }
-          },
-          [&](const CoroutineRequest& coroutine) { coroutines.push_back(coroutine.object->describe()); },
-          [&](const NodeDescription& node) {
-            processes[node.process]["node"] = {{"package", or_null(node.package)},
-                                               {"executable", node.executable},
-                                               {"name", or_null(node.name)},
-                                               {"namespace", or_null(node.name_space)}};
-          },
-          [&](const Dependency& dependency) {
-            processes[dependency.process]["depends_on"].push_back(dependency_as_json(dependency));
-          },
-          PassOver<UnregisterRequest, TestRequest, TimerRequest>(),
-          PassOver<ShutdownRequest>(),  // told once
-      });
+      plan, Overloaded{
+                [&](const RunScopePtr& scope) { traces.push_back(scope_as_json(*scope)); },
+                [&](const ProcessCommand& command) {
+                  commands.push_back({{"command", describe(command)}, {"source", source_as_json(command.where)}});
+                },
+                [&](const EventHandler& handler) {
+                  handlers.push_back(handler_as_json(handler, *reaction++, launcher_environment));
+                },
+                [&](const LoadRequest& load) { loads.push_back(load_request_as_json(load)); },
+                [&](const TransitionRequest& request) {
+                  transitions.push_back({{"node", request.node}, {"transitions", request.transitions}});
+                },
+                [&](const ProcessSpec& spec) {
+                  const Duration delay = plan.delays[processes.size()];
+                  Json& process = processes.emplace_back(process_as_json(spec, launcher_environment));
+                  if (delay > Duration(0)) {
+                    process["after"] = std::chrono::duration<double>(delay).count();
+                  }
+                },
+                [&](const CoroutineRequest& coroutine) { coroutines.push_back(coroutine.object->describe()); },
+                [&](const NodeDescription& node) {
+                  processes[node.process]["node"] = {{"package", or_null(node.package)},
+                                                     {"executable", node.executable},
+                                                     {"name", or_null(node.name)},
+                                                     {"namespace", or_null(node.name_space)}};
+                },
+                [&](const Dependency& dependency) {
+                  processes[dependency.process]["depends_on"].push_back(dependency_as_json(dependency));
+                },
+                PassOver<UnregisterRequest, TestRequest, TimerRequest>(),
+                PassOver<ShutdownRequest>(),  // told once
+            });
   const auto add_if_any = [&](const char* key, Json& list) {
     if (!list.empty()) {
       root[key] = std::move(list);

@@ -52,6 +52,11 @@ struct SignalSent {
   int escalated_from = 0;
   Duration waited{0};
 };
+// Its threads get processors in another way from now on, or as before.
+struct SchedulingChanged {
+  std::vector<std::string> to;  // "nice 5", "cpus 0"; empty: as before
+  std::string failure = {};     // not empty: the kernel has refused it, and why; nothing has changed
+};
 // SIGKILL has not ended it: it is left as it is, and ProcessDone follows.
 struct ProcessLeft {
   pid_t pid;
@@ -88,8 +93,8 @@ struct ProcessEvent {
   ProcessId id;
   const std::string& label;
   const ProcessSpec& spec;
-  std::variant<ProcessStarted, ProcessStartFailed, ProcessExited, SignalSent, ProcessLeft, RespawnSlowed,
-               ProcessWaitsForTerminal, HealthChanged, StartLimitReached, ProcessDone>
+  std::variant<ProcessStarted, ProcessStartFailed, ProcessExited, SignalSent, SchedulingChanged, ProcessLeft,
+               RespawnSlowed, ProcessWaitsForTerminal, HealthChanged, StartLimitReached, ProcessDone>
       what;
 };
 

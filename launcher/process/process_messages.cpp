@@ -72,6 +72,15 @@ class Messages {
     say(LogLevel::kInfo, fmt::format("sending signal '{}' to process[{}]", signal_name(sent.signal), event_.label));
   }
 
+  void operator()(const SchedulingChanged& change) const {
+    if (!change.failure.empty()) {
+      return say(LogLevel::kError,
+                 fmt::format("its scheduling has not changed: {}{}", change.failure, place(event_.spec)));
+    }
+    say(LogLevel::kInfo, change.to.empty() ? "its scheduling is what it was"
+                                           : fmt::format("its scheduling is {} now", fmt::join(change.to, ", ")));
+  }
+
   void operator()(const ProcessLeft& left) const {
     say(LogLevel::kError,
         fmt::format("process[{}] cannot be ended: pid {} {}{}", event_.label, shown(left.pid),

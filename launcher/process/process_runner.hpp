@@ -2,6 +2,7 @@
 // Starts and signals operating system processes. The seam between the supervisor and the kernel.
 #pragma once
 
+#include <cerrno>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -11,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "launcher/process/group_scheduling.hpp"
 #include "launcher/process/process_spec.hpp"
 
 namespace launch {
@@ -54,6 +56,15 @@ class ProcessRunner {
   // Sets a soft limit of a process that runs, such as RLIMIT_NOFILE; the hard limit stays. Returns the soft limit
   // before; nullopt when the system refuses.
   virtual std::optional<std::uint64_t> limit(const Process& process, int resource, std::uint64_t soft) = 0;
+
+  // As change_scheduling() and restore_scheduling() of group_scheduling.hpp, for all threads of the group of `process`.
+  virtual std::optional<SchedulingFailure> change_scheduling(const Process&, const ResourceLimits& /*wanted*/,
+                                                             GroupScheduling& /*before*/) {
+    return SchedulingFailure{0, ENOTSUP};
+  }
+  virtual std::optional<SchedulingFailure> restore_scheduling(const Process&, const GroupScheduling& /*before*/) {
+    return SchedulingFailure{0, ENOTSUP};
+  }
 
   // For each of these processes, which have exited and are not reaped: whether another process of its group has not
   // ended. Takes one look at all processes of the machine.

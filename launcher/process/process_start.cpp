@@ -18,6 +18,7 @@ void Supervision::spawn(Supervised& process) {
   process.told_to_end = false;
   process.sent_signal = 0;
   process.refused = false;
+  process.scheduling = {};
   process.waits_for_foreground = false;
   process.request = Request::kNone;
   if (process.spec.start_limit.starts > 0) {

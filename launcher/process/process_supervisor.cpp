@@ -81,6 +81,22 @@ void Supervision::observe_lines() {
   });
 }
 
+void Supervision::change_scheduling(Supervised& process, const ResourceLimits& wanted) {
+  if (process.unreaped && !process.exited) {
+    const std::optional<SchedulingFailure> failure =
+        runner.change_scheduling(process.process, wanted, process.scheduling);
+    notify(process, SchedulingChanged{describe(wanted), failure ? failure_text(*failure, wanted) : ""});
+  }
+}
+
+void Supervision::restore_scheduling(Supervised& process) {
+  if (process.unreaped && !process.exited && !process.scheduling.threads.empty()) {
+    const std::optional<SchedulingFailure> failure = runner.restore_scheduling(process.process, process.scheduling);
+    process.scheduling = {};
+    notify(process, SchedulingChanged{{}, failure ? failure_text(*failure, {}) : ""});
+  }
+}
+
 void Supervision::finish(Supervised& process) {
   process.state = ProcessState::kDone;
   process.timer.reset();
@@ -234,6 +250,14 @@ void ProcessSupervisor::resume() {
       impl_->runner.signal_group(process->process, SIGCONT);
     }
   }
+}
+
+void ProcessSupervisor::change_scheduling(ProcessId id, const ResourceLimits& wanted) {
+  impl_->change_scheduling(*impl_->processes.at(id - 1), wanted);
+}
+
+void ProcessSupervisor::restore_scheduling(ProcessId id) {
+  impl_->restore_scheduling(*impl_->processes.at(id - 1));
 }
 
 void ProcessSupervisor::pause(ProcessId id) {

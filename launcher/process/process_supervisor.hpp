@@ -105,6 +105,12 @@ class ProcessSupervisor {
   void suspend();
   void resume();
 
+  // Changes the niceness, the policy and the CPUs of all threads of the group of a running process, as far as `wanted`
+  // says them, and gives all of them what they had before (a SchedulingChanged event follows). When the process is
+  // started again it has what its spec says. Ignored for a process that does not run.
+  void change_scheduling(ProcessId id, const ResourceLimits& wanted);
+  void restore_scheduling(ProcessId id);
+
   // Stops the group of one running process, and lets it go on. Nobody is told. Ignored for a process that does not run.
   void pause(ProcessId id);
   void resume(ProcessId id);

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "launcher/process/group_scheduling.hpp"
 #include "launcher/process/output/child_output.hpp"
 #include "launcher/process/process_event.hpp"
 #include "launcher/process/process_spec.hpp"
@@ -97,6 +98,7 @@ struct Supervised {
   bool told_to_end = false;           // by such a signal, and not because somebody wanted just this signal to be sent
   int sent_signal = 0;                // the last signal of this kind that somebody wanted to be sent; 0: none
   bool waits_for_foreground = false;  // it has the terminal, and was stopped because it is not ours now
+  GroupScheduling scheduling;         // what its threads had before they were changed
   bool refused = false;               // the last signal: every process of the group belongs to another user
   Duration started{0};
   Duration ran_for{0};
@@ -126,6 +128,9 @@ struct Supervision {
   void handle(Supervised& process, Event event, int signal = 0);
   // As ProcessSupervisor::set_health().
   void set_health(Supervised& process, HealthChanged change);
+  // As those of ProcessSupervisor.
+  void change_scheduling(Supervised& process, const ResourceLimits& wanted);
+  void restore_scheduling(Supervised& process);
   // To be called after a change of the two observers of lines.
   void observe_lines();
   // As ProcessSupervisor::watch_terminal().

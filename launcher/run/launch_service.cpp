@@ -67,6 +67,8 @@ LaunchService::LaunchService(LaunchContext& context, EventLoop& loop, ProcessSup
                    }
                  },
                  [this](const std::string& text) { context_.message(LogLevel::kInfo, "launch", text); }}),
+      process_usage_(loop, {[this](const std::string& name) { return processes_.running(name); },
+                            [this] { return processes_.names(); }}),
       handlers_(
           loop, [this](const Invocation& invocation) { visit(invocation); }, [this] { check_finished(); },
           [this](const LaunchError& error) { fail(error); }),
@@ -217,13 +219,15 @@ void LaunchService::on_lost_machine(const LostMachine& lost) {
 }
 
 void LaunchService::use_condition_watch(ConditionWatch& watch) {
-  handlers_.use_condition_watch(
-      watch, {[this](LogLevel level, const std::string& text) { context_.message(level, "launch.condition", text); },
-              [this](const ConditionEvent& event) {
-                if (on_condition_) {
-                  on_condition_(event);
-                }
-              }});
+  handlers_.use_condition_watches(
+      watch, process_usage_,
+      {[this](LogLevel level, const std::string& text) { context_.message(level, "launch.condition", text); },
+       [this](const ConditionEvent& event) {
+         recording_.record(event);
+         if (on_condition_) {
+           on_condition_(event);
+         }
+       }});
 }
 
 void LaunchService::on_returned_machine(const ReturnedMachine& returned) {

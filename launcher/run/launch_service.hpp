@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/diagnostics/diagnostic.hpp"
+#include "launcher/conditions/process_usage_watch.hpp"
 #include "launcher/crash/crash_collector.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/process_supervisor.hpp"
@@ -194,6 +195,7 @@ class LaunchService {
   Processes processes_;
   SystemTest test_;
   Steering steering_;
+  ProcessUsageWatch process_usage_;
   Handlers handlers_;
   Timers timers_;
   Scaling scaling_;

@@ -51,10 +51,26 @@ std::string describe(const EventHandler& handler) {
 EventValues values_of(const OnCondition& wanted, const tracing::ConditionChange& change) {
   using tracing::LiveCondition;
   const LiveCondition& condition = wanted.condition;
+  if (is_of_process(condition)) {
+    const char* const what = condition.kind == LiveCondition::Kind::kMemory   ? "memory"
+                             : condition.kind == LiveCondition::Kind::kGrowth ? "growth"
+                                                                              : "share";
+    return {{"process", fmt::format("{}", fmt::join(change.processes, ", "))},
+            {what, fmt::format("{:.10g}", change.figure)},
+            {"above", fmt::format("{:.10g}", condition.above.value_or(0))},
+            {condition.kind == LiveCondition::Kind::kGrowth ? "window" : "for", tracing::time_text(condition.window)}};
+  }
   EventValues values = {{name_of(condition.subject), condition.name},
                         {"process", fmt::format("{}", fmt::join(change.processes, ", "))}};
   if (condition.kind == LiveCondition::Kind::kSilence) {
     values.emplace_back("for", tracing::time_text(condition.window));
+    return values;
+  }
+  if (condition.kind == LiveCondition::Kind::kLoss) {
+    values.emplace_back("lost", fmt::format("{:.0f}", change.figure));
+    values.emplace_back("share", fmt::format("{:.6g}", change.late));
+    values.emplace_back("above", fmt::format("{:.6g}", 1 - condition.share));
+    values.emplace_back("window", tracing::time_text(condition.window));
     return values;
   }
   if (condition.kind == LiveCondition::Kind::kLate) {

@@ -11,20 +11,22 @@ namespace launch {
 
 struct LaunchRecord {
   enum class Kind {
-    kLoad,     // a launch file was read and checked, name: its path
-    kInclude,  // another launch file was visited, name: its path
-    kVisit,    // the launch file, or the children of a timer, were visited
-    kReady,    // the condition of a process holds, name: the process, what: the condition, where: the depends_on
-    kSpawn,    // a process is about to be started, name: its label, as for all below
-    kExec,     // its program runs
-    kExit,     // it ended, value: its exit code, -N for signal N
-    kRespawn,  // it ended and will be started again
-    kSignal    // a signal was sent to its group, value: the signal
+    kLoad,        // a launch file was read and checked, name: its path
+    kInclude,     // another launch file was visited, name: its path
+    kVisit,       // the launch file, or the children of a timer, were visited
+    kReady,       // the condition of a process holds, name: the process, what: the condition, where: the depends_on
+    kSpawn,       // a process is about to be started, name: its label, as for all below
+    kExec,        // its program runs
+    kExit,        // it ended, value: its exit code, -N for signal N
+    kRespawn,     // it ended and will be started again
+    kSignal,      // a signal was sent to its group, value: the signal
+    kScheduling,  // its threads get processors in another way, what: which one; empty: as before
+    kCondition    // a condition on what nodes do, name: itself, what: how it has changed
   };
 
   Kind kind = Kind::kVisit;
   std::string name = {};
-  std::string what = {};   // ready
+  std::string what = {};   // ready, scheduling, condition
   SourceRange where = {};  // the line that asked for it; may be empty
   std::int32_t pid = 0;
   std::int32_t value = 0;

@@ -2,6 +2,8 @@
 #include "launcher/visit/process_command.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <string.h>
 
 #include "base/diagnostics/diagnostic.hpp"
 
@@ -15,8 +17,23 @@ std::string_view name_of(ProcessCommand::Kind kind) {
       return "restart";
     case ProcessCommand::Kind::kSignal:
       return "signal";
+    case ProcessCommand::Kind::kSetPriority:
+      return "set_priority";
+    case ProcessCommand::Kind::kRestorePriority:
+      return "restore_priority";
   }
   return "";
+}
+
+std::string describe(const ProcessCommand& command) {
+  switch (command.kind) {
+    case ProcessCommand::Kind::kSignal:
+      return fmt::format("signal SIG{} to '{}'", ::sigabbrev_np(command.signal), command.process);
+    case ProcessCommand::Kind::kSetPriority:
+      return fmt::format("set_priority of '{}': {}", command.process, fmt::join(describe(command.scheduling), ", "));
+    default:
+      return fmt::format("{} '{}'", name_of(command.kind), command.process);
+  }
 }
 
 void check_commands(const std::vector<ProcessCommand>& commands, const ProcessTable& table) {

@@ -16,7 +16,8 @@ std::size_t Requests::count() const {
 
 void check_conditions(const std::vector<EventHandler>& handlers, bool is_recorded) {
   for (const EventHandler& handler : handlers) {
-    if (!is_recorded && std::holds_alternative<OnCondition>(handler.event)) {
+    const auto* const condition = std::get_if<OnCondition>(&handler.event);
+    if (!is_recorded && condition != nullptr && !is_of_process(condition->condition)) {
       throw LaunchError("nothing is recorded that could tell whether this condition holds", handler.where,
                         "add <trace session-name=\"…\"/> to the launch file, or start it with launch --trace");
     }

@@ -8,7 +8,6 @@
 #include <sched.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <array>
@@ -19,6 +18,7 @@
 #include <cstring>
 
 #include "launcher/process/exec/launch_exec_protocol.hpp"
+#include "launcher/process/exec/scheduling_attributes.hpp"
 
 namespace {
 
@@ -71,31 +71,18 @@ int set_policy(const char* text) {
   return ::sched_setscheduler(0, policy, &parameters);
 }
 
-// The struct of sched_setattr(2), for which not all C libraries have a declaration.
-struct SchedulingAttributes {
-  std::uint32_t size;
-  std::uint32_t policy;
-  std::uint64_t flags;
-  std::int32_t nice;
-  std::uint32_t priority;
-  std::uint64_t runtime;
-  std::uint64_t deadline;
-  std::uint64_t period;
-};
-
 // A thread with this policy can't start others, unless they begin with the ordinary one.
 int set_deadline(const char* text) {
   constexpr std::uint32_t kDeadline = 6;     // SCHED_DEADLINE
   constexpr std::uint64_t kResetOnFork = 1;  // SCHED_FLAG_RESET_ON_FORK
   SchedulingAttributes attributes{};
-  attributes.size = sizeof attributes;
   attributes.policy = kDeadline;
   attributes.flags = kResetOnFork;
   char* end = nullptr;
   attributes.runtime = std::strtoull(text, &end, 10);
   attributes.deadline = std::strtoull(end + 1, &end, 10);
   attributes.period = std::strtoull(end + 1, &end, 10);
-  return static_cast<int>(::syscall(SYS_sched_setattr, 0, &attributes, 0));
+  return set_scheduling(0, attributes);
 }
 
 int write_file(const char* path, const char* text) {

@@ -88,6 +88,20 @@ std::vector<pid_t> fellows_in_our_group(const Process& process) {
   return found;
 }
 
+// The process and its descendants, as far as signals get to them.
+std::vector<pid_t> group_of(const Process& process) {
+  if (process.has_terminal) {
+    return fellows_in_our_group(process);
+  }
+  std::vector<pid_t> found;
+  for (const FoundProcess& other : all_processes()) {
+    if (other.group == process.pid && !other.is_dead()) {
+      found.push_back(other.pid);
+    }
+  }
+  return found;
+}
+
 // How many processes of a cgroup the kernel has ended for want of memory.
 std::uint64_t ended_in(const std::string& control_group) {
   return read_keyed(control_group + "/memory.events", "oom_kill");
@@ -102,6 +116,14 @@ class PosixProcessRunner final : public ProcessRunner {
   Process spawn(const ProcessSpec& spec) override;
   bool signal_group(const Process& process, int signal) override;
   std::optional<std::uint64_t> limit(const Process& process, int resource, std::uint64_t soft) override;
+  std::optional<SchedulingFailure> change_scheduling(const Process& process, const ResourceLimits& wanted,
+                                                     GroupScheduling& before) override {
+    before.main_thread = process.pid;
+    return launch::change_scheduling([&process] { return group_of(process); }, wanted, before);
+  }
+  std::optional<SchedulingFailure> restore_scheduling(const Process& process, const GroupScheduling& before) override {
+    return launch::restore_scheduling([&process] { return group_of(process); }, before);
+  }
   std::vector<bool> groups_live(const std::vector<const Process*>& leaders) override;
   std::vector<StoppedChild> take_stopped() override;
   void await_stop(const Process& process) override {

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <fnmatch.h>
 
+#include <algorithm>
 #include <variant>
 
 #include "base/overloaded.hpp"
@@ -16,46 +18,72 @@ const OnCondition& condition_of(const EventHandler& handler) {
   return std::get<OnCondition>(handler.event);
 }
 
-// What has never been there.
-std::string nobody_of(const tracing::LiveCondition& condition) {
+// The name that nothing has: of a chain, that of its first node that is not there.
+std::string unseen_name(const tracing::LiveCondition& condition, const std::vector<std::string>& known) {
+  if (condition.subject == tracing::LiveCondition::Subject::kChain) {
+    for (const std::string& node : tracing::nodes_of_chain(condition.name).value_or(std::vector<std::string>())) {
+      const bool is_known = std::any_of(known.begin(), known.end(), [&](const std::string& other) {
+        return fnmatch(node.c_str(), other.c_str(), 0) == 0;
+      });
+      if (!is_known) {
+        return node;
+      }
+    }
+  }
+  return condition.name;
+}
+
+// What of that name has never been there.
+const char* kind_of_unseen(const tracing::LiveCondition& condition) {
   using Subject = tracing::LiveCondition::Subject;
+  using Kind = tracing::LiveCondition::Kind;
   switch (condition.subject) {
     case Subject::kTopic:
-      return fmt::format("no {} of {}",
-                         condition.kind == tracing::LiveCondition::Kind::kLate ? "subscription" : "publisher",
-                         condition.name);
+      return condition.kind == Kind::kLate || condition.kind == Kind::kLoss ? "subscription of" : "publisher of";
     case Subject::kNode:
-      return fmt::format("no node {}", condition.name);
+    case Subject::kTimer:
+    case Subject::kChain:
+      return "node";
     case Subject::kService:
-      return fmt::format("no client of {}", condition.name);
+    case Subject::kAction:
+      return "client of";
+    case Subject::kProcess:
+      return "process";
   }
   return "";
 }
 
 }  // namespace
 
-void ConditionHandlers::use(ConditionWatch& watch, Callbacks callbacks) {
-  watch_ = &watch;
+void ConditionHandlers::use(ConditionWatch& recorded, ConditionWatch& processes, Callbacks callbacks) {
+  recorded_watch_ = &recorded;
+  process_watch_ = &processes;
   callbacks_ = std::move(callbacks);
-  watch.observe([this](const tracing::ConditionReport& report) { on_report(report); });
+  for (ConditionWatch* const watch : {recorded_watch_, process_watch_}) {
+    watch->observe([this](const tracing::ConditionReport& report) { on_report(report); });
+  }
+}
+
+ConditionWatch& ConditionHandlers::watch_of(const EventHandler& handler) const {
+  return is_of_process(condition_of(handler).condition) ? *process_watch_ : *recorded_watch_;
 }
 
 void ConditionHandlers::add(EventHandler handler) {
-  if (watch_ == nullptr) {
+  if (recorded_watch_ == nullptr) {
     fail_(LaunchError("nobody watches conditions on what nodes do here", handler.where));
     return;
   }
   const auto added = std::make_shared<const EventHandler>(std::move(handler));
   const tracing::ConditionId id = ++last_id_;
   handlers_.emplace(id, Watched{added, std::nullopt, nullptr});
-  watch_->watch(id, condition_of(*added).condition);
+  watch_of(*added).watch(id, condition_of(*added).condition);
 }
 
 bool ConditionHandlers::remove(const std::string& name) {
   return std::erase_if(handlers_, [&](const auto& each) {
            const bool is_meant = each.second.handler->name == name;
            if (is_meant) {
-             watch_->forget(each.first);
+             watch_of(*each.second.handler).forget(each.first);
            }
            return is_meant;
          }) != 0;
@@ -63,15 +91,17 @@ bool ConditionHandlers::remove(const std::string& name) {
 
 void ConditionHandlers::clear() {
   for (const auto& [id, watched] : handlers_) {
-    watch_->forget(id);
+    watch_of(*watched.handler).forget(id);
   }
   handlers_.clear();
 }
 
 void ConditionHandlers::shutdown() {
   handlers_.clear();
-  if (watch_ != nullptr) {
-    watch_->close();
+  for (ConditionWatch* const watch : {recorded_watch_, process_watch_}) {
+    if (watch != nullptr) {
+      watch->close();
+    }
   }
 }
 
@@ -126,7 +156,7 @@ void ConditionHandlers::visit(tracing::ConditionId id, const tracing::ConditionC
   const std::shared_ptr<const EventHandler> handler = found->second.handler;
   found->second.visited = loop_.now();
   if (handler->once) {
-    watch_->forget(id);
+    watch_of(*handler).forget(id);
     handlers_.erase(found);
   }
   invoke_({{handler, values_of(condition_of(*handler), change)}});
@@ -139,17 +169,22 @@ void ConditionHandlers::on_unseen(const tracing::NameNotSeen& unseen) {
   }
   const EventHandler& handler = *found->second.handler;
   const tracing::LiveCondition& condition = condition_of(handler).condition;
-  std::string help = did_you_mean(condition.name, unseen.known);
+  const std::string name = unseen_name(condition, unseen.known);
+  std::string help = did_you_mean(name, unseen.known);
   if (!help.empty()) {
     help = "; " + help;
   }
   callbacks_.message(LogLevel::kWarning,
-                     fmt::format("{} was ever seen, {} after the begin of the recording ({}){}", nobody_of(condition),
-                                 tracing::time_text(condition.grace), to_string(handler.where), help));
+                     fmt::format("no {} {} was ever seen, {} after the begin of the {} ({}){}",
+                                 kind_of_unseen(condition), name, tracing::time_text(condition.grace),
+                                 is_of_process(condition) ? "watch" : "recording", to_string(handler.where), help));
 }
 
 void ConditionHandlers::on_failure(const tracing::WatchFailed& failed) {
-  if (handlers_.empty()) {
+  const auto first = std::find_if(handlers_.begin(), handlers_.end(), [](const auto& each) {
+    return !is_of_process(condition_of(*each.second.handler).condition);
+  });
+  if (first == handlers_.end()) {
     return;
   }
   if (failed.tries_again) {
@@ -159,8 +194,8 @@ void ConditionHandlers::on_failure(const tracing::WatchFailed& failed) {
     callbacks_.message(LogLevel::kError,
                        fmt::format("conditions on what nodes do are not watched any more: {}", failed.error));
   } else {
-    fail_(LaunchError(fmt::format("this condition can't be watched: {}", failed.error),
-                      handlers_.begin()->second.handler->where, failed.help));
+    fail_(LaunchError(fmt::format("this condition can't be watched: {}", failed.error), first->second.handler->where,
+                      failed.help));
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The handlers of conditions on what nodes do (on_silence, on_rate, on_late): each is watched until it is removed.
+// The handlers of conditions on what nodes do (on_silence, on_memory and others): each is watched until it is removed.
 #pragma once
 
 #include <functional>
@@ -38,8 +38,8 @@ class ConditionHandlers {
                     std::function<void(const LaunchError&)> fail)
       : loop_(loop), invoke_(std::move(invoke)), fail_(std::move(fail)) {}
 
-  // The watch must outlive this object.
-  void use(ConditionWatch& watch, Callbacks callbacks);
+  // The watches of what is recorded, and of what processes use. They must outlive this object.
+  void use(ConditionWatch& recorded, ConditionWatch& processes, Callbacks callbacks);
 
   // Watches the condition of an OnCondition. Without a watch that is an error.
   void add(EventHandler handler);
@@ -56,6 +56,7 @@ class ConditionHandlers {
     EventLoop::SourcePtr later;       // visits it after its cool_down, if the condition holds then
   };
 
+  ConditionWatch& watch_of(const EventHandler& handler) const;
   void on_report(const tracing::ConditionReport& report);
   void on_change(tracing::ConditionId id, const tracing::ConditionChange& change);
   void on_unseen(const tracing::NameNotSeen& unseen);
@@ -65,7 +66,8 @@ class ConditionHandlers {
   EventLoop& loop_;
   std::function<void(std::vector<Invocation>)> invoke_;
   std::function<void(const LaunchError&)> fail_;
-  ConditionWatch* watch_ = nullptr;
+  ConditionWatch* recorded_watch_ = nullptr;
+  ConditionWatch* process_watch_ = nullptr;
   Callbacks callbacks_;
   std::map<tracing::ConditionId, Watched> handlers_;
   tracing::ConditionId last_id_ = 0;

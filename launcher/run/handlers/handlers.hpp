@@ -27,9 +27,10 @@ class Handlers {
   Handlers(EventLoop& loop, std::function<void(const Invocation&)> visit, std::function<void()> visited,
            const std::function<void(const LaunchError&)>& fail);
 
-  // Who watches what nodes do. It must outlive this object.
-  void use_condition_watch(ConditionWatch& watch, ConditionHandlers::Callbacks callbacks) {
-    live_.use(watch, std::move(callbacks));
+  // As ConditionHandlers::use().
+  void use_condition_watches(ConditionWatch& recorded, ConditionWatch& processes,
+                             ConditionHandlers::Callbacks callbacks) {
+    live_.use(recorded, processes, std::move(callbacks));
   }
 
   // The client watches the states of nodes; it may be null when no handler needs them.

@@ -38,6 +38,10 @@ launch_trace_kind trace_kind_of(LaunchRecord::Kind kind) {
       return LAUNCH_TRACE_RESPAWN;
     case LaunchRecord::Kind::kSignal:
       return LAUNCH_TRACE_SIGNAL;
+    case LaunchRecord::Kind::kScheduling:
+      return LAUNCH_TRACE_SCHEDULING;
+    case LaunchRecord::Kind::kCondition:
+      return LAUNCH_TRACE_CONDITION;
   }
   return LAUNCH_TRACE_VISIT;
 }

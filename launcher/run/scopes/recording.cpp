@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launcher/run/scopes/recording.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <utility>
 #include <variant>
 
@@ -37,6 +40,10 @@ void Recording::record(const ProcessEvent& event) {
   } else if (const auto* const sent = std::get_if<SignalSent>(&event.what)) {
     what.kind = Kind::kSignal;
     what.value = sent->signal;
+  } else if (const auto* const change = std::get_if<SchedulingChanged>(&event.what);
+             change != nullptr && change->failure.empty()) {
+    what.kind = Kind::kScheduling;
+    what.what = fmt::format("{}", fmt::join(change->to, ", "));
   } else {
     return;
   }
@@ -48,6 +55,14 @@ void Recording::record_ready(const std::string& process, const Dependency& depen
           .name = process,
           .what = describe(dependency),
           .where = dependency.where,
+          .time = monotonic_time()});
+}
+
+void Recording::record(const ConditionEvent& event) {
+  record({.kind = LaunchRecord::Kind::kCondition,
+          .name = tracing::describe(event.condition),
+          .what = tracing::sentence(event.condition, event.change),
+          .where = event.where,
           .time = monotonic_time()});
 }
 

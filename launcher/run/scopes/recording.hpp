@@ -6,6 +6,7 @@
 #include <string>
 
 #include "launcher/process/process_event.hpp"
+#include "launcher/run/handlers/condition_handlers.hpp"
 #include "launcher/run/scopes/active_scopes.hpp"
 #include "launcher/visit/launch_record.hpp"
 #include "launcher/visit/requests.hpp"
@@ -22,6 +23,7 @@ class Recording {
 
   void record(const LaunchRecord& record);
   void record(const ProcessEvent& event);
+  void record(const ConditionEvent& event);
   // The condition that a process waits for holds.
   void record_ready(const std::string& process, const Dependency& dependency);
   // Records a traversal that began at that time, and the records that it noted.

@@ -28,6 +28,12 @@ void send(const ProcessCommand& command, ProcessId id, ProcessSupervisor& superv
     case ProcessCommand::Kind::kSignal:
       supervisor.signal(id, command.signal);
       break;
+    case ProcessCommand::Kind::kSetPriority:
+      supervisor.change_scheduling(id, command.scheduling);
+      break;
+    case ProcessCommand::Kind::kRestorePriority:
+      supervisor.restore_scheduling(id);
+      break;
   }
 }
 
@@ -59,6 +65,20 @@ Round Processes::enter(Requests requests) {
   }
   check(round.requests.commands);
   return round;
+}
+
+std::vector<ProcessUsageWatch::Running> Processes::running(const std::string& name) const {
+  std::vector<ProcessUsageWatch::Running> running;
+  for (const TrackedProcess* const process : table_.find(name)) {
+    if (process->id == 0) {
+      continue;
+    }
+    const ProcessView view = supervisor_.view(process->id);
+    if (view.pid > 0 && view.spec.machine.empty()) {
+      running.push_back({view.label, view.pid});
+    }
+  }
+  return running;
 }
 
 std::vector<ProcessCommand> Processes::take_later(Round& round) const {

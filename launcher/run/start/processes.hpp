@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/diagnostics/diagnostic.hpp"
+#include "launcher/conditions/process_usage_watch.hpp"
 #include "launcher/process/event_loop.hpp"
 #include "launcher/process/process_supervisor.hpp"
 #include "launcher/run/start/rounds.hpp"
@@ -51,6 +52,10 @@ class Processes {
   void check(const std::vector<ProcessCommand>& commands) const { check_commands(commands, table_); }
   // The processes of this name, in the order in which they were asked for.
   std::vector<TrackedProcess*> find(const std::string& name) const { return table_.find(name); }
+  // Those of them that run on this machine.
+  std::vector<ProcessUsageWatch::Running> running(const std::string& name) const;
+  // All names that the launch file knows.
+  std::vector<std::string> names() const { return table_.names(); }
   // Null if the process was not asked for by a launch file.
   TrackedProcess* find(ProcessId id) { return table_.find(id); }
   // Takes the commands of the round for what actions start in the round itself, to be carried out when it has started.

@@ -20,6 +20,22 @@ namespace launch {
 
 namespace {
 
+const char* verb_of(ProcessCommand::Kind kind) {
+  switch (kind) {
+    case ProcessCommand::Kind::kStop:
+      return "stops";
+    case ProcessCommand::Kind::kRestart:
+      return "restarts";
+    case ProcessCommand::Kind::kSignal:
+      return "signals";
+    case ProcessCommand::Kind::kSetPriority:
+      return "sets the priority of";
+    case ProcessCommand::Kind::kRestorePriority:
+      return "restores the priority of";
+  }
+  return "";
+}
+
 class GraphBuilder {
  public:
   using Relation = LaunchGraph::Relation;
@@ -93,7 +109,7 @@ class GraphBuilder {
       lines.push_back(fmt::format("changes the state of {}: {}", request.node, fmt::join(request.transitions, ", ")));
     }
     for (const ProcessCommand& command : reaction.commands) {
-      const std::string label = std::string(name_of(command.kind)) + "s";
+      const std::string label = verb_of(command.kind);
       if (const auto process = names_.find(command.process); process != names_.end()) {
         graph_.edges.push_back({id, process->second, Relation::kStarts, label});
       } else {

@@ -40,6 +40,7 @@ int main(int argc, char** argv) {
   rclcpp::init(argc, argv);
   const std::string what = argc > 1 ? argv[1] : "";
   const auto node = std::make_shared<rclcpp::Node>("hanging_node");
+  const bool has_own = what == "late" || what == "flood";
   std::atomic<int> ticks = 0;
   const std::map<std::string, std::function<void()>> in_callback = {
       {"deadlock", deadlock}, {"compute", compute}, {"sleep", sleep_for_ever}};
@@ -48,8 +49,7 @@ int main(int argc, char** argv) {
     std::printf("tick %d\n", ++ticks);
     std::fflush(stdout);
     // One that falls silent goes on in all other ways.
-    if (const bool goes_on = ticks < 20;
-        goes_on || (what == "slow" && ticks % 10 == 0) || what == "ever" || what == "late") {
+    if (const bool goes_on = ticks < 20; goes_on || (what == "slow" && ticks % 10 == 0) || what == "ever" || has_own) {
       std_msgs::msg::Int32 beat;
       beat.data = ticks;
       beats->publish(beat);
@@ -57,13 +57,17 @@ int main(int argc, char** argv) {
     if (const auto found = in_callback.find(what); ticks == 5 && found != in_callback.end()) {
       found->second();
     }
+    // More than the subscription keeps.
+    for (int more = 0; what == "flood" && ticks % 40 == 0 && more < 20; ++more) {
+      beats->publish(std_msgs::msg::Int32());
+    }
     if (what == "late" && ticks % 40 == 0) {
       std::this_thread::sleep_for(300ms);
     }
   });
   // Waits for the timer, whose thread it shares.
   rclcpp::Subscription<std_msgs::msg::Int32>::SharedPtr own;
-  if (what == "late") {
+  if (has_own) {
     own = node->create_subscription<std_msgs::msg::Int32>("/beats", 10, [](const std_msgs::msg::Int32&) {});
   }
   if (what == "constructor") {

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Conditions on what nodes do, with real nodes and a real session: <on_silence>, <on_rate>, <on_late>."""
+"""Conditions on what nodes do, with real nodes and a real session: <on_silence>, <on_rate>, <on_late>, <on_loss>; and those on
+processes, without a session: <on_memory>, <on_overload>."""
 
 import json
 import os
@@ -117,6 +118,75 @@ class LiveConditions(OwnLaunches):
         launch.lines.wait_for('callbacks of /hanging_node take no longer than 150ms again (driver-1)')
         launch.lines.wait_for('messages on /beats take no longer than 150ms again (driver-1)')
         self.assertEqual(self.interrupt(launch), 0)
+
+    def test_a_timer_and_a_chain_that_are_late(self):
+        launch = self.run_launch(f'''{self.trace}{node('late')}
+          <on_late timer="/hanging_node" max="150ms" once="true"><log message="timer: $(var event.timer), $(var event.process)"/></on_late>
+          <on_late chain="/hanging_node -> hanging_node" max="150ms" once="true"><log message="chain: $(var event.chain)"/></on_late>
+          <on_late chain="/hanging_node -> /brake" max="150ms" grace="1s"/>''')
+        launch.lines.wait_for('no node /brake was ever seen, 1s after the begin of the recording')
+        self.assertRegex(launch.lines.wait_for('a timer of /hanging_node waited'), r' waited [0-9.]+ ms, more than 150ms \(driver-1\)$')
+        launch.lines.wait_for('timer: /hanging_node, driver-1')
+        self.assertRegex(launch.lines.wait_for('the way /hanging_node -> /hanging_node took'), r' took [0-9.]+ ms, more than 150ms \(driver-1\)$')
+        launch.lines.wait_for('chain: /hanging_node -> /hanging_node')
+        self.assertEqual(self.interrupt(launch), 0)
+
+    def test_messages_that_are_lost(self):
+        launch = self.run_launch(f'''{self.trace}{node('flood')}
+          <on_loss topic="/beats" window="500ms"><log message="lost: $(var event.topic), $(var event.lost), $(var event.above)"/></on_loss>''')
+        line = launch.lines.wait_for('on /beats lost')
+        self.assertRegex(line, r'\[WARNING\] \[launch\.condition\]: [0-9]+ messages? on /beats lost \(driver-1\)$')
+        launch.lines.wait_for('lost: /beats, ')
+        launch.lines.wait_for('no message on /beats is lost any more (driver-1)')
+        self.assertEqual(self.interrupt(launch), 0)
+
+    def niceness_of(self, pid):
+        """That of each thread."""
+        return {os.getpriority(os.PRIO_PROCESS, int(thread)) for thread in os.listdir(f'/proc/{pid}/task')}
+
+    def test_a_process_that_gets_another_priority_and_its_own_back(self):
+        launch = self.run_launch(f'''{self.trace}{node('late')}
+          <on_late node="/hanging_node" max="150ms" window="500ms">
+            <set_priority process="driver" nice="5" cpus="0"/>
+            <set_priority process="driver" nice="7"/>
+          </on_late>
+          <on_process_io pattern="tick 80$" once="true"><restore_priority process="driver"/></on_process_io>''')
+        launch.lines.wait_for('tick 20')
+        events = self.start(LAUNCH, 'events', '--launch', str(launch.pid))
+        pid = self.pid_of(launch, 'driver-1')
+        before = self.niceness_of(pid), os.sched_getaffinity(pid)
+        self.assertRegex(launch.lines.wait_for('scheduling'), r'\[INFO\] \[driver-1\]: its scheduling is nice 5, cpus 0 now$')
+        self.assertRegex(launch.lines.wait_for('nice 7'), r'\[INFO\] \[driver-1\]: its scheduling is nice 7 now$')
+        self.assertEqual((self.niceness_of(pid), os.sched_getaffinity(pid)), ({7}, {0}))
+        self.assertEqual(json.loads(events.lines.wait_for('"scheduling"'))['to'], ['nice 5', 'cpus 0'])
+        if os.geteuid() == 0:  # others may not become more urgent again
+            launch.lines.wait_for('its scheduling is what it was')
+            self.assertEqual((self.niceness_of(pid), os.sched_getaffinity(pid)), before)
+        self.assertEqual(self.interrupt(launch), 0)
+        read = subprocess.run([LAUNCH, 'trace', 'read', str(self.traces / self.name), '--event', 'launch:scheduling', '--event', 'launch:condition'],
+                              capture_output=True, text=True, check=True).stdout
+        self.assertRegex(read, r'launch:scheduling .*process="driver-1" change="nice 5, cpus 0" file="\S+system.launch.xml" line=3')
+        self.assertRegex(read, r'launch:condition .*condition="on_late of node /hanging_node above 150ms" change="a callback of /hanging_node took')
+
+    def test_a_process_that_has_too_much_memory_is_restarted(self):
+        (self.folder / 'eater.py').write_text('import time\nprint("eats", flush=True)\ntime.sleep(1)\nkept = b"x" * (200 << 20)\ntime.sleep(1000)\n')
+        launch = self.run_launch('''<executable name="eater" cmd="/usr/bin/python3 eater.py" output="screen" sigterm_timeout="0.5" sigkill_timeout="0.5"/>
+          <on_memory process="eater" above="150M" for="500ms" once="true">
+            <log message="memory: $(var event.process), $(var event.above), $(var event.for)"/>
+            <restart process="eater"/>
+          </on_memory>
+          <on_memory process="eter" above="150M" grace="1s"/>''')
+        self.assertRegex(launch.lines.wait_for('of memory'), r'\[WARNING\] \[launch\.condition\]: eater has 2[0-9.]+ MiB of memory, for 500ms more than 150 MiB \(eater-1\)$')
+        launch.lines.wait_for('memory: eater-1, 157286400, 500ms')
+        launch.lines.wait_for('eats')
+        self.assertEqual(self.interrupt(launch), 0)
+
+    def test_a_process_that_takes_a_whole_processor(self):
+        launch = self.run_launch('''<executable name="busy" cmd="sh -c 'while :; do :; done'"/>
+          <on_overload process="busy" above="20%" for="1s"><log message="load: $(var event.process), $(var event.above)"/><shutdown/></on_overload>''')
+        self.assertRegex(launch.lines.wait_for('of a processor'), r'busy takes [0-9.]+ % of a processor in 1s, more than 20 % \(busy-1\)$')
+        launch.lines.wait_for('load: busy-1, 0.2')
+        self.assertEqual(launch.wait(PATIENCE), 0)
 
     def test_a_condition_that_comes_later_and_needs_more(self):
         launch = self.run_launch(f'''{self.trace}{node('late')}

@@ -5,7 +5,8 @@ from launch.actions import EmitEvent, ExecuteProcess, LogInfo, RegisterEventHand
 from launch.event_handlers import OnProcessExit, OnProcessStart, OnShutdown
 from launch.events import matches_action
 from launch.events.process import ShutdownProcess, SignalProcess
-from launch_extensions import OnHealthChange, OnStartLimit, RestartProcess, WaitFor
+from launch.substitutions import LaunchConfiguration
+from launch_extensions import OnHealthChange, OnMemory, OnOverload, OnStartLimit, RestartProcess, WaitFor
 from launch_ros.actions import LifecycleNode, LifecycleTransition, Node
 from launch_ros.event_handlers import OnStateTransition
 from launch_ros.events.lifecycle import ChangeState
@@ -56,4 +57,7 @@ def generate_launch_description():
                        depends_on={'process': watched, 'condition': 'healthy'}),
         OnHealthChange([LogInfo(msg='unhealthy')], process=watched, to='unhealthy', once=True),
         OnStartLimit([LogInfo(msg='given up')], process=watched),
+        OnMemory([RestartProcess(watched)], process=watched, above='512M', for_='10s', cool_down='1min'),
+        OnMemory([LogInfo(msg=LaunchConfiguration('event.growth'))], process=watched, growth='50M', window='5min', once=True),
+        OnOverload([LogInfo(msg=LaunchConfiguration('event.share'))], process=watched, above='90%', name='busy'),
     ])

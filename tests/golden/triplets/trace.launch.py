@@ -1,7 +1,7 @@
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, LogInfo
 from launch.substitutions import LaunchConfiguration
-from launch_extensions import OnLate, OnRate, OnSilence, RestartProcess
+from launch_extensions import OnLate, OnLoss, OnRate, OnSilence, RestartProcess, RestorePriority, SetPriority
 from launch_ros.actions import Node
 from tracetools_launch.action import Trace
 
@@ -28,4 +28,8 @@ def generate_launch_description():
         OnLate([LogInfo(msg=LaunchConfiguration('event.took'))], topic='/chatter', max='20ms', share=0.99, window='5s'),
         OnLate([LogInfo(msg=LaunchConfiguration('event.max'))], node='/talker', max='1.5s', name='slow'),
         OnLate([LogInfo(msg=LaunchConfiguration('event.share'))], service='/plan', max='500us', once=True),
+        OnLate([LogInfo(msg=LaunchConfiguration('event.action'))], action='/drive', max='30s'),
+        OnLate([SetPriority('talker', nice=5, cpus='0')], timer='/talker', max='5ms'),
+        OnLate([SetPriority('talker', sched_policy='rr', sched_priority=1)], chain='/talker -> listener -> *', max='50ms', share=0.9),
+        OnLoss([RestorePriority('talker')], topic='/chatter', above=0.01, window='10s'),
     ])

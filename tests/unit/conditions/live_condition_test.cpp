@@ -29,6 +29,26 @@ const LiveCondition kLateService{.kind = LiveCondition::Kind::kLate,
                                  .max = 1s,
                                  .share = 0.99};
 
+const LiveCondition kLateAction{
+    .kind = LiveCondition::Kind::kLate, .subject = Subject::kAction, .name = "/drive", .window = 2s, .max = 30s};
+const LiveCondition kLateTimer{
+    .kind = LiveCondition::Kind::kLate, .subject = Subject::kTimer, .name = "/planner", .window = 2s, .max = 5ms};
+const LiveCondition kLateChain{.kind = LiveCondition::Kind::kLate,
+                               .subject = Subject::kChain,
+                               .name = "/camera -> /brake",
+                               .window = 5s,
+                               .max = 50ms,
+                               .share = 0.9};
+const LiveCondition kLoss{.kind = LiveCondition::Kind::kLoss, .name = "/scan", .window = 2s};
+const LiveCondition kSomeLoss{.kind = LiveCondition::Kind::kLoss, .name = "/scan", .window = 5s, .share = 0.99};
+
+LiveCondition of_process(LiveCondition::Kind kind, double above, std::chrono::nanoseconds window) {
+  return {.kind = kind, .subject = Subject::kProcess, .name = "mapper", .window = window, .above = above};
+}
+const LiveCondition kMemory = of_process(LiveCondition::Kind::kMemory, 512.0 * 1024 * 1024, 5s);
+const LiveCondition kGrowth = of_process(LiveCondition::Kind::kGrowth, 1536.0 * 1024 * 1024, 10min);
+const LiveCondition kProcessor = of_process(LiveCondition::Kind::kProcessor, 0.9, 5s);
+
 TEST(TimesOfConditions, HaveUnits) {
   EXPECT_EQ(parse_time_text("2s"), 2s);
   EXPECT_EQ(parse_time_text("1.5 s"), 1500ms);
@@ -57,6 +77,29 @@ TEST(TextsOfConditions, SayWhatIsWatchedAndWhatHasHappened) {
   EXPECT_EQ(sentence(kLateService, {true, 1.25, {}, 0.074}),
             "7.4 % of the responses of /plan in 5s took longer than 1s, the last of them 1.25 s");
   EXPECT_EQ(sentence(kLateService, {false, 0, {}}), "responses of /plan take no longer than 1s again");
+  EXPECT_EQ(describe(kLateChain), "on_late of chain /camera -> /brake above 50ms, 0.9 of all in 5s");
+  EXPECT_EQ(describe(kLoss), "on_loss of topic /scan");
+  EXPECT_EQ(describe(kSomeLoss), "on_loss of topic /scan above 0.01 of all in 5s");
+  EXPECT_EQ(sentence(kLateAction, {true, 31, {}, 1}), "a result of /drive took 31 s, more than 30s");
+  EXPECT_EQ(sentence(kLateTimer, {true, 0.0061, {}, 1}), "a timer of /planner waited 6.1 ms, more than 5ms");
+  EXPECT_EQ(sentence(kLateTimer, {false, 0, {}}), "calls of timers of /planner wait no longer than 5ms again");
+  EXPECT_EQ(sentence(kLateChain, {true, 0.062, {}, 0.2}),
+            "20 % of the ways /camera -> /brake in 5s took longer than 50ms, the last of them 62 ms");
+  EXPECT_EQ(sentence(kLoss, {true, 1, {}, 0.2}), "1 message on /scan lost");
+  EXPECT_EQ(sentence(kLoss, {false, 0, {}}), "no message on /scan is lost any more");
+  EXPECT_EQ(sentence(kSomeLoss, {true, 3, {}, 0.03}), "3 messages on /scan lost in 5s, 3 % of all, more than 1 %");
+  EXPECT_EQ(sentence(kSomeLoss, {false, 0, {}}), "no more than 1 % of the messages on /scan are lost again");
+  EXPECT_EQ(describe(kMemory), "on_memory of 'mapper' above 512 MiB for 5s");
+  EXPECT_EQ(describe(kGrowth), "on_memory of 'mapper' that grows by more than 1.5 GiB in 600s");
+  EXPECT_EQ(describe(kProcessor), "on_overload of 'mapper' above 90 % of a processor for 5s");
+  EXPECT_EQ(sentence(kMemory, {true, 600.0 * 1024 * 1024, {}}),
+            "mapper has 600 MiB of memory, for 5s more than 512 MiB");
+  EXPECT_EQ(sentence(kMemory, {false, 0, {}}), "mapper has no more than 512 MiB of memory again");
+  EXPECT_EQ(sentence(kGrowth, {true, 2048.0 * 1024 * 1024, {}}),
+            "the memory of mapper has grown by 2 GiB in 600s, more than 1.5 GiB");
+  EXPECT_EQ(sentence(kGrowth, {false, 0, {}}), "the memory of mapper grows by no more than 1.5 GiB in 600s again");
+  EXPECT_EQ(sentence(kProcessor, {true, 0.9732, {}}), "mapper takes 97.3 % of a processor in 5s, more than 90 %");
+  EXPECT_EQ(sentence(kProcessor, {false, 0, {}}), "mapper takes no more than 90 % of a processor again");
   EXPECT_EQ(sentence(kSilentTopic, {true, 2.0312, {}}), "no message on /scan for 2.03 s");
   EXPECT_EQ(sentence(kSilentTopic, {false, 3.4, {}}), "the silence of /scan is over after 3.4 s");
   EXPECT_EQ(sentence(kSilentNode, {true, 0.52, {}}), "no callback of /planner has ended for 0.52 s");
@@ -71,11 +114,23 @@ TEST(Conditions, SayWhatMustBeRecordedForThem) {
   EXPECT_EQ(needs_of(kLateTopic), "messages");
   EXPECT_EQ(needs_of(kLateNode), "");
   EXPECT_EQ(needs_of(kLateService), "calls");
+  EXPECT_EQ(needs_of(kLateAction), "calls");
+  EXPECT_EQ(needs_of(kLateTimer), "");
+  EXPECT_EQ(needs_of(kLateChain), "messages");
+  EXPECT_EQ(needs_of(kLoss), "messages");
+}
+
+TEST(ChainsOfConditions, AreNodesWithArrowsBetweenThem) {
+  EXPECT_THAT(nodes_of_chain("/a -> /b->c* ->/d").value(), testing::ElementsAre("/a", "/b", "c*", "/d"));
+  for (const char* const wrong : {"", "/a", "/a /b", "/a ->", "-> /b", "/a -> -> /b", "/a -> /b /c"}) {
+    EXPECT_EQ(nodes_of_chain(wrong), std::nullopt) << wrong;
+  }
+  EXPECT_EQ(chain_of_nodes({"/a", "/b"}), "/a -> /b");
 }
 
 TEST(MessagesOfConditions, ComeBackAsTheyWere) {
-  for (const LiveCondition& condition :
-       {kSilentTopic, kSilentNode, kSlow, kFast, kLateTopic, kLateNode, kLateService}) {
+  for (const LiveCondition& condition : {kSilentTopic, kSilentNode, kSlow, kFast, kLateTopic, kLateNode, kLateService,
+                                         kLateAction, kLateTimer, kLateChain, kLoss, kSomeLoss}) {
     const std::string line = to_line(ConditionOrder(WatchCondition{7, condition}));
     EXPECT_EQ(std::get<WatchCondition>(parse_condition_order(line)).condition, condition) << line;
   }
@@ -109,8 +164,8 @@ TEST(MessagesOfConditions, OfAnotherKindAreErrors) {
     EXPECT_THROW(parse_condition_report(wrong), std::runtime_error) << wrong;
   }
   for (const char* const wrong :
-       {"", "{}", "{\"watch\":1}", R"({"watch":1,"kind":"odd","topic":"/a","window":1,"grace":1})",
-        "{\"forget\":\"x\"}"}) {
+       {"", "{}", R"({"watch":1,"kind":"rate","window":1,"grace":1})", "{\"watch\":1}",
+        R"({"watch":1,"kind":"odd","topic":"/a","window":1,"grace":1})", "{\"forget\":\"x\"}"}) {
     EXPECT_THROW(parse_condition_order(wrong), std::runtime_error) << wrong;
   }
 }

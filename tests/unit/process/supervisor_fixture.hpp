@@ -42,6 +42,7 @@ class EventText {
     return fmt::format("SIG{} after SIG{} and {} s", ::sigabbrev_np(sent.signal), ::sigabbrev_np(sent.escalated_from),
                        std::chrono::duration<double>(sent.waited).count());
   }
+  std::string operator()(const SchedulingChanged& change) const { return "scheduling" + change.failure; }
   std::string operator()(const ProcessLeft& left) const { return left.foreign ? "left, foreign" : "left"; }
   std::string operator()(const ProcessWaitsForTerminal& waits) const {
     return fmt::format("waits for the terminal{}", waits.has_terminal ? ", which it has" : "");

@@ -159,6 +159,29 @@ TEST_F(ConditionHandlersTest, WithoutATraceAreAnError) {
   EXPECT_THAT(journal_, IsEmpty());
 }
 
+// These processes are not real, so nothing can be said of what they use.
+TEST_F(ConditionHandlersTest, OnProcessesNeedNoTraceAndAreNotAskedForOutside) {
+  EXPECT_EQ(run(R"xml(<executable cmd="talker" name="talker"/>
+<on_memory process="taker" above="1M" grace="3s"/>
+<on_overload process="talker" above="50%" grace="3s"/>)xml"),
+            0);
+  EXPECT_THAT(errors_, IsEmpty());
+  EXPECT_THAT(watch_.diary, ElementsAre("close"));
+  EXPECT_THAT(messages_,
+              ElementsAre("[launch.condition] no process taker was ever seen, 3s after the begin of the watch "
+                          "(/test/system.launch.xml:3:2); did you mean 'talker'?"));
+}
+
+TEST_F(ConditionHandlersTest, TellWhichNodeOfAChainWasNotSeen) {
+  tell_at(12s, tracing::NameNotSeen{1, {"/camera", "/brake"}});
+  EXPECT_EQ(run(R"xml(<scope name="trace"/><executable cmd="talker"/>
+<on_late chain="/cam* -> brakes" max="50ms"/>)xml"),
+            0);
+  EXPECT_THAT(messages_,
+              ElementsAre("[launch.condition] no node /brakes was ever seen, 10s after the begin of the recording "
+                          "(/test/system.launch.xml:3:2); did you mean '/brake'?"));
+}
+
 TEST_F(ConditionHandlersTest, TellOfNamesThatWereNotSeen) {
   tell_at(5s, tracing::NodesAreRecorded{});
   tell_at(12s, tracing::NameNotSeen{1, {"/chatter"}});

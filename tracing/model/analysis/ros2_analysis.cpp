@@ -81,7 +81,7 @@ std::vector<std::uint64_t> Ros2Analysis::missed_periods() const {
 std::vector<std::uint64_t> Ros2Analysis::dropped_messages() const {
   std::vector<std::uint64_t> dropped;
   for (const DeliveryRecord& record : deliveries_.subscriptions()) {
-    dropped.push_back(record.not_executed + record.overwritten + record.lost);
+    dropped.push_back(record.dropped());
   }
   for (const auto& [subscription, count] : join_.messages().within_processes().overwritten()) {
     if (subscription < dropped.size()) {
@@ -89,6 +89,12 @@ std::vector<std::uint64_t> Ros2Analysis::dropped_messages() const {
     }
   }
   return dropped;
+}
+
+std::uint64_t Ros2Analysis::dropped_messages(ObjectId subscription) const {
+  const auto& records = deliveries_.subscriptions();
+  return (subscription < records.size() ? records[subscription].dropped() : 0) +
+         join_.messages().within_processes().overwritten_of(subscription);
 }
 
 }  // namespace tracing

@@ -75,6 +75,7 @@ class Ros2Analysis {
   // it, and messages that a subscription missed (SubscriptionResult::dropped()).
   std::vector<std::uint64_t> missed_periods() const;
   std::vector<std::uint64_t> dropped_messages() const;
+  std::uint64_t dropped_messages(ObjectId subscription) const;
 
  private:
   ObjectModel model_;

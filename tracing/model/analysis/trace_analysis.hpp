@@ -42,6 +42,7 @@ class TraceAnalysis : public TraceSink {
   // So far: Ros2Analysis::missed_periods() and dropped_messages().
   std::vector<std::uint64_t> missed_periods() const { return ros2_.missed_periods(); }
   std::vector<std::uint64_t> dropped_messages() const { return ros2_.dropped_messages(); }
+  std::uint64_t dropped_messages(ObjectId subscription) const { return ros2_.dropped_messages(subscription); }
 
   // As those of Ros2Analysis.
   void keep_chain_passages() { ros2_.keep_chain_passages(); }

@@ -50,8 +50,8 @@ class Writer {
 
 }  // namespace
 
-void RunRecorder::Chains::on_response(PathId path, std::int64_t response_ns) {
-  record_at(responses, path).add(response_ns);
+void RunRecorder::Chains::on_response(PathId path, std::int64_t input_ns, std::int64_t output_ns) {
+  record_at(responses, path).add(output_ns - input_ns);
 }
 
 void RunRecorder::on_callback_begin(const CallbackInstance& instance) {

@@ -40,7 +40,7 @@ class RunRecorder : public ExecutionSink {
  private:
   struct Chains : ChainTracker {
     std::vector<KeptSamples> responses;  // by path
-    void on_response(PathId path, std::int64_t response_ns) override;
+    void on_response(PathId path, std::int64_t input_ns, std::int64_t output_ns) override;
   };
   struct Callback {
     KeptSamples durations;

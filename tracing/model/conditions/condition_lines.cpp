@@ -40,12 +40,19 @@ const char* name_of(LiveCondition::Kind kind) {
       return "rate";
     case LiveCondition::Kind::kLate:
       return "late";
+    case LiveCondition::Kind::kLoss:
+      return "loss";
+    case LiveCondition::Kind::kMemory:
+    case LiveCondition::Kind::kGrowth:
+    case LiveCondition::Kind::kProcessor:
+      break;  // launch-watch is not asked for them
   }
   return "";
 }
 
 LiveCondition::Kind kind_named(std::string_view name) {
-  for (const auto kind : {LiveCondition::Kind::kSilence, LiveCondition::Kind::kRate, LiveCondition::Kind::kLate}) {
+  for (const auto kind : {LiveCondition::Kind::kSilence, LiveCondition::Kind::kRate, LiveCondition::Kind::kLate,
+                          LiveCondition::Kind::kLoss}) {
     if (name == name_of(kind)) {
       return kind;
     }
@@ -54,13 +61,12 @@ LiveCondition::Kind kind_named(std::string_view name) {
 }
 
 LiveCondition::Subject subject_of(const ConditionJson& json) {
-  using Subject = LiveCondition::Subject;
-  for (const Subject subject : {Subject::kTopic, Subject::kService}) {
+  for (const LiveCondition::Subject subject : kRecordedSubjects) {
     if (json.contains(tracing::name_of(subject))) {
       return subject;
     }
   }
-  return Subject::kNode;
+  throw std::runtime_error("a condition on nothing");
 }
 
 // Turns the errors of the library into those of this file.
@@ -94,6 +100,8 @@ std::string to_line(const ConditionOrder& order) {
                                   }
                                   if (condition.kind == LiveCondition::Kind::kLate) {
                                     json["max"] = seconds_of(condition.max);
+                                  }
+                                  if (condition.share < 1) {
                                     json["share"] = condition.share;
                                   }
                                   return json;
@@ -153,8 +161,8 @@ ConditionOrder parse_condition_order(std::string_view text) {
     }
     if (condition.kind == LiveCondition::Kind::kLate) {
       condition.max = time_of(json.at("max"));
-      condition.share = json.at("share").get<double>();
     }
+    condition.share = json.value("share", 1.0);
     return watch;
   });
 }

@@ -2,7 +2,9 @@
 #include "tracing/model/conditions/live_condition.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -19,27 +21,6 @@ struct TimeUnit {
 // A unit stands before those that its name ends with.
 constexpr std::array<TimeUnit, 4> kTimeUnits{{{"min", 60e9}, {"us", 1e3}, {"ms", 1e6}, {"s", 1e9}}};
 constexpr double kLongestTime = 365 * 86400e9;
-
-std::string late_sentence(const LiveCondition& condition, const ConditionChange& change) {
-  const bool is_topic = condition.subject == LiveCondition::Subject::kTopic;
-  const bool is_node = condition.subject == LiveCondition::Subject::kNode;
-  const std::string all = is_topic  ? "messages on " + condition.name
-                          : is_node ? "callbacks of " + condition.name
-                                    : "responses of " + condition.name;
-  if (!change.holds) {
-    return fmt::format("{} take no longer than {} again", all, time_text(condition.max));
-  }
-  const std::chrono::nanoseconds took(std::llround(change.figure * 1e9));
-  if (condition.share < 1) {
-    return fmt::format("{:.3g} % of the {} in {} took longer than {}, the last of them {}", 100 * change.late, all,
-                       time_text(condition.window), time_text(condition.max), short_time_text(took));
-  }
-  return fmt::format("a {} took {}, more than {}",
-                     is_topic  ? fmt::format("message on {}", condition.name)
-                     : is_node ? fmt::format("callback of {}", condition.name)
-                               : fmt::format("response of {}", condition.name),
-                     short_time_text(took), time_text(condition.max));
-}
 
 }  // namespace
 
@@ -79,55 +60,51 @@ std::optional<std::chrono::nanoseconds> parse_time_text(const std::string& text)
   return std::nullopt;
 }
 
-const char* name_of(LiveCondition::Subject subject) {
-  switch (subject) {
-    case LiveCondition::Subject::kTopic:
-      return "topic";
-    case LiveCondition::Subject::kNode:
-      return "node";
-    case LiveCondition::Subject::kService:
-      return "service";
+std::string needs_of(const LiveCondition& condition) {
+  using Subject = LiveCondition::Subject;
+  if (condition.kind == LiveCondition::Kind::kLoss) {
+    return "messages";
+  }
+  if (condition.kind != LiveCondition::Kind::kLate) {
+    return "";
+  }
+  switch (condition.subject) {
+    case Subject::kTopic:
+    case Subject::kChain:
+      return "messages";
+    case Subject::kService:
+    case Subject::kAction:
+      return "calls";
+    case Subject::kNode:
+    case Subject::kTimer:
+    case Subject::kProcess:
+      break;
   }
   return "";
 }
 
-std::string needs_of(const LiveCondition& condition) {
-  if (condition.kind != LiveCondition::Kind::kLate || condition.subject == LiveCondition::Subject::kNode) {
-    return "";
-  }
-  return condition.subject == LiveCondition::Subject::kTopic ? "messages" : "calls";
-}
-
-std::string describe(const LiveCondition& condition) {
-  const std::string of = fmt::format("of {} {}", name_of(condition.subject), condition.name);
-  if (condition.kind == LiveCondition::Kind::kSilence) {
-    return fmt::format("on_silence {} for {}", of, time_text(condition.window));
-  }
-  if (condition.kind == LiveCondition::Kind::kLate) {
-    const std::string most =
-        condition.share < 1 ? fmt::format(", {:.6g} of all in {}", condition.share, time_text(condition.window)) : "";
-    return fmt::format("on_late {} above {}{}", of, time_text(condition.max), most);
-  }
-  return fmt::format("on_rate {} {} {:.4g} Hz in {}", of, condition.below ? "below" : "above",
-                     condition.below ? *condition.below : condition.above.value_or(0), time_text(condition.window));
-}
-
-std::string sentence(const LiveCondition& condition, const ConditionChange& change) {
-  const bool is_topic = condition.subject == LiveCondition::Subject::kTopic;
-  if (condition.kind == LiveCondition::Kind::kSilence) {
-    if (change.holds) {
-      return is_topic ? fmt::format("no message on {} for {:.3g} s", condition.name, change.figure)
-                      : fmt::format("no callback of {} has ended for {:.3g} s", condition.name, change.figure);
+std::optional<std::vector<std::string>> nodes_of_chain(std::string_view chain) {
+  constexpr std::string_view kSpaces = " \t\n";
+  std::vector<std::string> nodes;
+  while (true) {
+    const std::size_t arrow = chain.find("->");
+    std::string_view node = chain.substr(0, arrow);
+    node.remove_prefix(std::min(node.find_first_not_of(kSpaces), node.size()));
+    node = node.substr(0, node.find_last_not_of(kSpaces) + 1);
+    if (node.empty() || node.find_first_of(kSpaces) != std::string_view::npos) {
+      return std::nullopt;
     }
-    return fmt::format("the silence of {} is over after {:.3g} s", condition.name, change.figure);
+    nodes.emplace_back(node);
+    if (arrow == std::string_view::npos) {
+      break;
+    }
+    chain.remove_prefix(arrow + 2);
   }
-  if (condition.kind == LiveCondition::Kind::kLate) {
-    return late_sentence(condition, change);
-  }
-  const char* const side = condition.below ? "below" : "above";
-  const double limit = condition.below ? *condition.below : condition.above.value_or(0);
-  return fmt::format("{:.4g} messages/s on {} in {}, {} {} {:.4g}", change.figure, condition.name,
-                     time_text(condition.window), change.holds ? "which is" : "no longer", side, limit);
+  return nodes.size() < 2 ? std::nullopt : std::optional(std::move(nodes));
+}
+
+std::string chain_of_nodes(const std::vector<std::string>& nodes) {
+  return fmt::format("{}", fmt::join(nodes, " -> "));
 }
 
 }  // namespace tracing

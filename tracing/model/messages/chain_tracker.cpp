@@ -252,7 +252,7 @@ void ChainTracker::end(const Trail& trail, std::int64_t end_ns) {
   if (trail.input_ns != chain.last_input_ns) {
     const std::int64_t response = end_ns - trail.input_ns;
     chain.response.add(response);
-    on_response(trail.path, response);
+    on_response(trail.path, trail.input_ns, end_ns);
     for (NamedPath& named : chain.named) {
       const std::optional<std::int64_t>& budget = definitions_[named.definition].budget_ns;
       if (budget && response > *budget) {

@@ -127,7 +127,7 @@ class ChainTracker : public ExecutionSink {
 
  protected:
   // Called for each response that a path gets, in the order of their ends.
-  virtual void on_response(PathId, std::int64_t /*response_ns*/) {}
+  virtual void on_response(PathId, std::int64_t /*input_ns*/, std::int64_t /*output_ns*/) {}
 
  private:
   // One cause of something, back to the begin of its chain. Its members have no values of their own: lists of them are

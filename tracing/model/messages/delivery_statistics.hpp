@@ -46,6 +46,9 @@ struct DeliveryRecord {
   DurationStatistics transport;
   DurationStatistics executor;
   DurationStatistics take;  // rmw_take to the callback
+
+  // Messages that it missed.
+  std::uint64_t dropped() const { return not_executed + overwritten + lost; }
 };
 
 struct PublisherRecord {

@@ -63,6 +63,17 @@ std::map<ObjectId, std::uint64_t> IntraProcessMatcher::overwritten() const {
   return overwritten;
 }
 
+std::uint64_t IntraProcessMatcher::overwritten_of(ObjectId subscription) const {
+  const auto known = overwritten_.find(subscription);
+  std::uint64_t sum = known == overwritten_.end() ? 0 : known->second;
+  for (const auto& [object, count] : overwritten_of_unknown_) {
+    if (model_.subscription_of_object(object.first, object.second) == subscription) {
+      sum += count;
+    }
+  }
+  return sum;
+}
+
 void IntraProcessMatcher::clear(const Origin& origin, const ros2::RclcppRingBufferClear& event) {
   Buffer& buffer = buffers_[{origin.process, event.buffer}];
   record_.cleared += buffer.slots.size();

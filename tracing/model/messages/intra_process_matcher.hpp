@@ -41,6 +41,7 @@ class IntraProcessMatcher {
   const BufferRecord& record() const { return record_; }
   // Messages that newer ones have pushed out, by subscription.
   std::map<ObjectId, std::uint64_t> overwritten() const;
+  std::uint64_t overwritten_of(ObjectId subscription) const;
 
  private:
   using Key = std::pair<ProcessId, ros2::Handle>;

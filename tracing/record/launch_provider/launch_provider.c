@@ -34,6 +34,12 @@ __attribute__((visibility("default"))) void launch_trace_fire(const struct launc
     case LAUNCH_TRACE_SIGNAL:
       lttng_ust_tracepoint(launch, signal, e->time, e->name, e->value, e->file, e->line);
       break;
+    case LAUNCH_TRACE_SCHEDULING:
+      lttng_ust_tracepoint(launch, scheduling, e->time, e->name, e->what, e->file, e->line);
+      break;
+    case LAUNCH_TRACE_CONDITION:
+      lttng_ust_tracepoint(launch, condition, e->time, e->name, e->what, e->file, e->line);
+      break;
   }
 }
 

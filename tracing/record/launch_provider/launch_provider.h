@@ -18,15 +18,17 @@ enum launch_trace_kind {
   LAUNCH_TRACE_EXEC,
   LAUNCH_TRACE_EXIT,
   LAUNCH_TRACE_RESPAWN,
-  LAUNCH_TRACE_SIGNAL
+  LAUNCH_TRACE_SIGNAL,
+  LAUNCH_TRACE_SCHEDULING,
+  LAUNCH_TRACE_CONDITION
 };
 
 struct launch_trace_event {
   enum launch_trace_kind kind;
   int64_t time;     /* CLOCK_MONOTONIC, ns */
   int64_t duration; /* ns */
-  const char* name; /* a path or a process label */
-  const char* what; /* a condition */
+  const char* name; /* a path, a process label or a condition */
+  const char* what; /* a condition or a change */
   const char* file;
   uint32_t line;
   int32_t pid;

@@ -9,6 +9,9 @@ namespace tracing {
 namespace {
 
 using Kind = LiveCondition::Kind;
+using Subject = LiveCondition::Subject;
+
+constexpr int kCallsToBelieve = 16;  // if all of them are late, the timer is due later than was thought
 
 }  // namespace
 
@@ -17,6 +20,9 @@ std::int64_t LiveConditions::counts_from(const Rule& rule) const {
 }
 
 void LiveConditions::on_publication(const Publication& publication) {
+  if (chains_ && is_ours(publication.thread.process)) {
+    chains_->on_publication(publication);
+  }
   if (publication.publisher < of_publisher_.size()) {
     for (Rule* const rule : of_publisher_[publication.publisher]) {
       happened(*rule, publication.published_ns);
@@ -25,12 +31,45 @@ void LiveConditions::on_publication(const Publication& publication) {
 }
 
 void LiveConditions::on_message(const MessageFlow& message) {
+  if (chains_ && is_ours(message.taking_thread.process)) {
+    chains_->on_message(message);
+  }
+  count_missed(message);
   if (message.publication.published_ns == 0 || message.callback_begin_ns == 0 || message.is_estimated ||
       message.subscription >= of_subscription_.size()) {
     return;
   }
   for (Rule* const rule : of_subscription_[message.subscription]) {
-    took(*rule, message.publication.published_ns, message.callback_begin_ns);
+    if (rule->condition.kind == Kind::kLate) {
+      took(*rule, message.publication.published_ns, message.callback_begin_ns);
+    }
+  }
+}
+
+void LiveConditions::on_message_link(const MessageLink& link) {
+  if (chains_) {
+    chains_->on_message_link(link);
+  }
+}
+
+// A gap before a message shows that messages were lost. Around lost events a gap may be theirs.
+void LiveConditions::count_missed(const MessageFlow& message) {
+  const bool is_wanted =
+      message.subscription < of_subscription_.size() &&
+      std::any_of(of_subscription_[message.subscription].begin(), of_subscription_[message.subscription].end(),
+                  [](const Rule* rule) { return rule->condition.kind == Kind::kLoss; });
+  if (!is_wanted) {
+    return;
+  }
+  Missed& missed = missed_[message.subscription];
+  const std::uint64_t before = std::exchange(missed.count, analysis_.dropped_messages(message.subscription));
+  const std::int64_t last_ns = std::exchange(missed.last_ns, message.taken_ns);
+  const std::uint64_t more = last_ns > doubt_ns_ ? missed.count - std::min(before, missed.count) : 0;
+  const bool arrived = message.callback != kNoObject || message.needs_no_callback;
+  for (Rule* const rule : of_subscription_[message.subscription]) {
+    if (rule->condition.kind == Kind::kLoss) {
+      lost(*rule, more, arrived, message.taken_ns);
+    }
   }
 }
 
@@ -51,13 +90,54 @@ const std::vector<LiveConditions::Rule*>& LiveConditions::rules_of_node(ObjectId
 }
 
 void LiveConditions::on_callback_begin(const CallbackInstance& instance) {
+  if (chains_ && is_ours(instance.thread.process)) {
+    chains_->on_callback_begin(instance);
+  }
   const std::vector<Rule*>& rules = rules_of_node(instance.callback);
-  if (std::any_of(rules.begin(), rules.end(), [](const Rule* rule) { return rule->condition.kind == Kind::kLate; })) {
+  if (std::any_of(rules.begin(), rules.end(), is_about_callbacks)) {
     running_.push_back({instance.thread, instance.callback, instance.begin_ns});
+  }
+  if (std::any_of(rules.begin(), rules.end(),
+                  [](const Rule* rule) { return rule->condition.subject == Subject::kTimer; })) {
+    timer_begins(instance, rules);
+  }
+}
+
+// A timer is due one period after it was due before. If it is called later than its next period, those that have passed
+// are left out. When it was due first is not in the trace: the earliest call shows it.
+void LiveConditions::timer_begins(const CallbackInstance& instance, const std::vector<Rule*>& rules) {
+  const ObjectModel& objects = analysis_.objects();
+  const CallbackObject& callback = objects.callbacks()[instance.callback];
+  const bool is_timer = callback.owner == CallbackObject::Owner::kTimer && callback.owner_id != kNoObject;
+  const std::int64_t period_ns = is_timer ? objects.timers()[callback.owner_id].period_ns : 0;
+  if (period_ns <= 0) {
+    return;
+  }
+  const auto [known, is_new] = due_.try_emplace(instance.callback);
+  Due& due = known->second;
+  if (is_new || due.due_ns < doubt_ns_) {
+    due = {.due_ns = instance.begin_ns + period_ns};
+    return;
+  }
+  due.due_ns = std::min(due.due_ns, instance.begin_ns);
+  const std::int64_t late_ns = instance.begin_ns - due.due_ns;
+  for (Rule* const rule : rules) {
+    if (rule->condition.subject == Subject::kTimer) {
+      took(*rule, due.due_ns, instance.begin_ns);
+    }
+  }
+  due.due_ns += (late_ns / period_ns + 1) * period_ns;
+  due.least_late_ns = due.calls == 0 ? late_ns : std::min(due.least_late_ns, late_ns);
+  if (++due.calls == kCallsToBelieve) {
+    due.due_ns += std::exchange(due.least_late_ns, 0);
+    due.calls = 0;
   }
 }
 
 void LiveConditions::on_callback(const CallbackInstance& instance) {
+  if (chains_ && is_ours(instance.thread.process)) {
+    chains_->on_callback(instance);
+  }
   std::set<ConditionId> late;
   const auto running = std::find_if(running_.begin(), running_.end(), [&](const Running& each) {
     return each.thread == instance.thread && each.callback == instance.callback && each.begin_ns == instance.begin_ns;
@@ -70,9 +150,9 @@ void LiveConditions::on_callback(const CallbackInstance& instance) {
     return;
   }
   for (Rule* const rule : rules_of_node(instance.callback)) {
-    if (rule->condition.kind != Kind::kLate) {
+    if (rule->condition.kind == Kind::kSilence) {
       happened(*rule, instance.end_ns);
-    } else if (!late.contains(rule->id)) {
+    } else if (is_about_callbacks(rule) && !late.contains(rule->id)) {
       took(*rule, instance.begin_ns, instance.end_ns);
     }
   }
@@ -86,7 +166,7 @@ void LiveConditions::look_at_running() {
   });
   for (Running& running : running_) {
     for (Rule* const rule : rules_of_node(running.callback)) {
-      if (rule->condition.kind == Kind::kLate && now_ns_ - running.begin_ns > rule->condition.max.count() &&
+      if (is_about_callbacks(rule) && now_ns_ - running.begin_ns > rule->condition.max.count() &&
           running.late.insert(rule->id).second) {
         took(*rule, running.begin_ns, now_ns_);
       }
@@ -119,13 +199,35 @@ void LiveConditions::took(Rule& rule, std::int64_t begin_ns, std::int64_t end_ns
   }
   const bool is_too_long = end_ns - begin_ns > rule.condition.max.count();
   rule.parts.add(is_too_long);
-  const bool is_sure = rule.condition.share >= 1 || end_ns - rule.condition.window.count() >= doubt_ns_;
-  if (!is_too_long || !is_late(rule) || !is_sure) {
+  if (is_too_long) {
+    look_at_share(rule, end_ns, seconds_in(end_ns - begin_ns));
+  }
+}
+
+void LiveConditions::lost(Rule& rule, std::uint64_t count, bool arrived, std::int64_t time_ns) {
+  check(rule, time_ns);
+  if (!rule.seen_ns) {
+    rule.seen_ns = time_ns;
+  }
+  for (std::uint64_t i = 0; i < count; ++i) {
+    rule.parts.add(true);
+  }
+  if (arrived) {
+    rule.parts.add(false);
+  }
+  if (count > 0) {
+    look_at_share(rule, time_ns, static_cast<double>(rule.parts.late_sum));
+  }
+}
+
+void LiveConditions::look_at_share(Rule& rule, std::int64_t time_ns, double figure) {
+  const bool is_sure = rule.condition.share >= 1 || time_ns - rule.condition.window.count() >= doubt_ns_;
+  if (!is_late(rule) || !is_sure) {
     return;
   }
-  rule.last_bad_ns = end_ns;
+  rule.last_bad_ns = time_ns;
   if (!rule.holds) {
-    change(rule, true, seconds_in(end_ns - begin_ns));
+    change(rule, true, figure);
   }
 }
 
@@ -191,10 +293,10 @@ void LiveConditions::check_window(Rule& rule, std::int64_t until_ns) {
   }
   while (parts.current < now) {
     const std::int64_t end_ns = (parts.current + 1) * part_ns;
-    if (rule.condition.kind == Kind::kLate) {
-      check_late_part(rule, end_ns);
-    } else {
+    if (rule.condition.kind == Kind::kRate) {
       check_rate_part(rule, end_ns);
+    } else {
+      check_late_part(rule, end_ns);
     }
     parts.step();
   }

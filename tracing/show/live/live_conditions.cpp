@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/show/live/live_conditions.hpp"
 
+#include <fnmatch.h>
+
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 namespace tracing {
@@ -9,6 +12,21 @@ namespace {
 
 using Kind = LiveCondition::Kind;
 using Subject = LiveCondition::Subject;
+
+// An action is this service of its own.
+constexpr std::string_view kResultService = "/_action/get_result";
+
+bool is_of_subscriptions(Kind kind) {
+  return kind == Kind::kLate || kind == Kind::kLoss;
+}
+
+std::string name_of_client(const LiveCondition& condition) {
+  return condition.subject == Subject::kAction ? condition.name + std::string(kResultService) : condition.name;
+}
+
+bool fits(const std::string& pattern, const std::string& node) {
+  return fnmatch(pattern.c_str(), node.c_str(), 0) == 0;
+}
 
 }  // namespace
 
@@ -18,6 +36,10 @@ LiveConditions::LiveConditions(LaunchedProcesses& processes, Tell tell)
 void LiveConditions::watch(ConditionId id, const LiveCondition& condition) {
   forget(id);
   Rule& rule = rules_.emplace(id, Rule{.id = id, .condition = condition}).first->second;
+  if (condition.subject == Subject::kChain) {
+    rule.chain = nodes_of_chain(condition.name).value_or(std::vector<std::string>());
+    follow_chains();
+  }
   // What is there already counts as seen now.
   visit_objects([&](const auto& objects, auto& index, auto is_meant, auto process_of) {
     for (ObjectId i = 0; i < index.size(); ++i) {
@@ -59,7 +81,30 @@ void LiveConditions::forget(ConditionId id) {
       std::erase(rules, &found->second);
     }
   }
+  const bool is_chain = found->second.condition.subject == Subject::kChain;
   rules_.erase(found);
+  if (is_chain) {
+    follow_chains();
+  }
+}
+
+// What is on its way through the chains is not followed any more.
+void LiveConditions::follow_chains() {
+  std::vector<ChainDefinition> definitions;
+  of_chain_.clear();
+  chains_.reset();
+  for (auto& [id, rule] : rules_) {
+    if (!rule.chain.empty()) {
+      definitions.push_back({.name = rule.condition.name, .nodes = rule.chain, .budget_ns = std::nullopt});
+      of_chain_.push_back(&rule);
+    }
+  }
+  if (!of_chain_.empty()) {
+    chains_ = std::make_unique<WatchedChains>(analysis_.objects(), std::move(definitions),
+                                              [this](std::size_t chain, std::int64_t input_ns, std::int64_t output_ns) {
+                                                took(*of_chain_[chain], input_ns, output_ns);
+                                              });
+  }
 }
 
 void LiveConditions::on_event(const Event& event) {
@@ -80,18 +125,30 @@ void LiveConditions::on_loss(const Loss& loss) {
 
 // What is late is late for those that get it.
 bool LiveConditions::is_named(const Rule& rule, const EndpointObject& endpoint, bool publishes) {
-  return rule.condition.subject == Subject::kTopic && publishes == (rule.condition.kind != Kind::kLate) &&
+  return rule.condition.subject == Subject::kTopic && publishes != is_of_subscriptions(rule.condition.kind) &&
          endpoint.topic != kNoObject && analysis_.objects().topics()[endpoint.topic].name == rule.condition.name &&
          is_ours(endpoint.process);
 }
 
 bool LiveConditions::is_named(const Rule& rule, const NodeObject& node) {
-  return rule.condition.subject == Subject::kNode && node.name == rule.condition.name && is_ours(node.process);
+  const Subject subject = rule.condition.subject;
+  const bool has_name = subject == Subject::kNode || subject == Subject::kTimer
+                            ? node.name == rule.condition.name
+                            : std::any_of(rule.chain.begin(), rule.chain.end(),
+                                          [&](const std::string& pattern) { return fits(pattern, node.name); });
+  return has_name && is_ours(node.process);
+}
+
+bool LiveConditions::is_whole(const Rule& rule) {
+  const std::set<std::string> known = rule.chain.empty() ? std::set<std::string>() : known_names(rule.condition);
+  return std::all_of(rule.chain.begin(), rule.chain.end(), [&](const std::string& pattern) {
+    return std::any_of(known.begin(), known.end(), [&](const std::string& node) { return fits(pattern, node); });
+  });
 }
 
 bool LiveConditions::is_named(const Rule& rule, const ClientObject& client) {
-  return rule.condition.subject == Subject::kService && client.name == rule.condition.name &&
-         is_ours(process_of(client));
+  return (rule.condition.subject == Subject::kService || rule.condition.subject == Subject::kAction) &&
+         client.name == name_of_client(rule.condition) && is_ours(process_of(client));
 }
 
 ProcessId LiveConditions::process_of(const ClientObject& client) const {
@@ -135,7 +192,7 @@ void LiveConditions::see(Rule& rule, ProcessId process) {
     return !vpid || !processes_.lives(*vpid);
   });
   rule.processes.insert(process);
-  rule.was_seen = true;
+  rule.was_seen = is_whole(rule);
   if (rule.holds) {
     change(rule, false, rule.condition.kind == Kind::kSilence ? seconds_in(now_ns_ - rule.since_ns) : 0);
     rule.seen_ns = now_ns_;
@@ -154,25 +211,35 @@ bool LiveConditions::lives(const Rule& rule) {
 std::set<std::string> LiveConditions::known_names(const LiveCondition& condition) {
   std::set<std::string> known;
   const ObjectModel& objects = analysis_.objects();
-  if (condition.subject == Subject::kNode) {
-    for (const NodeObject& node : objects.nodes()) {
-      if (is_ours(node.process)) {
-        known.insert(node.name);
+  switch (condition.subject) {
+    case Subject::kNode:
+    case Subject::kTimer:
+    case Subject::kChain:
+      for (const NodeObject& node : objects.nodes()) {
+        if (is_ours(node.process)) {
+          known.insert(node.name);
+        }
       }
-    }
-  } else if (condition.subject == Subject::kService) {
-    for (const ClientObject& client : objects.clients()) {
-      if (is_ours(process_of(client))) {
-        known.insert(client.name);
+      break;
+    case Subject::kService:
+    case Subject::kAction:
+      for (const ClientObject& client : objects.clients()) {
+        const bool is_action = client.name.ends_with(kResultService);
+        if (is_action == (condition.subject == Subject::kAction) && is_ours(process_of(client))) {
+          known.insert(client.name.substr(0, client.name.size() - (is_action ? kResultService.size() : 0)));
+        }
       }
-    }
-  } else {
-    for (const EndpointObject& endpoint :
-         condition.kind == Kind::kLate ? objects.subscriptions() : objects.publishers()) {
-      if (endpoint.topic != kNoObject && is_ours(endpoint.process)) {
-        known.insert(objects.topics()[endpoint.topic].name);
+      break;
+    case Subject::kProcess:
+      break;
+    case Subject::kTopic:
+      for (const EndpointObject& endpoint :
+           is_of_subscriptions(condition.kind) ? objects.subscriptions() : objects.publishers()) {
+        if (endpoint.topic != kNoObject && is_ours(endpoint.process)) {
+          known.insert(objects.topics()[endpoint.topic].name);
+        }
       }
-    }
+      break;
   }
   return known;
 }

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -18,6 +19,7 @@
 #include "tracing/decode/reader/trace_sink.hpp"
 #include "tracing/model/analysis/trace_analysis.hpp"
 #include "tracing/model/conditions/condition_lines.hpp"
+#include "tracing/show/live/watched_chains.hpp"
 
 namespace tracing {
 
@@ -48,6 +50,7 @@ class LiveConditions : public ExecutionSink, public TraceSink {
   void on_callback(const CallbackInstance& instance) override;
   void on_publication(const Publication& publication) override;
   void on_message(const MessageFlow& message) override;
+  void on_message_link(const MessageLink& link) override;
   void on_call(const ServiceCall& call) override;
   // Everything up to this time of the trace has been told.
   void advance(std::int64_t until_ns);
@@ -60,7 +63,7 @@ class LiveConditions : public ExecutionSink, public TraceSink {
   struct Parts {
     static constexpr std::int64_t kCount = 20;
     std::array<std::uint32_t, kCount> counts{};
-    std::array<std::uint32_t, kCount> late{};  // some of them
+    std::array<std::uint32_t, kCount> late{};  // or lost: some of them
     std::int64_t current = 0;                  // number of the part that is being filled; 0: none yet
     std::uint64_t sum = 0;
     std::uint64_t late_sum = 0;
@@ -73,6 +76,7 @@ class LiveConditions : public ExecutionSink, public TraceSink {
   struct Rule {
     ConditionId id = 0;
     LiveCondition condition;
+    std::vector<std::string> chain = {};  // the names of its nodes, if it is about a chain
     std::set<ProcessId> processes = {};
     std::optional<std::int64_t> seen_ns = std::nullopt;  // since then something alive has the name
     bool was_seen = false;
@@ -91,11 +95,24 @@ class LiveConditions : public ExecutionSink, public TraceSink {
     std::int64_t begin_ns = 0;
     std::set<ConditionId> late = {};  // conditions that have counted it already
   };
+  // When the timer of a callback must be called next, as far as its calls tell.
+  struct Due {
+    std::int64_t due_ns = 0;
+    std::int64_t least_late_ns = 0;  // of the last calls
+    int calls = 0;
+  };
+  // What a subscription has missed.
+  struct Missed {
+    std::int64_t last_ns = 0;  // when it got a message last
+    std::uint64_t count = 0;
+  };
 
   // Takes note of objects that are new.
   void find_objects();
   bool is_named(const Rule& rule, const EndpointObject& endpoint, bool publishes);
   bool is_named(const Rule& rule, const NodeObject& node);
+  // Of a chain: there is a node for each of its names.
+  bool is_whole(const Rule& rule);
   bool is_named(const Rule& rule, const ClientObject& client);
   ProcessId process_of(const ClientObject& client) const;
   // Calls `visit` with each list of objects, the index of what waits for them, and two functions: whether an object has
@@ -109,6 +126,17 @@ class LiveConditions : public ExecutionSink, public TraceSink {
   std::int64_t counts_from(const Rule& rule) const;
   void happened(Rule& rule, std::int64_t time_ns);
   void took(Rule& rule, std::int64_t begin_ns, std::int64_t end_ns);
+  void lost(Rule& rule, std::uint64_t count, bool arrived, std::int64_t time_ns);
+  // One more took too long, or was lost.
+  void look_at_share(Rule& rule, std::int64_t time_ns, double figure);
+  static bool is_about_callbacks(const Rule* rule) {
+    return rule->condition.kind == LiveCondition::Kind::kLate &&
+           rule->condition.subject == LiveCondition::Subject::kNode;
+  }
+  void timer_begins(const CallbackInstance& instance, const std::vector<Rule*>& rules);
+  void count_missed(const MessageFlow& message);
+  // Makes the tracker of the chains of conditions anew.
+  void follow_chains();
   void look_at_running();
   const std::vector<Rule*>& rules_of_node(ObjectId callback) const;
   void check(Rule& rule, std::int64_t until_ns);
@@ -132,8 +160,12 @@ class LiveConditions : public ExecutionSink, public TraceSink {
   std::vector<std::vector<Rule*>> of_node_;
   std::vector<std::vector<Rule*>> of_client_;
   std::vector<Running> running_;
-  std::int64_t now_ns_ = 0;    // up to which everything was told
-  std::int64_t doubt_ns_ = 0;  // until then, events may have been lost
+  std::map<ObjectId, Due> due_;        // by callback of a timer
+  std::map<ObjectId, Missed> missed_;  // by subscription
+  std::unique_ptr<WatchedChains> chains_;
+  std::vector<Rule*> of_chain_;  // by definition of the tracker
+  std::int64_t now_ns_ = 0;      // up to which everything was told
+  std::int64_t doubt_ns_ = 0;    // until then, events may have been lost
 };
 
 }  // namespace tracing

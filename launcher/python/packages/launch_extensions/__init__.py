@@ -61,16 +61,52 @@ class AssignMachine(Action):
         return [entity('assign_machine', self._place(), self._with_places([*self._attributes, *self._when()]))]
 
 
-class RestartProcess(Action):
-    """Ends the process of an action, or the process with a name, and starts it again; <restart> in XML."""
+def _name(process):
+    """The name of a process that is given by its action, or by that name."""
+    from launch.actions._processes import name_of_process
+    return name_of_process(process, 'process') if isinstance(process, Action) else text(process, 'process')
 
-    def __init__(self, process, **kwargs):
-        from launch.actions._processes import name_of_process
+
+class _OfProcess(Action):
+    """Does something to the process of an action, or to the process with a name."""
+
+    _TAG = None
+
+    def __init__(self, process, attributes=(), **kwargs):
         super().__init__(**kwargs)
-        self._process = name_of_process(process, 'process') if isinstance(process, Action) else text(process, 'process')
+        self._process = _name(process)
+        self._attributes = list(attributes)
 
     def _tags(self):
-        return [entity('restart', self._place(), [('process', self._process), *self._when()])]
+        return [entity(self._TAG, self._place(), [('process', self._process), *self._attributes, *self._when()])]
+
+
+class RestartProcess(_OfProcess):
+    """Ends the process of an action, or the process with a name, and starts it again; <restart> in XML."""
+
+    _TAG = 'restart'
+
+
+class SetPriority(_OfProcess):
+    """
+    Changes how all threads of a process that runs get processors; <set_priority> in XML.
+
+    The process is that of an action, or the one with a name.
+    """
+
+    _TAG = 'set_priority'
+
+    def __init__(self, process, *, nice=None, sched_policy=None, sched_priority=None, cpus=None, **kwargs):
+        numbers = [(name, number(value, name)) for name, value in (('nice', nice), ('sched_priority', sched_priority))
+                   if value is not None]
+        texts = [(name, text(value, name)) for name, value in (('sched_policy', sched_policy), ('cpus', cpus)) if value is not None]
+        super().__init__(process, numbers + texts, **kwargs)
+
+
+class RestorePriority(_OfProcess):
+    """Gives the threads of a process what they had before SetPriority; <restore_priority> in XML."""
+
+    _TAG = 'restore_priority'
 
 
 class _OfEvent(Action):
@@ -143,12 +179,37 @@ class OnStartLimit(_OfProcess):
 
 
 class _OfCondition(_OfEvent):
-    """A handler of a condition on what nodes do, which the trace of the launch shows. Times are texts such as '2s'."""
+    """A handler of a condition on what nodes do or what processes use. Times are texts such as '2s'."""
 
     def __init__(self, actions, attributes, *, cool_down=None, grace=None, **kwargs):
         super().__init__(actions, **kwargs)
         self._attributes[:0] = [(name, text(value, name)) for name, value in
                                 (*attributes, ('cool_down', cool_down), ('grace', grace)) if value is not None]
+
+
+class OnMemory(_OfCondition):
+    """
+    Visits its actions each time a process has too much memory; <on_memory> in XML.
+
+    The process, of an action or with a name, has more than `above` for the time `for_`, or `growth` more than at some time in
+    `window`.
+    """
+
+    _TAG = 'on_memory'
+
+    def __init__(self, actions, *, process, above=None, growth=None, for_=None, window=None, **kwargs):
+        super().__init__(actions, (('above', above), ('growth', growth), ('for', for_), ('window', window)), **kwargs)
+        self._attributes.insert(0, ('process', _name(process)))
+
+
+class OnOverload(_OfCondition):
+    """Visits its actions each time a process uses more than `above` of a processor; <on_overload> in XML."""
+
+    _TAG = 'on_overload'
+
+    def __init__(self, actions, *, process, above, for_=None, **kwargs):
+        super().__init__(actions, (('above', above), ('for', for_)), **kwargs)
+        self._attributes.insert(0, ('process', _name(process)))
 
 
 class OnSilence(_OfCondition):
@@ -179,18 +240,31 @@ class OnLate(_OfCondition):
     """
     Visits its actions each time something takes longer than `max`; <on_late> in XML.
 
-    That is a message on `topic` from sending to the callback, a callback of `node`, or a response of `service`. In
-    `window`, `share` of all may not take longer.
+    That is a message on `topic` from sending to the callback, a callback of `node`, the call of a timer of the node
+    `timer`, a response of `service`, a result of `action`, or the way through the nodes of `chain`, as in '/camera -> /brake'.
+    In `window`, `share` of all may not take longer.
     """
 
     _TAG = 'on_late'
 
-    def __init__(self, actions, *, max, topic=None, node=None, service=None, share=None, window=None, **kwargs):
-        super().__init__(actions, (('topic', topic), ('node', node), ('service', service), ('max', max),
-                                   ('window', window)), **kwargs)
+    def __init__(self, actions, *, max, topic=None, node=None, service=None, action=None, timer=None, chain=None, share=None,
+                 window=None, **kwargs):
+        super().__init__(actions, (('topic', topic), ('node', node), ('service', service), ('action', action), ('timer', timer),
+                                   ('chain', chain), ('max', max), ('window', window)), **kwargs)
         if share is not None:
             self._attributes.insert(0, ('share', number(share, 'share')))
 
 
-__all__ = ['AssignMachine', 'Machine', 'OnHealthChange', 'OnLate', 'OnMachineBack', 'OnMachineLost', 'OnRate', 'OnSilence',
-           'OnStartLimit', 'RestartProcess', 'WaitFor']
+class OnLoss(_OfCondition):
+    """Visits its actions each time more than the share `above` of the messages on `topic` are lost; <on_loss> in XML."""
+
+    _TAG = 'on_loss'
+
+    def __init__(self, actions, *, topic, above=None, window=None, **kwargs):
+        super().__init__(actions, (('topic', topic), ('window', window)), **kwargs)
+        if above is not None:
+            self._attributes.insert(0, ('above', number(above, 'above')))
+
+
+__all__ = ['AssignMachine', 'Machine', 'OnHealthChange', 'OnLate', 'OnLoss', 'OnMachineBack', 'OnMachineLost', 'OnMemory', 'OnOverload',
+           'OnRate', 'OnSilence', 'OnStartLimit', 'RestartProcess', 'RestorePriority', 'SetPriority', 'WaitFor']

@@ -33,6 +33,12 @@
   /* A signal was sent to the process and its group. */ \
   EVENT(given, signal, Signal, launch, \
     (int64, time), (string, process), (int32, signal), (string, file), (uint32, line)) \
+  /* The threads of the process get processors in another way from now on, or, without a change, as before. */ \
+  EVENT(given, scheduling, Scheduling, launch, \
+    (int64, time), (string, process), (string, change), (string, file), (uint32, line)) \
+  /* A condition on what nodes do begins to hold, or holds no longer: `change` says which in a sentence. */ \
+  EVENT(given, condition, Condition, launch, \
+    (int64, time), (string, condition), (string, change), (string, file), (uint32, line)) \
   /* A class of events was dropped from the trace, because recording cost more than max-overhead. From `time` on, */ \
   /* `events` (a list of names) are no longer recorded. `rate` is that of all processes before the cut, in events a */ \
   /* second; `share` is the share of a processor. */ \

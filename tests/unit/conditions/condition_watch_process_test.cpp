@@ -5,13 +5,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "tests/unit/process/temporary_directory.hpp"
+#include "tests/support/trace_writer/temporary_directory.hpp"
 
 namespace launch {
 namespace {
@@ -22,7 +24,10 @@ struct ConditionWatchProcessTest : testing::Test {
   // What is told until the program records, or is not started again.
   std::vector<std::string> told_with(const std::string& script) {
     std::vector<std::string> told;
-    ConditionWatchProcess watch(*loop, "17", directory.write("watch", "#!/bin/sh\n" + script, 0755));
+    const std::filesystem::path program = directory.path() / "watch";
+    std::ofstream(program) << "#!/bin/sh\n" << script;
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+    ConditionWatchProcess watch(*loop, "17", program.string());
     watch.observe([&](const tracing::ConditionReport& report) {
       bool goes_on = false;
       if (const auto* const failed = std::get_if<tracing::WatchFailed>(&report)) {
@@ -42,11 +47,11 @@ struct ConditionWatchProcessTest : testing::Test {
   }
 
   std::unique_ptr<EventLoop> loop = make_sd_event_loop();
-  TemporaryDirectory directory;
+  tracing::testing::TemporaryDirectory directory;
 };
 
 TEST_F(ConditionWatchProcessTest, AProgramThatCrashesBeforeItRecordsIsStartedAgain) {
-  const std::string mark = directory.path() + "/started";
+  const std::string mark = (directory.path() / "started").string();
   EXPECT_THAT(told_with("[ -e " + mark + " ] || { touch " + mark +
                         "; kill -SEGV $$; }\necho '{\"recording\": true}'\nexec cat >/dev/null\n"),
               ElementsAre("launch-watch was ended by SIGSEGV, tries again", "recorded"));
