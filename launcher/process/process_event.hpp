@@ -55,7 +55,7 @@ struct SignalSent {
 // Its threads get processors in another way from now on, or as before.
 struct SchedulingChanged {
   std::vector<std::string> to;  // "nice 5", "cpus 0"; empty: as before
-  std::string failure = {};     // not empty: the kernel has refused it, and why; nothing has changed
+  std::string failure = {};  // not empty: the kernel has refused it, and why; to give back what there was, for a part
 };
 // SIGKILL has not ended it: it is left as it is, and ProcessDone follows.
 struct ProcessLeft {

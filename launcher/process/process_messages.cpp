@@ -75,7 +75,8 @@ class Messages {
   void operator()(const SchedulingChanged& change) const {
     if (!change.failure.empty()) {
       return say(LogLevel::kError,
-                 fmt::format("its scheduling has not changed: {}{}", change.failure, place(event_.spec)));
+                 fmt::format("its scheduling {}: {}{}", change.to.empty() ? "is not what it was" : "has not changed",
+                             change.failure, place(event_.spec)));
     }
     say(LogLevel::kInfo, change.to.empty() ? "its scheduling is what it was"
                                            : fmt::format("its scheduling is {} now", fmt::join(change.to, ", ")));
