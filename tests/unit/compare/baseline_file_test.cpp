@@ -43,6 +43,8 @@ TEST_F(BaselineFile, KeepsEverything) {
                       {Kind::kChain, "/a (timer) -> /b (/x)", "response", {"/a, timer", "/b, /x"}, 2, {7, 8}, false},
                       {Kind::kHop, "/x to /b", "latency", {}, 1, {9}, false},
                       {Kind::kCall, "/add, asked by /b", "round trip", {}, 1, {10}, false}};
+  run.measurements[0].sends = false;
+  run.measurements[1].waits = true;
   const Runs baseline = read(baseline_text({run, run}));
   EXPECT_EQ(baseline.source, file_.string());
   ASSERT_EQ(baseline.runs.size(), 2u);
@@ -61,6 +63,8 @@ TEST_F(BaselineFile, KeepsEverything) {
     EXPECT_EQ(same.measurements[i].count, run.measurements[i].count);
     EXPECT_EQ(same.measurements[i].samples, run.measurements[i].samples);
     EXPECT_EQ(same.measurements[i].doubtful, run.measurements[i].doubtful);
+    EXPECT_EQ(same.measurements[i].sends, run.measurements[i].sends);
+    EXPECT_EQ(same.measurements[i].waits, run.measurements[i].waits);
   }
 }
 

@@ -21,6 +21,7 @@ RunSummary recorded(std::uint64_t cycles) {
   tracing::testing::write_example_system(directory.path() / "trace", cycles);
   RunRecorder recorder;
   TraceAnalysis analysis(&recorder);
+  recorder.use(analysis.objects());
   TraceReader(directory.path() / "trace").read(analysis);
   const TraceResults results = analysis.finish();
   return recorder.finish(analysis, results);
@@ -63,6 +64,9 @@ TEST(RunRecorder, KeepsTheSamplesInTheOrderOfTime) {
   EXPECT_THAT(chain.steps,
               ElementsAre("/sensor, timer 10 ms", "/filter, subscription /scan", "/display, subscription /points"));
   EXPECT_EQ(chain.count, 59u) << "nobody takes one of the messages";
+  EXPECT_EQ(filter.sends, true);
+  EXPECT_EQ(find(run, "/display, subscription /points", "duration").sends, false);
+  EXPECT_FALSE(chain.waits);
   EXPECT_EQ(run.begin_ns, tracing::testing::kExampleBegin);
   EXPECT_GT(run.events, 1000u);
 }

@@ -30,6 +30,12 @@ Json json_of(const Measurement& one) {
   if (one.estimated) {
     json["estimated"] = true;
   }
+  if (one.sends) {
+    json["sends"] = *one.sends;
+  }
+  if (one.waits) {
+    json["waits"] = true;
+  }
   if (!one.steps.empty()) {
     json["steps"] = one.steps;
   }
@@ -55,6 +61,10 @@ Measurement measurement_of(const Json& json) {
   json.at("count").get_to(one.count);
   json.at("doubtful").get_to(one.doubtful);
   one.estimated = json.value("estimated", false);
+  if (json.contains("sends")) {
+    one.sends = json.at("sends").get<bool>();
+  }
+  one.waits = json.value("waits", false);
   if (json.contains("steps")) {
     json.at("steps").get_to(one.steps);
   }

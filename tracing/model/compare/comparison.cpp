@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -23,14 +24,66 @@ namespace {
 
 using AllFound = std::map<Key, Found>;
 
-AllFound by_key(const Runs& side) {
+// The callbacks that send messages in some of their runs and nothing in others, on either side.
+std::set<std::string> callbacks_of_two_works(const Runs& before, const Runs& after) {
+  std::set<std::string> sending;
+  std::set<std::string> silent;
+  for (const Runs* side : {&before, &after}) {
+    for (const RunSummary& run : side->runs) {
+      for (const Measurement& one : run.measurements) {
+        if (one.sends) {
+          (*one.sends ? sending : silent).insert(one.subject);
+        }
+      }
+    }
+  }
+  std::set<std::string> both;
+  std::set_intersection(sending.begin(), sending.end(), silent.begin(), silent.end(), std::inserter(both, both.end()));
+  return both;
+}
+
+bool is_work(const std::string& quantity) {
+  return quantity.starts_with(kDuration) || quantity.starts_with(kRunning);
+}
+
+// Where a callback has two works, their durations are two quantities, even if a run has one of them alone.
+std::string compared_quantity(const Measurement& one, const std::set<std::string>& of_two_works) {
+  if (!is_work(one.quantity) || one.kind != Kind::kCallback || !of_two_works.contains(one.subject)) {
+    return one.quantity;
+  }
+  if (!one.sends) {
+    return one.quantity + " of all runs";  // of a former release, which nothing can be compared with
+  }
+  const bool is_named = one.quantity.ends_with(kWithoutSending);
+  return one.quantity + (*one.sends || is_named ? "" : kWithoutSending);
+}
+
+AllFound by_key(const Runs& side, const std::set<std::string>& of_two_works) {
   AllFound found;
   for (const RunSummary& run : side.runs) {
     for (const Measurement& one : run.measurements) {
-      found[{one.kind, one.subject, one.quantity}].push_back(&one);
+      found[{one.kind, one.subject, compared_quantity(one, of_two_works)}].push_back(&one);
     }
   }
   return found;
+}
+
+// Those that the other side does not have.
+std::size_t works_of_one_side(const AllFound& side, const AllFound& other, const std::set<std::string>& of_two_works) {
+  return static_cast<std::size_t>(std::count_if(side.begin(), side.end(), [&](const auto& found) {
+    const auto& [kind, subject, quantity] = found.first;
+    return kind == Kind::kCallback && is_work(quantity) && of_two_works.contains(subject) &&
+           !other.contains(found.first);
+  }));
+}
+
+// What a message waits for in a node is a matter of the phases of timers, which are others in each run. With three runs
+// on both sides a change that holds between every two of them is none of these.
+bool depends_on_phases(const Found& before, const Found& after) {
+  constexpr std::size_t kSeveral = 3;
+  const auto waits = [](const Measurement* one) { return one->waits; };
+  return std::min(before.size(), after.size()) < kSeveral &&
+         (std::any_of(before.begin(), before.end(), waits) || std::any_of(after.begin(), after.end(), waits));
 }
 
 double value_of(const Found& side, double share) {
@@ -87,7 +140,7 @@ Change change_of(const TestedQuantity& tested, double probability, const Compare
 std::optional<Overall> overall_of(const std::vector<TestedQuantity>& tests, const CompareOptions& options) {
   std::vector<double> ratios;
   for (const TestedQuantity& tested : tests) {
-    const bool is_duration = std::get<Kind>(tested.key) == Kind::kCallback && std::get<2>(tested.key) == "duration";
+    const bool is_duration = std::get<Kind>(tested.key) == Kind::kCallback && std::get<2>(tested.key) == kDuration;
     if (!is_duration || tested.statistic != Statistic::kMedian) {
       continue;
     }
@@ -136,7 +189,7 @@ std::vector<Lone> lone_subjects(const Runs& side, const Runs& other) {
 void find_changed_steps(std::vector<Change>& changes, const Runs& before) {
   std::map<std::string, bool> slower;  // callbacks whose durations have changed
   for (const Change& change : changes) {
-    if (change.kind == Kind::kCallback && change.quantity == "duration") {
+    if (change.kind == Kind::kCallback && change.quantity == kDuration) {
       slower[change.subject] = change.is_slower();
     }
   }
@@ -165,8 +218,9 @@ void find_changed_steps(std::vector<Change>& changes, const Runs& before) {
 
 Comparison compare(const Runs& before, const Runs& after, const CompareOptions& options) {
   Comparison result;
-  const AllFound earlier = by_key(before);
-  const AllFound later = by_key(after);
+  const std::set<std::string> of_two_works = callbacks_of_two_works(before, after);
+  const AllFound earlier = by_key(before, of_two_works);
+  const AllFound later = by_key(after, of_two_works);
   std::set<std::pair<Kind, std::string>> subjects;
   std::vector<Disturbances> of_runs;
   of_runs.reserve(before.runs.size() + after.runs.size());
@@ -187,6 +241,10 @@ Comparison compare(const Runs& before, const Runs& after, const CompareOptions& 
     }
     const auto& [kind, subject, quantity] = key;
     subjects.insert({kind, subject});
+    if (depends_on_phases(found, other->second)) {
+      ++result.undecided;
+      continue;
+    }
     const std::vector<Statistic> statistics = statistics_of(quantity);
     bool enough = statistics.empty();
     for (const Statistic statistic : statistics) {
@@ -201,6 +259,7 @@ Comparison compare(const Runs& before, const Runs& after, const CompareOptions& 
       ++result.too_few_samples;
     }
   }
+  result.undecided += works_of_one_side(earlier, later, of_two_works) + works_of_one_side(later, earlier, of_two_works);
   result.compared = subjects.size();
   result.tests = tests.size();
 
@@ -215,7 +274,7 @@ Comparison compare(const Runs& before, const Runs& after, const CompareOptions& 
   likely = corrected_for_many(likely);
   const auto change = [&](std::size_t test, double probability) {
     Change one = change_of(tests[test], probability, options);
-    if (one.kind == Kind::kCallback && one.quantity == "duration") {
+    if (one.kind == Kind::kCallback && one.quantity == kDuration) {
       one.cause = cause_of(one.subject, one.is_slower(), before, after);
     }
     return one;

@@ -98,6 +98,8 @@ struct Comparison {
   std::size_t compared = 0;  // subjects that both sides have
   std::size_t tests = 0;
   std::size_t too_few_samples = 0;  // quantities that both sides have, but not often enough
+  // Quantities that depend on which message comes last, so that they can't be told from a few runs.
+  std::size_t undecided = 0;
 };
 
 // Each side has at least one run. Results are in the order of kind, subject and quantity.

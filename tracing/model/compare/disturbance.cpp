@@ -45,7 +45,7 @@ Disturbances disturbances_of(const RunSummary& run) {
   constexpr std::size_t kEnough = 20;
   Disturbances found;
   for (const Measurement& one : run.measurements) {
-    if (one.kind == Kind::kCallback && one.quantity == "duration" && one.samples.size() >= kEnough) {
+    if (one.kind == Kind::kCallback && one.quantity == kDuration && one.samples.size() >= kEnough) {
       std::vector<double> samples(one.samples.begin(), one.samples.end());
       const double high = quantile(samples, 0.9);
       const double low = quantile(samples, 0.1);

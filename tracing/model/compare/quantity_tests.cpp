@@ -95,7 +95,8 @@ void test_all(std::vector<TestedQuantity>& tests, const CompareOptions& options)
   std::map<std::tuple<Kind, std::string, Statistic, std::size_t, std::size_t>, std::vector<TestedQuantity*>> sorts;
   for (TestedQuantity& tested : tests) {
     const auto& [kind, subject, quantity] = tested.key;
-    sorts[{kind, quantity, tested.statistic, tested.before->size(), tested.after->size()}].push_back(&tested);
+    const std::string sort = quantity.substr(0, quantity.find(kWithoutSending));
+    sorts[{kind, sort, tested.statistic, tested.before->size(), tested.after->size()}].push_back(&tested);
   }
   for (const auto& [sort, members] : sorts) {
     if (has_many_runs(*members.front())) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <tuple>
 
 #include "tracing/model/compare/subject_names.hpp"
@@ -29,7 +30,7 @@ class Writer {
   bool is_node_doubtful(ObjectId node) const {
     return node != kNoObject && is_doubtful(objects_.nodes()[node].process);
   }
-  Measurement* add(Kind kind, const std::string& subject, const char* quantity, const KeptSamples& samples,
+  Measurement* add(Kind kind, const std::string& subject, const std::string& quantity, const KeptSamples& samples,
                    bool doubtful, bool estimated = false) {
     if (samples.count() == 0) {
       return nullptr;
@@ -38,6 +39,18 @@ class Writer {
     const std::string name = number == 1 ? subject : fmt::format("{} #{}", subject, number);
     run_.measurements.push_back({kind, name, quantity, {}, samples.count(), samples.values(), doubtful, estimated});
     return &run_.measurements.back();
+  }
+  // Those that sent messages and those that sent nothing.
+  void add_parts(const std::string& callback, const char* quantity, const std::array<KeptSamples, 2>& parts,
+                 bool doubtful) {
+    const auto& [silent, sending] = parts;
+    if (Measurement* const part = add(Kind::kCallback, callback, quantity, sending, doubtful)) {
+      part->sends = true;
+    }
+    const std::string other = std::string(quantity) + (sending.count() > 0 ? kWithoutSending : "");
+    if (Measurement* const part = add(Kind::kCallback, callback, other, silent, doubtful)) {
+      part->sends = false;
+    }
   }
 
  private:
@@ -61,16 +74,44 @@ void RunRecorder::on_callback_begin(const CallbackInstance& instance) {
     callback.intervals.add(instance.begin_ns - callback.last_begin_ns);
   }
   callback.last_begin_ns = instance.begin_ns;
+  active_[instance.thread].push_back({.begin_ns = instance.begin_ns});
+}
+
+bool RunRecorder::has_sent(const CallbackInstance& instance) {
+  std::vector<Active>* const active = active_.find(instance.thread);
+  if (active == nullptr) {
+    return false;
+  }
+  const auto ended = std::find_if(active->rbegin(), active->rend(),
+                                  [&](const Active& one) { return one.begin_ns == instance.begin_ns; });
+  if (ended == active->rend()) {
+    return false;
+  }
+  const bool sends = ended->sends;
+  active->erase(std::next(ended).base(), active->end());
+  return sends;
+}
+
+void RunRecorder::on_publication(const Publication& publication) {
+  chains_.on_publication(publication);
+  std::vector<Active>* const active = active_.find(publication.thread);
+  if (active == nullptr || active->empty() || publication.topic == kNoObject) {
+    return;
+  }
+  // What a callback logs is no other work.
+  const std::string& topic = objects_->topics()[publication.topic].name;
+  active->back().sends = active->back().sends || (topic != "/rosout" && topic != "/parameter_events");
 }
 
 void RunRecorder::on_callback(const CallbackInstance& instance) {
   chains_.on_callback(instance);
   Callback& callback = record_at(callbacks_, instance.callback);
+  const std::size_t part = has_sent(instance) ? 1 : 0;
   if (instance.finished) {
-    callback.durations.add(instance.end_ns - instance.begin_ns);
+    callback.durations[part].add(instance.end_ns - instance.begin_ns);
   }
   if (instance.is_scheduled) {
-    callback.running.add(instance.end_ns - instance.begin_ns - instance.runnable_ns - instance.blocked_ns);
+    callback.running[part].add(instance.end_ns - instance.begin_ns - instance.runnable_ns - instance.blocked_ns);
     callback.waiting.add(instance.runnable_ns);
     callback.blocked.add(instance.blocked_ns);
   }
@@ -100,6 +141,20 @@ void RunRecorder::on_call(const ServiceCall& call) {
   calls_[{call.client, call.service}].add(call.received_ns - call.sent_ns);
 }
 
+bool RunRecorder::waits(PathId path) const {
+  for (PathId at = path; chains_.paths()[at].parent != kNoPath; at = chains_.paths()[at].parent) {
+    const ChainRecord& before = chains_.paths()[chains_.paths()[at].parent];
+    const ObjectId kept = objects_->subscription_of(objects_->callbacks()[before.callback]);
+    for (const auto& [publisher, subscriptions] : chains_.links()) {
+      if (objects_->publishers()[publisher].topic == chains_.paths()[at].topic &&
+          std::find(subscriptions.begin(), subscriptions.end(), kept) != subscriptions.end()) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 RunSummary RunRecorder::finish(const TraceAnalysis& analysis, const TraceResults& results) {
   const ObjectModel& objects = analysis.objects();
   const SubjectNames names(analysis);
@@ -110,9 +165,9 @@ RunSummary RunRecorder::finish(const TraceAnalysis& analysis, const TraceResults
   Writer writer(analysis, results, run);
   for (ObjectId id = 0; id < callbacks_.size(); ++id) {
     const bool doubtful = writer.is_doubtful(objects.callbacks()[id].process);
-    writer.add(Kind::kCallback, names.callback(id), "duration", callbacks_[id].durations, doubtful);
+    writer.add_parts(names.callback(id), kDuration, callbacks_[id].durations, doubtful);
     writer.add(Kind::kCallback, names.callback(id), "interval", callbacks_[id].intervals, doubtful);
-    writer.add(Kind::kCallback, names.callback(id), kRunning, callbacks_[id].running, doubtful);
+    writer.add_parts(names.callback(id), kRunning, callbacks_[id].running, doubtful);
     writer.add(Kind::kCallback, names.callback(id), kWaiting, callbacks_[id].waiting, doubtful);
     writer.add(Kind::kCallback, names.callback(id), kBlocked, callbacks_[id].blocked, doubtful);
   }
@@ -150,6 +205,7 @@ RunSummary RunRecorder::finish(const TraceAnalysis& analysis, const TraceResults
         writer.add(Kind::kChain, subject, "response", chains_.responses[path], doubtful, estimated);
     if (chain != nullptr) {
       chain->steps = std::move(steps);
+      chain->waits = waits(path);
     }
   }
   const auto key = [](const Measurement& one) { return std::tie(one.kind, one.subject, one.quantity); };

@@ -15,10 +15,14 @@ constexpr const char* kind_name(Kind kind) {
   return kKindNames[static_cast<std::size_t>(kind)];
 }
 
-// Parts of a callback's duration, from events of the kernel's scheduler.
+inline constexpr const char* kDuration = "duration";  // of a callback
+// Parts of it, from events of the kernel's scheduler.
 inline constexpr const char* kRunning = "running";
 inline constexpr const char* kWaiting = "waiting for a processor";
 inline constexpr const char* kBlocked = "blocked";
+
+// Behind the quantity: of the runs of a callback that sent nothing, where others of it did.
+inline constexpr const char* kWithoutSending = " without sending";
 
 // One quantity of one subject. Kind, subject and quantity together name it in every run: they hold no process numbers
 // and no addresses.
@@ -34,6 +38,12 @@ struct Measurement {
   bool doubtful = false;              // events of its process may be missing
   // Which publication its messages are is an estimate (MessageFlow::is_estimated).
   bool estimated = false;
+  // Of the durations of a callback: whether it sent messages in these runs of it. What it does then is other work: a
+  // fusion sends when the last of its inputs comes, and which one that is differs from run to run. Nullopt: of all runs
+  // of it, in baselines of former releases.
+  std::optional<bool> sends = std::nullopt;
+  // Of a chain: somewhere a message waits in a node for a timer or for other messages.
+  bool waits = false;
 };
 
 struct RunSummary {

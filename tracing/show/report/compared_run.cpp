@@ -43,6 +43,7 @@ compare::RunSummary complete(compare::RunSummary run, const fs::path& directory,
 compare::RunSummary read_run(const std::vector<fs::path>& directories, bool all) {
   compare::RunRecorder recorder;
   TraceAnalysis analysis(&recorder);
+  recorder.use(analysis.objects());
   TraceReader reader(directories, TraceReader::Clocks::kOne);
   LaunchFilter filter(reader, directories, analysis, all);
   std::string error;
@@ -69,17 +70,19 @@ PagedRun read_run_for_page(const fs::path& directory, const std::vector<ChainDef
       read_system({directory}, {.chains = chains,
                                 .all = all,
                                 .also = &recorder,
-                                .at_end = [&](const TraceAnalysis& analysis, const TraceResults& results) {
-                                  run.summary = recorder.finish(analysis, results);
-                                  const compare::SubjectNames names(analysis);
-                                  for (ObjectId id = 0; id < analysis.objects().callbacks().size(); ++id) {
-                                    run.page.names.callbacks.push_back(names.callback(id));
-                                    run.page.names.steps.push_back(names.step(id));
-                                  }
-                                  for (ObjectId id = 0; id < analysis.objects().subscriptions().size(); ++id) {
-                                    run.page.names.subscriptions.push_back(names.subscription(id));
-                                  }
-                                }});
+                                .at_begin = [&](const ObjectModel& objects) { recorder.use(objects); },
+                                .at_end =
+                                    [&](const TraceAnalysis& analysis, const TraceResults& results) {
+                                      run.summary = recorder.finish(analysis, results);
+                                      const compare::SubjectNames names(analysis);
+                                      for (ObjectId id = 0; id < analysis.objects().callbacks().size(); ++id) {
+                                        run.page.names.callbacks.push_back(names.callback(id));
+                                        run.page.names.steps.push_back(names.step(id));
+                                      }
+                                      for (ObjectId id = 0; id < analysis.objects().subscriptions().size(); ++id) {
+                                        run.page.names.subscriptions.push_back(names.subscription(id));
+                                      }
+                                    }});
   for (const compare::Measurement& measurement : run.summary.measurements) {
     if (measurement.kind == compare::Kind::kChain) {
       run.page.names.chains.push_back(measurement.subject);

@@ -99,6 +99,10 @@ std::string head(const ComparisonReport& report, bool color) {
   if (comparison.too_few_samples > 0) {
     text += fmt::format("; {} too few samples", plural(comparison.too_few_samples, "quantity has", "quantities have"));
   }
+  if (comparison.undecided > 0) {
+    text += fmt::format("; {} on which message comes last",
+                        plural(comparison.undecided, "quantity depends", "quantities depend"));
+  }
   text += fmt::format("\nResult     {}\n", result_line(report, color));
   if (comparison.overall) {
     text += "Overall    " + overall_line(*comparison.overall, color) + "\n";

@@ -116,6 +116,7 @@ std::string comparison_json(const ComparisonReport& report, const std::vector<st
   json("compared", comparison.compared);
   json("tests", comparison.tests);
   json("too_few_samples", comparison.too_few_samples);
+  json("undecided", comparison.undecided);
   json("changes", comparison.changes);
   json("likely", comparison.likely);
   json("overall", comparison.overall);

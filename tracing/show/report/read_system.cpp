@@ -53,6 +53,9 @@ TracedSystem read_system(const std::vector<std::filesystem::path>& directories, 
   timeline::TimelineRecorder recorder;
   SinkList<timeline::TimelineRecorder> sinks(recorder, options.also);
   TraceAnalysis analysis(options.also == nullptr ? static_cast<ExecutionSink*>(&recorder) : &sinks, options.chains);
+  if (options.at_begin) {
+    options.at_begin(analysis.objects());
+  }
   if (options.with_details) {
     recorder.record_details(analysis);
   }

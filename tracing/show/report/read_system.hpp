@@ -25,6 +25,7 @@ struct SystemOptions {
   std::size_t most_records = 0;              // TimelineRecorder::keep_first(); 0: all
   TraceSink* beside = nullptr;               // also gets the events
   ExecutionSink* also = nullptr;             // is told what the timeline is told
+  std::function<void(const ObjectModel& objects)> at_begin = {};
   std::function<void(const TraceAnalysis& analysis, const TraceResults& results)> at_end = {};  // after the analysis
 };
 

@@ -85,7 +85,7 @@ function comparisonHead(comparison, subjects) {
   const result = changed === 0 ? 'no change holds' : `${plural(changed, 'subject')} ${changed === 1 ? 'has' : 'have'} changed; with a confidence of ${+(comparison.confidence * 100).toPrecision(6)} % none of them by chance`;
   const overall = comparison.overall;
   return panel('Comparison', element('div', {class: 'facts'}, element('dl', {}, ...run(comparison.before, 0), ...run(comparison.after, 1),
-    element('dt', {}, 'Compared'), element('dd', {}, `${plural(comparison.compared, 'subject')} in ${plural(comparison.tests, 'test')}` + (comparison.too_few_samples ? `; ${formatCount(comparison.too_few_samples)} quantities have too few samples` : '')),
+    element('dt', {}, 'Compared'), element('dd', {}, `${plural(comparison.compared, 'subject')} in ${plural(comparison.tests, 'test')}` + (comparison.too_few_samples ? `; ${formatCount(comparison.too_few_samples)} quantities have too few samples` : '') + (comparison.undecided ? `; ${formatCount(comparison.undecided)} depend on which message comes last` : '')),
     element('dt', {}, 'Result'), element('dd', {}, element('b', {class: slower ? 'slower' : 'faster'}, result), likely ? `; ${formatCount(likely)} more with less confidence` : ''),
     ...(overall ? [element('dt', {}, 'Overall'), element('dd', {}, `${formatCount(overall.ratio > 0 ? overall.slower : overall.callbacks - overall.slower)} of ${plural(overall.callbacks, 'callback')} take ${overall.ratio > 0 ? 'longer' : 'less time'}, the one in the middle by ${threeDigits(Math.abs(overall.ratio) * 100)} %`)] : []))),
   subjects.some(({sides}) => sides.some(side => side === null)) ? element('p', {class: 'note'}, 'Some subjects are in one run only: they are in the tables below.') : null);
