@@ -4,8 +4,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "actions/process/machine_settings.hpp"
 #include "actions/values/pair_items.hpp"
@@ -31,6 +35,49 @@ int include_depth(const SourceRange& where) {
   }
   return depth;
 }
+
+// Whether one of several files may read an argument. Each file is searched once, when it is needed.
+class Readers {
+ public:
+  void add(std::shared_ptr<const SourceFile> file) {
+    if (file != nullptr) {
+      files_.push_back(std::move(file));
+    }
+  }
+  bool may_read(const std::string& name) {
+    for (std::size_t i = 0; i < files_.size(); ++i) {
+      if (i == uses_.size()) {
+        uses_.emplace_back(files_[i]);
+      }
+      if (uses_[i].may_read(name)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  std::vector<std::shared_ptr<const SourceFile>> files_;
+  std::vector<ArgumentUse> uses_;  // of the first files
+};
+
+// What a launch file and those that it includes declare, and who may read what they do not.
+struct DeclaredArguments {
+  explicit DeclaredArguments(const ArgumentList& list) : complete(list.complete) {
+    for (const ArgumentInfo& argument : list.arguments) {
+      in_order.push_back(argument.declaration->name);
+    }
+    names.insert(in_order.begin(), in_order.end());
+    for (const auto& description : list.loaded) {
+      readers.add(description->file);
+    }
+  }
+
+  bool complete;
+  std::vector<std::string> in_order;
+  std::set<std::string> names;
+  Readers readers;
+};
 
 class IncludeLaunchDescription : public Action {
  public:
@@ -125,32 +172,37 @@ class IncludeLaunchDescription : public Action {
   // The arguments that neither the included file nor a file around it declares or reads.
   void find_undeclared_arguments(const LaunchDescription& included, const std::vector<std::string>& given,
                                  LaunchContext& context) const {
-    std::optional<ArgumentList> list;
     const bool depends_on_command = context.scope().command_was_left_out();
+    Readers readers = files_that_may_read(included);
+    std::optional<DeclaredArguments> declared;
     for (std::size_t i = 0; i < given.size(); ++i) {
-      if (is_own_configuration(given[i]) || may_read(*included.file, given[i]) || is_read_around(given[i])) {
+      if (is_own_configuration(given[i]) || readers.may_read(given[i])) {
         continue;
       }
-      if (!list) {
-        list = find_arguments(included, context.registry(), context.scope());
+      if (!declared) {
+        declared.emplace(find_arguments(included, context.registry(), context.scope()));
       }
-      std::vector<std::string> declared;
-      for (const ArgumentInfo& argument : list->arguments) {
-        declared.push_back(argument.declaration->name);
-      }
-      const bool is_read = std::any_of(list->loaded.begin(), list->loaded.end(), [&](const auto& description) {
-        return description->file != nullptr && may_read(*description->file, given[i]);
-      });
-      if (list->complete && !is_read && std::find(declared.begin(), declared.end(), given[i]) == declared.end()) {
+      if (declared->complete && !declared->names.contains(given[i]) && !declared->readers.may_read(given[i])) {
         context.exploration().remark(
             {Severity::kWarning,
              fmt::format("the included file declares no argument '{}', and nothing reads it", given[i]),
-             declaration_.arguments[i].first.where(), did_you_mean(given[i], declared), Finding::kUnknownArgument});
+             declaration_.arguments[i].first.where(), did_you_mean(given[i], declared->in_order),
+             Finding::kUnknownArgument});
       }
     }
     if (!depends_on_command) {
       context.scope().forget_left_out_command();  // the paths of further includes were only tried
     }
+  }
+
+  // What an include sets stays set, so the files that lead to it may read it.
+  Readers files_that_may_read(const LaunchDescription& included) const {
+    Readers readers;
+    readers.add(included.file);
+    for (const SourceRange* place = &where(); place->file != nullptr; place = &place->file->included_from()) {
+      readers.add(place->file);
+    }
+    return readers;
   }
 
   static void note_settings_file(const LaunchDescription& included, LaunchContext& context) {
@@ -160,16 +212,6 @@ class IncludeLaunchDescription : public Action {
     if (only_declares && included.file != nullptr) {
       context.exploration().note_settings_file(included.file->path());
     }
-  }
-
-  // What an include sets stays set, so the files that lead to it may read it.
-  bool is_read_around(const std::string& name) const {
-    for (const SourceRange* place = &where(); place->file != nullptr; place = &place->file->included_from()) {
-      if (may_read(*place->file, name)) {
-        return true;
-      }
-    }
-    return false;
   }
 
   // It is not known what a missing Python launch file would do, so a plan goes on without it.
