@@ -6,6 +6,7 @@ they have, with nothing of the reader and the analysis of this project.
 
 import collections
 import re
+import signal
 import subprocess
 
 LINE = re.compile(r'\[(\d+)\.(\d{9})\] \([^)]*\) ([^\s:]+)\S* (\w+):(\w+): \{[^}]*\}, \{(.*?)\}, \{(.*)\}$')
@@ -51,11 +52,20 @@ class Starts:
         self.spawned, self.executed, self.processes, self.first = {}, {}, {}, collections.defaultdict(dict)
         self.node_of_rcl, self.topic_of = {}, {}
         self.zeros = []  # of the monotonic clock, at the earliest
+        self.events = []  # (time of the monotonic clock, kind, subject, what, file, line)
 
     def of_launcher(self, time, event, numbers, fields):
         texts = dict(TEXT.findall(fields))
         if numbers.get('time'):
             self.zeros.append(time - numbers['time'])
+        code = numbers.get('exit_code')
+        ended = f'exit code {code}' if code is not None and code >= 0 else code and signal.Signals(-code).name
+        subject, what = {'condition': (texts.get('condition'), texts.get('change')), 'scheduling': (texts.get('process'), texts.get('change')),
+                         'signal': (texts.get('process'), event == 'signal' and signal.Signals(numbers['signal']).name),
+                         'exit': (texts.get('process'), ended), 'respawn': (texts.get('process'), ended),
+                         'cut': (texts.get('event_class'), texts.get('events'))}.get(event, (None, None))
+        if subject is not None:
+            self.events.append((numbers['time'], event, subject, what or None, texts.get('file') or None, numbers.get('line', 0)))
         if event == 'spawn':
             self.spawned[texts['file'], numbers['line'], texts['process']] = numbers['time']
         elif event == 'exec':
@@ -80,6 +90,9 @@ class Starts:
             handle = numbers['rmw_publisher_handle' if event == 'rmw_publish' else 'publisher_handle']
             if self.topic_of.get((process, handle)) not in (None, '/rosout', '/parameter_events'):
                 first.setdefault('publication', time)
+
+    def event_rows(self):
+        return [(min(self.zeros) + time, *told) for time, *told in self.events]
 
     def rows(self):
         """On a busy machine the launcher may notice the exec after what the process did next, which then took no time."""

@@ -207,6 +207,23 @@ class FurtherResults(page_case.PageTest):
         self.assertIn("6,912 processes more of the kernel's events", self.texts('h2'))
         self.assertEqual(self.texts('section:nth-of-type(2) tbody tr'), ['without a name\t6,911\t20,000', 'kworker/0:1\t1\t7'])
 
+    def test_what_the_launcher_did_is_a_list_and_lines_in_the_time_chart(self):
+        facts = """{launcher_events: [
+          {time: 0.3e9, kind: "condition", subject: "on_rate of topic /scan", sentence: "/scan has 3 messages/s", file: "a.launch.xml", line: 4, ordinary: false},
+          {time: 0.5e9, kind: "scheduling", subject: "planner-1", sentence: "its threads get processors by nice 5", file: "a.launch.xml", line: 5, ordinary: false},
+          {time: 0.9e9, kind: "signal", subject: "planner-1", sentence: "was sent SIGINT", file: "", line: 0, ordinary: true}]}"""
+        self.draw('overview', facts)
+        self.assertEqual([row for row in self.texts('tbody tr') if 'a.launch.xml' in row],
+                         ['0.300000 s\ton_rate of topic /scan\t/scan has 3 messages/s\ta.launch.xml:4',
+                          '0.500000 s\tplanner-1\tits threads get processors by nice 5\ta.launch.xml:5'])
+        self.draw('time', facts)
+        self.wait_for_canvas('.time canvas')
+        chart = 'document.querySelector("#view .panel").chart'
+        self.assertEqual(self.browser.evaluate(f'launcherEventText(launcherEventAt({chart}, timeX({chart}, 0.3e9) + 2))'), 'on_rate of topic /scan: /scan has 3 messages/s')
+        self.assertTrue(self.browser.evaluate(f'launcherEventAt({chart}, timeX({chart}, 0.9e9)) === undefined'))
+        pixel = f'[...document.querySelector(".time canvas").getContext("2d").getImageData(Math.round(timeX({chart}, 0.3e9) * devicePixelRatio), 100, 1, 1).data].join()'
+        self.assertNotEqual(self.browser.evaluate(pixel), self.browser.evaluate(pixel.replace('0.3e9) *', '0.3e9) * 0 + 5 *')))
+
     def test_the_start_has_phases_and_a_critical_path(self):
         self.draw('processes', """{
           startup: {duration: 50e6, path: [{process: "", what: "load a.launch.xml", begin: 0, end: 10e6}, {process: "sensor-1", what: "until rcl_init", begin: 10e6, end: 50e6}]},

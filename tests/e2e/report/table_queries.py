@@ -50,6 +50,7 @@ MACHINES = {
     'tracing_cost': 'SELECT vpid, events FROM tracing_cost',
     'starts': '''SELECT vpid, process, file, line, exec_ns - spawn_ns, exec_ns + init_after_ns, exec_ns + node_after_ns,
       exec_ns + ready_after_ns, exec_ns + callback_after_ns, exec_ns + publication_after_ns FROM starts''',
+    'launcher_events': 'SELECT time_ns, kind, subject, what, file, line FROM launcher_events',
     'allocations': '''SELECT vpid, address, start_ns, allocations, allocated_bytes FROM allocations
       JOIN callback_instances ON callback_instance = callback_instances.id
       JOIN callbacks ON callback = callbacks.id JOIN processes ON process = processes.id''',

@@ -221,7 +221,8 @@ class TruthCase(unittest.TestCase):
             expected.append((MACHINES, {'trace': machines.trace_rows(), 'hosts': machines.host_rows(),
                                         'processes': machines.process_rows(), 'threads': sorted(machines.threads),
                                         'allocations': machines.allocation_rows(), 'losses': [machines.lost],
-                                        'tracing_cost': machines.cost_rows(), 'starts': machines.starts.rows()}))
+                                        'tracing_cost': machines.cost_rows(), 'starts': machines.starts.rows(),
+                                        'launcher_events': machines.starts.event_rows()}))
         with sqlite3.connect(file) as database:
             for queries, tables in expected:
                 for table, own in tables.items():

@@ -167,6 +167,8 @@ class LiveConditions(OwnLaunches):
                               capture_output=True, text=True, check=True).stdout
         self.assertRegex(read, r'launch:scheduling .*process="driver-1" change="nice 5, cpus 0" file="\S+system.launch.xml" line=3')
         self.assertRegex(read, r'launch:condition .*condition="on_late of node /hanging_node above 150ms" change="a callback of /hanging_node took')
+        report = subprocess.run([LAUNCH, 'report', str(self.traces / self.name)], capture_output=True, text=True, check=True).stdout
+        self.assertRegex(report, r'(?s)\nWhile it ran\n.* s  on_late of node /hanging_node above 150ms.*took .* s  driver-1: its threads get processors by nice 5, cpus 0\n')
 
     def test_a_process_that_has_too_much_memory_is_restarted(self):
         (self.folder / 'eater.py').write_text('import time\nprint("eats", flush=True)\ntime.sleep(1)\nkept = b"x" * (200 << 20)\ntime.sleep(1000)\n')

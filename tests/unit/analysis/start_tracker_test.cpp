@@ -2,7 +2,8 @@
 // The times at which processes of the launcher had a node and were ready.
 #include "tracing/model/analysis/start_tracker.hpp"
 
-#include <gtest/gtest.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 
 #include <csignal>
 
@@ -62,11 +63,27 @@ class StartOfProcesses : public ::testing::Test {
     testing::detail::append(payload, std::uint32_t{3});
     writer_.write_raw(0, kEpoch + time, kLauncher, *signal_, payload);
   }
+  // An event with two texts: a condition or a priority.
+  void change(const std::string& event, std::int64_t time, const std::string& subject_field, const std::string& subject,
+              const std::string& change) {
+    const std::uint16_t id = writer_.declare(
+        "launch:" + event, "\t\tinteger { size = 64; align = 8; signed = 1; } _time;\n\t\tstring _" + subject_field +
+                               ";\n\t\tstring _change;\n\t\tstring _file;\n"
+                               "\t\tinteger { size = 32; align = 8; signed = 0; } _line;\n");
+    std::string payload;
+    testing::detail::append(payload, time);
+    payload.append(subject).push_back('\0');
+    payload.append(change).push_back('\0');
+    payload.append("a.launch.xml").push_back('\0');
+    testing::detail::append(payload, std::uint32_t{5});
+    writer_.write_raw(0, kEpoch + time, kLauncher, id, payload);
+  }
   template <class Struct>
   void write(std::int64_t time, const Thread& thread, const Struct& event) {
     writer_.write(0, kEpoch + time, thread, event);
   }
-  std::vector<StartResult> results() {
+  std::vector<StartResult> results() { return all_results().starts; }
+  TraceResults all_results() {
     writer_.finish();
     Sink sink;
     TraceReader(directory_.path()).read(sink);
@@ -74,7 +91,7 @@ class StartOfProcesses : public ::testing::Test {
     const ObjectModel objects;
     TraceResults results;
     sink.tracker.finish(sink.processes, {std::nullopt, 7, std::nullopt}, FirstActivity(objects), results);
-    return results.starts;
+    return results;
   }
 
   std::vector<std::pair<ProcessId, std::int64_t>> ends_;
@@ -167,6 +184,39 @@ TEST_F(StartOfProcesses, TheFirstSignalThatAsksAProcessToEndIsItsEnd) {
 TEST_F(StartOfProcesses, IsEmptyWithoutTheLauncher) {
   write(5'000, kTalker, ros2::RclNodeInit{1, 2, "talker", "/"});
   EXPECT_TRUE(results().empty());
+}
+
+TEST_F(StartOfProcesses, IsFollowedByWhatTheLauncherSawAndDid) {
+  exec(1'000, 1'000, "talker-1", 71);
+  change("condition", 5'000, "condition", "on_late of node /talker above 5ms",
+         "a callback of /talker took 9.00 ms, more than 5 ms");
+  change("scheduling", 6'000, "process", "talker-1", "nice 5");
+  signal(8'000, "talker-1", SIGINT);
+  std::vector<std::string> events;
+  for (const LauncherEventResult& event : all_results().launcher_events) {
+    events.push_back(fmt::format("{} {} {}: {} [{}:{}] {}", event.time_ns - kEpoch, event.kind_name(), event.subject,
+                                 event.what, event.file, event.line, event.is_ordinary()));
+  }
+  EXPECT_THAT(events, ::testing::ElementsAre(
+                          "5000 condition on_late of node /talker above 5ms: a callback of /talker took 9.00 ms, "
+                          "more than 5 ms [a.launch.xml:5] false",
+                          "6000 scheduling talker-1: nice 5 [a.launch.xml:5] false",
+                          "8000 signal talker-1: SIGINT [a.launch.xml:3] true"));
+}
+
+TEST(LauncherEvent, IsToldAsASentence) {
+  using Kind = LauncherEventResult::Kind;
+  const auto sentence = [](Kind kind, const char* what) {
+    return LauncherEventResult{.kind = kind, .subject = "talker-1", .what = what}.sentence();
+  };
+  EXPECT_EQ(sentence(Kind::kCondition, "as the condition says"), "as the condition says");
+  EXPECT_EQ(sentence(Kind::kScheduling, "nice 5"), "its threads get processors by nice 5");
+  EXPECT_EQ(sentence(Kind::kScheduling, ""), "its threads get processors as before");
+  EXPECT_EQ(sentence(Kind::kSignal, "SIGINT"), "was sent SIGINT");
+  EXPECT_EQ(sentence(Kind::kExit, "SIGSEGV"), "ended, SIGSEGV");
+  EXPECT_EQ(sentence(Kind::kRespawn, "exit code 1"), "ended, exit code 1, and is started again");
+  EXPECT_EQ(sentence(Kind::kCut, "ros2:rmw_take"),
+            "no longer recorded, because recording cost too much: ros2:rmw_take");
 }
 
 }  // namespace

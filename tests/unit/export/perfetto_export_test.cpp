@@ -139,6 +139,20 @@ TEST(PerfettoExport, KeepsProcessesOfTwoMachinesApart) {
   EXPECT_EQ(names[1]["args"]["name"], "right ping");
 }
 
+TEST(PerfettoExport, HasWhatTheLauncherDidOverAllProcesses) {
+  using Kind = LauncherEventResult::Kind;
+  TracedSystem system;
+  system.timeline.begin_ns = 5'000;
+  system.results.launcher_events = {{6'000, Kind::kScheduling, "talker-1", "nice 5", "a.launch.xml", 3},
+                                    {7'000, Kind::kExit, "talker-1", "SIGINT", "a.launch.xml", 2}};
+  const std::vector<json> events = events_of(exported(system), "i");
+  ASSERT_EQ(events.size(), 1u) << "each launch has the other one";
+  EXPECT_EQ(events[0]["name"], "talker-1: its threads get processors by nice 5");
+  EXPECT_EQ(events[0]["s"], "g");
+  EXPECT_EQ(events[0]["ts"], 1.0);
+  EXPECT_EQ(events[0]["args"], json({{"kind", "scheduling"}, {"file", "a.launch.xml"}, {"line", 3}}));
+}
+
 TEST(PerfettoExport, IsValidForAnEmptyTraceAndForOddTexts) {
   TracedSystem system;
   EXPECT_EQ(exported(system)["traceEvents"], json::array());

@@ -6,6 +6,7 @@
 
 #include "tests/support/trace_writer/example_system.hpp"
 #include "tests/support/trace_writer/temporary_directory.hpp"
+#include "tests/support/trace_writer/trace_writer.hpp"
 
 namespace tracing {
 namespace {
@@ -123,6 +124,36 @@ TEST_F(LiveViewOfTheExample, CountsLossesToTheEnd) {
   EXPECT_EQ(view_.line(1), "0 events/s, 0 callbacks/s, 0 messages/s, 7 lost");
   view_.on_loss({.kind = Loss::Kind::kPackets, .stream = &stream, .begin_ns = 1, .end_ns = 2, .count = 1});
   EXPECT_EQ(view_.line(1), "0 events/s, 0 callbacks/s, 0 messages/s, at least 7 lost");
+}
+
+// Times count back from the last event. There are seven changes: the last five are shown.
+TEST(LiveView, ShowsTheLastChangesOfConditionsAndPriorities) {
+  testing::TemporaryDirectory directory;
+  testing::TraceWriter writer(directory.path() / "trace");
+  const std::uint16_t id = writer.declare(
+      "launch:condition",
+      "\t\tinteger { size = 64; align = 8; signed = 1; } _time;\n\t\tstring _condition;\n\t\tstring _change;\n"
+      "\t\tstring _file;\n\t\tinteger { size = 32; align = 8; signed = 0; } _line;\n");
+  for (std::int64_t i = 1; i <= 7; ++i) {
+    std::string payload;
+    testing::detail::append(payload, i * 1'000'000'000);
+    payload.append("on_rate of topic /scan below 5 Hz in 2s").push_back('\0');
+    payload.append(i % 2 == 1 ? "\x1b 3 messages/s" : "5 messages/s").push_back('\0');
+    payload.append("a.launch.xml").push_back('\0');
+    testing::detail::append(payload, std::uint32_t{3});
+    writer.write_raw(0, 1'767'225'600'000'000'000 + i * 1'000'000'000, {70, 70, "launch"}, id, payload);
+  }
+  writer.finish();
+  LiveView view;
+  TraceReader(directory.path()).read(view);
+  EXPECT_THAT(view.screen(2, {.width = 80}), ::testing::HasSubstr(R"(
+While it ran
+    -4.000 s  on_rate of topic /scan below 5 Hz in 2s: ? 3 messages/s
+    -3.000 s  on_rate of topic /scan below 5 Hz in 2s: 5 messages/s
+    -2.000 s  on_rate of topic /scan below 5 Hz in 2s: ? 3 messages/s
+    -1.000 s  on_rate of topic /scan below 5 Hz in 2s: 5 messages/s
+    +0.000 s  on_rate of topic /scan below 5 Hz in 2s: ? 3 messages/s
+)"));
 }
 
 // The same model as that of `launch report`.

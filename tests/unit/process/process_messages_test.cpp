@@ -68,5 +68,24 @@ TEST_F(Messages, TellOfTheEscalationInTheWordsOfRos) {
             "[ERROR] [a-1]: process has died [pid 1000001, exit code -9, cmd '/bin/a'].\n");
 }
 
+TEST_F(Messages, TellOfSchedulingThatChangesAndOfWhatTheKernelRefuses) {
+  const auto file = std::make_shared<const SourceFile>("system.launch.xml", "<launch>\n  <node/>\n</launch>\n");
+  ProcessSpec placed = spec("a");
+  placed.origin = {file, 11, 18};
+  const auto tell = [&, observer = process_messages(output)](const SchedulingChanged& change) {
+    observer(ProcessEvent{1, "a-1", placed, change});
+  };
+  tell({{"nice 5", "cpus 0"}, ""});
+  tell({{"fifo 10"}, "cannot set the policy: Operation not permitted"});
+  tell({{}, ""});
+  tell({{}, "Operation not permitted"});
+  EXPECT_EQ(screen.text(),
+            "[INFO] [a-1]: its scheduling is nice 5, cpus 0 now\n"
+            "[ERROR] [a-1]: its scheduling has not changed: cannot set the policy: Operation not permitted "
+            "(system.launch.xml:2:3)\n"
+            "[INFO] [a-1]: its scheduling is what it was\n"
+            "[ERROR] [a-1]: its scheduling is not what it was: Operation not permitted (system.launch.xml:2:3)\n");
+}
+
 }  // namespace
 }  // namespace launch

@@ -99,6 +99,28 @@ Notes
 )");
 }
 
+TEST(TextReport, SaysWhatHappenedWhileItRan) {
+  using Kind = LauncherEventResult::Kind;
+  Report report{"/traces/run", {}, ""};
+  report.results.overview = overview_of(2, {{71, "ping", 1, false, ""}});
+  report.results.launcher_events = {
+      {kBegin + 250'000'000, Kind::kCondition, "on_late of chain /camera -> /planner -> /brake above 50ms",
+       "a way through /camera -> /planner -> /brake took 81.3 ms, more than 50 ms", "a.launch.xml", 7},
+      {kBegin + 251'000'000, Kind::kScheduling, "planner-2", "nice 5", "a.launch.xml", 8},
+      {kBegin + 900'000'000, Kind::kRespawn, "camera-1", "exit code 1", "a.launch.xml", 3},
+      {kBegin + 1'900'000'000, Kind::kExit, "camera-1", "SIGINT", "a.launch.xml", 3}};
+  EXPECT_THAT(text_report(report, {}), HasSubstr(R"(
+While it ran
+    +0.250 s  on_late of chain /camera -> /planner -> /brake above 50ms
+              a way through /camera -> /planner -> /brake took 81.3 ms, more than 50 ms
+    +0.251 s  planner-2: its threads get processors by nice 5
+    +0.900 s  camera-1: ended, exit code 1, and is started again
+)"));
+  EXPECT_THAT(text_report(report, {.top = 1}), HasSubstr("more than 50 ms\n              and 2 more\n"));
+  EXPECT_THAT(text_report(report, {.all = true}), HasSubstr("\n    +1.900 s  camera-1: ended, SIGINT\n"));
+  EXPECT_THAT(text_report(report, {.node = "/ping"}), Not(HasSubstr("While it ran")));
+}
+
 TEST(TextReport, ARequestInFlightIsNotUnanswered) {
   Report report = report_with_results();
   report.results.ros2.calls[0].in_flight = 1;

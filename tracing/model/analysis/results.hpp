@@ -7,6 +7,7 @@
 #include "tracing/model/analysis/results/callbacks.hpp"
 #include "tracing/model/analysis/results/chains.hpp"
 #include "tracing/model/analysis/results/executors.hpp"
+#include "tracing/model/analysis/results/launcher_events.hpp"
 #include "tracing/model/analysis/results/lifecycle.hpp"
 #include "tracing/model/analysis/results/overview.hpp"
 #include "tracing/model/analysis/results/services.hpp"
@@ -43,8 +44,9 @@ struct Ros2Results {
 
 struct TraceResults {
   TraceOverview overview;
-  std::vector<StartResult> starts;       // in the order of the launcher's events; empty without these
-  std::optional<StartupResult> startup;  // nullopt: no process of the launcher was ready in the trace
+  std::vector<StartResult> starts;                   // in the order of the launcher's events; empty without these
+  std::optional<StartupResult> startup;              // nullopt: no process of the launcher was ready in the trace
+  std::vector<LauncherEventResult> launcher_events;  // by time; empty without the launcher's events
   Ros2Results ros2;
   std::vector<std::string> warnings;  // about events that are not as ros2_tracing records them
 };

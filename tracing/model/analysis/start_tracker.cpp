@@ -6,19 +6,11 @@
 #include <filesystem>
 #include <utility>
 
+#include "tracing/model/analysis/event_fields.hpp"
+
 namespace tracing {
 
 namespace {
-
-std::string text_of(const Event& event, std::string_view field) {
-  const std::optional<FieldValue> value = event.field(field);
-  return std::string(value ? value->string().value_or("") : "");
-}
-
-std::int64_t number_of(const Event& event, std::string_view field) {
-  const std::optional<FieldValue> value = event.field(field);
-  return value ? value->integer().value_or(0) : 0;
-}
 
 // Whether the event comes from lttng-ust's own thread, which reports the living objects when a session starts.
 bool is_of_state_dump(const Event& event) {
@@ -111,6 +103,7 @@ void StartTracker::on_launcher_event(const Event& event, ProcessId launcher, Kin
   }
   const std::int64_t zero = event.timestamp_ns - time;
   monotonic_zero_ns_ = std::min(monotonic_zero_ns_.value_or(zero), zero);
+  events_.add(event, time);
   switch (kind) {
     case Kind::kSpawn:
       spawned_ = text_of(event, "process");
@@ -228,6 +221,7 @@ void StartTracker::finish(const ProcessTable& processes, const std::vector<std::
     condition.held_ns += zero;
   }
   results.startup = critical_start(started, conditions, steps);
+  results.launcher_events = events_.results(zero);
 }
 
 }  // namespace tracing

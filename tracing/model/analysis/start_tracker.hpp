@@ -15,6 +15,7 @@
 
 #include "tracing/decode/reader/event.hpp"
 #include "tracing/model/analysis/critical_start.hpp"
+#include "tracing/model/analysis/launcher_event_list.hpp"
 #include "tracing/model/analysis/results.hpp"
 #include "tracing/model/execution/first_activity.hpp"
 #include "tracing/model/objects/process_table.hpp"
@@ -32,10 +33,13 @@ class StartTracker {
     }
     on_event(event, process, kind);
   }
-  // Fills `starts`, in the order of the launcher's events, and `startup`. `places`: where each process is in the
-  // results.
+  // Fills `starts`, in the order of the launcher's events, `startup` and `launcher_events`. `places`: where each
+  // process is in the results.
   void finish(const ProcessTable& processes, const std::vector<std::optional<ProcessIndex>>& places,
               const FirstActivity& first, TraceResults& results) const;
+  // As of LauncherEventList.
+  void keep_last_launcher_events(std::size_t count) { events_.keep_last(count); }
+  std::vector<LauncherEventResult> launcher_events() const { return events_.results(monotonic_zero_ns_.value_or(0)); }
   // When the launcher asked each process to end, or saw that it had ended.
   std::vector<std::pair<ProcessId, std::int64_t>> ends(const ProcessTable& processes) const;
 
@@ -96,6 +100,7 @@ class StartTracker {
   std::vector<Start> starts_;
   std::vector<LauncherStep> steps_;
   std::vector<StartCondition> conditions_;
+  LauncherEventList events_;
   std::string spawned_;  // the process that the launcher is about to start
   std::optional<std::int64_t> spawn_ns_;
   std::vector<Process> processes_;                   // by ProcessId; may be shorter

@@ -44,6 +44,10 @@ class TraceAnalysis : public TraceSink {
   std::vector<std::uint64_t> dropped_messages() const { return ros2_.dropped_messages(); }
   std::uint64_t dropped_messages(ObjectId subscription) const { return ros2_.dropped_messages(subscription); }
 
+  // As of LauncherEventList; so far.
+  void keep_last_launcher_events(std::size_t count) { starts_.keep_last_launcher_events(count); }
+  std::vector<LauncherEventResult> launcher_events() const { return starts_.launcher_events(); }
+
   // As those of Ros2Analysis.
   void keep_chain_passages() { ros2_.keep_chain_passages(); }
   const ChainTracker& chains() const { return ros2_.chains(); }

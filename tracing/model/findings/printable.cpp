@@ -95,6 +95,7 @@ TraceResults printable(TraceResults results) {
   clean(ros2.nodes);
   clean(ros2.executions);
   clean(results.starts);
+  clean(results.launcher_events);
   if (results.startup) {
     clean(results.startup->critical_path);
   }

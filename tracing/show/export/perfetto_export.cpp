@@ -39,6 +39,9 @@ class PerfettoWriter {
     for (const StartResult& start : system_.results.starts) {
       origin_ns_ = std::min(origin_ns_, start.exec_ns);
     }
+    for (const LauncherEventResult& event : system_.results.launcher_events) {
+      origin_ns_ = std::min(origin_ns_, event.time_ns);
+    }
   }
 
   void write() {
@@ -51,6 +54,7 @@ class PerfettoWriter {
     choose_pids();
     write_names();
     write_starts();
+    write_launcher_events();
     write_callbacks();
     write_messages();
     write_lifecycle();
@@ -133,6 +137,18 @@ class PerfettoWriter {
       }
       if (start.ready_after_ns) {
         instant(pid, start.exec_ns + *start.ready_after_ns, "ready", from);
+      }
+    }
+  }
+
+  // Over all processes.
+  void write_launcher_events() {
+    for (const LauncherEventResult& one : system_.results.launcher_events) {
+      if (!one.is_ordinary()) {
+        event(fmt::format(
+            R"("ph":"i","s":"g","cat":"launcher","name":{},"pid":0,"tid":0,"ts":{},"args":{{"kind":"{}","file":{},"line":{}}})",
+            json_text(one.subject + ": " + one.sentence()), time(one.time_ns), one.kind_name(), json_text(one.file),
+            one.line));
       }
     }
   }

@@ -9,6 +9,7 @@
 #include "tracing/model/findings/printable.hpp"
 #include "tracing/model/findings/quantity_text.hpp"
 #include "tracing/model/objects/object_names.hpp"
+#include "tracing/show/report/report_sections.hpp"
 #include "tracing/show/report/text_table.hpp"
 
 namespace tracing {
@@ -75,6 +76,7 @@ LiveView::Activity& LiveView::at(std::vector<Activity>& activities, ObjectId id)
 void LiveView::on_event(const Event& event) {
   ++events_;
   ++all_events_;
+  now_ns_ = std::max(now_ns_, event.timestamp_ns);
   analysis_.on_event(event);
 }
 
@@ -187,11 +189,26 @@ std::string LiveView::node_table(double seconds, const ReportOptions& options,
   return table.text(options);
 }
 
+// The last changes of conditions and priorities, and which processes were started again.
+std::string LiveView::last_changes(const ReportOptions& options) const {
+  std::vector<LauncherEventResult> events = analysis_.launcher_events();
+  std::erase_if(events, [](const LauncherEventResult& event) { return event.is_ordinary(); });
+  if (events.size() > kShownLauncherEvents) {
+    events.erase(events.begin(), events.end() - kShownLauncherEvents);
+  }
+  for (LauncherEventResult& event : events) {
+    event.subject = printable(event.subject);
+    event.what = printable(event.what);
+  }
+  return launcher_section(events, now_ns_, options);
+}
+
 std::string LiveView::screen(double seconds, const ReportOptions& options) const {
   const ObjectModel& objects = analysis_.objects();
   const bool lost = all_lost_ > 0 || has_uncounted_loss_;
   std::string text = shortened(head(seconds), options.width) + "\n" +
                      styled(losses(), lost ? Style::kBad : Style::kGood, options.color) + "\n";
+  text += last_changes(options);
   const std::vector<std::uint64_t> missed = analysis_.missed_periods();
   const std::vector<std::uint64_t> dropped = analysis_.dropped_messages();
   text += node_table(seconds, options, missed);

@@ -17,7 +17,7 @@ namespace tracing {
 
 class LiveView : public ExecutionSink, public TraceSink {
  public:
-  LiveView() : analysis_(this) {}
+  LiveView() : analysis_(this) { analysis_.keep_last_launcher_events(kLauncherEvents); }
   LiveView(const LiveView&) = delete;  // the analysis tells this object what happens
   LiveView& operator=(const LiveView&) = delete;
 
@@ -47,12 +47,17 @@ class LiveView : public ExecutionSink, public TraceSink {
     int rested = kShown;  // intervals since the last one in which it did something
     bool is_shown() const { return count > 0 || rested < kShown; }
   };
+  // Of signals and exits there may be many after a change.
+  static constexpr std::size_t kLauncherEvents = 1'000;
+  static constexpr std::size_t kShownLauncherEvents = 5;
   static Activity& at(std::vector<Activity>& activities, ObjectId id);
   std::string head(double seconds) const;
   std::string losses() const;
+  std::string last_changes(const ReportOptions& options) const;
   std::string node_table(double seconds, const ReportOptions& options, const std::vector<std::uint64_t>& missed) const;
 
   TraceAnalysis analysis_;
+  std::int64_t now_ns_ = 0;  // of the last event
   std::uint64_t all_events_ = 0;
   std::uint64_t all_lost_ = 0;  // that were counted
   bool has_uncounted_loss_ = false;

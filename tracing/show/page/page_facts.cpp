@@ -98,6 +98,15 @@ Json starts(const TracedSystem& system) {
   return list;
 }
 
+Json launcher_events(const TracedSystem& system) {
+  const ResultFacts facts(system.timeline.begin_ns);
+  Json list = Json::array();
+  for (const LauncherEventResult& event : system.results.launcher_events) {
+    list.push_back(facts.with({{"sentence", event.sentence()}, {"ordinary", event.is_ordinary()}}, event));
+  }
+  return list;
+}
+
 Json startup(const TracedSystem& system) {
   if (!system.results.startup) {
     return nullptr;
@@ -314,11 +323,12 @@ Json estimates(const TracedSystem& system) {
   return list;
 }
 
-// starts, startup, calls, actions, state_memory, callback_memory, cost, absences, overwritten, others.
+// starts, startup, launcher_events, calls, actions, state_memory, callback_memory, cost, absences, overwritten, others.
 Json result_facts(const TracedSystem& system) {
   const ResultFacts facts(system.timeline.begin_ns);
   return {{"starts", starts(system)},
           {"startup", startup(system)},
+          {"launcher_events", launcher_events(system)},
           {"calls", facts.of(system.results.ros2.calls)},
           {"actions", facts.of(system.results.ros2.actions)},
           {"state_memory", state_memory(system)},

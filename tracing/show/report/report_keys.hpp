@@ -14,7 +14,7 @@ namespace tracing {
 // Calls visit(key, value) for each key. docs/report_format.md says what they mean.
 template <class Visit>
 void visit_report(const Report& report, Visit& visit) {
-  const auto& [overview, starts, startup, ros2, warnings] = report.results;
+  const auto& [overview, starts, startup, launcher_events, ros2, warnings] = report.results;
   std::vector<std::string> open;
   for (const std::filesystem::path& directory : report.open) {
     open.push_back(directory.native());
@@ -29,6 +29,7 @@ void visit_report(const Report& report, Visit& visit) {
   visit("others", report.others);
   visit("starts", starts);
   visit("startup", startup);
+  visit("launcher_events", launcher_events);
   visit("cost", report.verdict);
   visit("losses", overview.losses);
   visit("absent", report.verdict.absences);

@@ -18,6 +18,10 @@ std::string service_table(const TraceResults& results, const ReportOptions& opti
 std::string action_table(const TraceResults& results, const ReportOptions& options);
 std::string lifecycle_table(const TraceResults& results, const ReportOptions& options);
 
+// What the launcher saw and did while the system ran, in the order of time, which counts from `zero_ns`.
+std::string launcher_section(const std::vector<LauncherEventResult>& all, std::int64_t zero_ns,
+                             const ReportOptions& options);
+
 // Whether the options leave the chain in the report.
 bool is_chosen(const ChainResult& chain, const ReportOptions& options);
 

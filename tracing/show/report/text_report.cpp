@@ -154,7 +154,8 @@ std::string text_report(const Report& of, const ReportOptions& options) {
     return text + chain_table(results, all) + chosen_chains(results, options);
   }
   if (options.node.empty() && options.topic.empty()) {
-    text += finding_section(report, options);
+    text += finding_section(report, options) +
+            launcher_section(results.launcher_events, results.overview.begin_ns.value_or(0), options);
   }
   text += chain_table(results, options) + callback_table(results, options) + topic_table(results.ros2, options) +
           executor_table(results, options) + service_table(results, options) + action_table(results, options) +

@@ -141,6 +141,9 @@ void add_trace_tables(const TracedSystem& system, std::vector<Table>& tables) {
                                 system.verdict.processes));
   tables.push_back(result_table("starts", "processes that the launcher started, when its events are in the trace",
                                 system, system.results.starts));
+  tables.push_back(result_table("launcher_events",
+                                "what the launcher saw and did while the system ran, when its events are in the trace",
+                                system, system.results.launcher_events));
   tables.push_back(host_table(system));
 }
 

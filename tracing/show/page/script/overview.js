@@ -52,6 +52,7 @@ function overviewView(data) {
       element('ul', {class: 'findings'}, ...found.map(finding => element('li', {}, element('button', {onclick: () => openFinding(finding)},
         element('span', {class: 'what'}, finding.title), element('span', {class: 'subject'}, finding.subject), element('span', {}, finding.figures)),
       finding.next ? element('p', {class: 'next'}, `next: ${finding.next}`) : null)))),
+    launcherEventPanel(data),
     panel('Trace', element('div', {class: 'facts'}, element('dl', {}, ...[
       ['Directory', data.directory],
       ['Begin', new Date(data.begin_ms).toISOString().replace('T', ' ').replace('Z', ' UTC')],

@@ -225,9 +225,10 @@ function listenToPointer(chart) {
     }
     const instance = chart.instanceAt(event.offsetX, event.offsetY);
     const state = chart.stateAt(event.offsetX, event.offsetY, instance);
-    tip.hidden = instance < 0 && state < 0;
+    const ofLauncher = launcherEventAt(chart, event.offsetX);
+    tip.hidden = instance < 0 && state < 0 && !ofLauncher;
     if (tip.hidden) return;
-    tip.textContent = [instance < 0 ? null : instanceText(data, instance), state < 0 ? null : `here: ${stateText(data, state)}`].filter(Boolean).join('\n');
+    tip.textContent = [ofLauncher ? launcherEventText(ofLauncher) : null, instance < 0 ? null : instanceText(data, instance), state < 0 ? null : `here: ${stateText(data, state)}`].filter(Boolean).join('\n');
     tip.style.left = `${Math.max(0, Math.min(event.offsetX + 14, chart.width - tip.offsetWidth - 4))}px`;
     tip.style.top = `${event.offsetY + 16}px`;
   });

@@ -29,6 +29,7 @@ function drawTimeChart(context, chart) {
   chart.arrowsHidden = drawArrows(context, chart, style);
   drawFlow(context, chart, style);
   context.restore();
+  drawLauncherEvents(context, chart, style);
 }
 
 function rowTop(chart, i) {

@@ -41,6 +41,7 @@ class Run:
     event_counts = _TableOf()
     tracing_cost = _TableOf()
     starts = _TableOf()
+    launcher_events = _TableOf()
     hosts = _TableOf()
     processes = _TableOf()
     threads = _TableOf()
