@@ -189,7 +189,7 @@ std::vector<Lone> lone_subjects(const Runs& side, const Runs& other) {
 void find_changed_steps(std::vector<Change>& changes, const Runs& before) {
   std::map<std::string, bool> slower;  // callbacks whose durations have changed
   for (const Change& change : changes) {
-    if (change.kind == Kind::kCallback && change.quantity == kDuration) {
+    if (change.kind == Kind::kCallback && change.quantity.starts_with(kDuration)) {
       slower[change.subject] = change.is_slower();
     }
   }
@@ -274,7 +274,8 @@ Comparison compare(const Runs& before, const Runs& after, const CompareOptions& 
   likely = corrected_for_many(likely);
   const auto change = [&](std::size_t test, double probability) {
     Change one = change_of(tests[test], probability, options);
-    if (one.kind == Kind::kCallback && one.quantity == kDuration) {
+    // Of two works, only the running times are known apart.
+    if (one.kind == Kind::kCallback && one.quantity == kDuration && !of_two_works.contains(one.subject)) {
       one.cause = cause_of(one.subject, one.is_slower(), before, after);
     }
     return one;

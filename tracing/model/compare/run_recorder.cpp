@@ -41,15 +41,16 @@ class Writer {
     return &run_.measurements.back();
   }
   // Those that sent messages and those that sent nothing.
+  // `knows_sent`: false if its process has sent nothing at all, or the trace has no events of that.
   void add_parts(const std::string& callback, const char* quantity, const std::array<KeptSamples, 2>& parts,
-                 bool doubtful) {
+                 bool doubtful, bool knows_sent) {
     const auto& [silent, sending] = parts;
     if (Measurement* const part = add(Kind::kCallback, callback, quantity, sending, doubtful)) {
       part->sends = true;
     }
     const std::string other = std::string(quantity) + (sending.count() > 0 ? kWithoutSending : "");
     if (Measurement* const part = add(Kind::kCallback, callback, other, silent, doubtful)) {
-      part->sends = false;
+      part->sends = knows_sent ? std::optional(false) : std::nullopt;
     }
   }
 
@@ -88,7 +89,7 @@ bool RunRecorder::has_sent(const CallbackInstance& instance) {
     return false;
   }
   const bool sends = ended->sends;
-  active->erase(std::next(ended).base(), active->end());
+  active->erase(std::next(ended).base());
   return sends;
 }
 
@@ -100,7 +101,10 @@ void RunRecorder::on_publication(const Publication& publication) {
   }
   // What a callback logs is no other work.
   const std::string& topic = objects_->topics()[publication.topic].name;
-  active->back().sends = active->back().sends || (topic != "/rosout" && topic != "/parameter_events");
+  if (topic != "/rosout" && topic != "/parameter_events") {
+    active->back().sends = true;
+    senders_.insert(publication.thread.process);
+  }
 }
 
 void RunRecorder::on_callback(const CallbackInstance& instance) {
@@ -165,9 +169,10 @@ RunSummary RunRecorder::finish(const TraceAnalysis& analysis, const TraceResults
   Writer writer(analysis, results, run);
   for (ObjectId id = 0; id < callbacks_.size(); ++id) {
     const bool doubtful = writer.is_doubtful(objects.callbacks()[id].process);
-    writer.add_parts(names.callback(id), kDuration, callbacks_[id].durations, doubtful);
+    const bool knows_sent = senders_.contains(objects.callbacks()[id].process);
+    writer.add_parts(names.callback(id), kDuration, callbacks_[id].durations, doubtful, knows_sent);
     writer.add(Kind::kCallback, names.callback(id), "interval", callbacks_[id].intervals, doubtful);
-    writer.add_parts(names.callback(id), kRunning, callbacks_[id].running, doubtful);
+    writer.add_parts(names.callback(id), kRunning, callbacks_[id].running, doubtful, knows_sent);
     writer.add(Kind::kCallback, names.callback(id), kWaiting, callbacks_[id].waiting, doubtful);
     writer.add(Kind::kCallback, names.callback(id), kBlocked, callbacks_[id].blocked, doubtful);
   }

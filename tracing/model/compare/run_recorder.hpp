@@ -14,6 +14,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -74,6 +75,7 @@ class RunRecorder : public ExecutionSink {
   // Whether a message on the path waits in a node for a timer, or for other messages.
   bool waits(PathId path) const;
 
+  std::set<ProcessId> senders_;
   ThreadMap<std::vector<Active>> active_;  // innermost last
   const ObjectModel* objects_ = nullptr;
   std::vector<Callback> callbacks_;                             // by ObjectId

@@ -40,7 +40,7 @@ struct Measurement {
   bool estimated = false;
   // Of the durations of a callback: whether it sent messages in these runs of it. What it does then is other work: a
   // fusion sends when the last of its inputs comes, and which one that is differs from run to run. Nullopt: of all runs
-  // of it, in baselines of former releases.
+  // of it, in baselines of former releases and where its process sends nothing.
   std::optional<bool> sends = std::nullopt;
   // Of a chain: somewhere a message waits in a node for a timer or for other messages.
   bool waits = false;
