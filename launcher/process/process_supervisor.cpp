@@ -82,17 +82,21 @@ void Supervision::observe_lines() {
 }
 
 void Supervision::change_scheduling(Supervised& process, const ResourceLimits& wanted) {
-  if (process.unreaped && !process.exited) {
-    const std::optional<SchedulingFailure> failure =
-        runner.change_scheduling(process.process, wanted, process.scheduling);
-    notify(process, SchedulingChanged{describe(wanted), failure ? failure_text(*failure, wanted) : ""});
+  if (!process.unreaped || process.exited) {
+    notify(process, SchedulingChanged{describe(wanted), "it does not run now"});
+    return;
   }
+  const std::optional<SchedulingFailure> failure =
+      runner.change_scheduling(process.process, wanted, process.scheduling);
+  notify(process, SchedulingChanged{describe(wanted), failure ? failure_text(*failure, wanted) : ""});
 }
 
 void Supervision::restore_scheduling(Supervised& process) {
   if (process.unreaped && !process.exited && !process.scheduling.threads.empty()) {
     const std::optional<SchedulingFailure> failure = runner.restore_scheduling(process.process, process.scheduling);
-    process.scheduling = {};
+    if (!failure) {
+      process.scheduling = {};
+    }
     notify(process, SchedulingChanged{{}, failure ? failure_text(*failure, {}) : ""});
   }
 }

@@ -129,10 +129,69 @@ TEST_F(SchedulingOfThreads, WhatTheKernelRefusesChangesNothing) {
   EXPECT_EQ(failure_text(*failure, wanted), "cannot set the scheduling policy 77 with priority 0: Invalid argument");
 }
 
+// What a thread has set itself, or what was never changed, stays.
+TEST_F(SchedulingOfThreads, OnlyWhatWasChangedIsGivenBack) {
+  cpu_set_t one;
+  CPU_ZERO(&one);
+  CPU_SET(static_cast<std::size_t>(allowed_cpus().back()), &one);
+  ResourceLimits wanted;
+  wanted.policy = SCHED_BATCH;
+  EXPECT_FALSE(change_scheduling(own_, wanted, before_).has_value());
+  ASSERT_EQ(::sched_setaffinity(other_, sizeof one, &one), 0);
+  std::atomic<pid_t> later = 0;
+  std::jthread idle([&](const std::stop_token& stop) {
+    constexpr sched_param kNone{};
+    ::sched_setscheduler(0, SCHED_IDLE, &kNone);
+    later = ::gettid();
+    while (!stop.stop_requested()) {
+      std::this_thread::yield();
+    }
+  });
+  while (later == 0) {
+    std::this_thread::yield();
+  }
+  EXPECT_FALSE(restore_scheduling(own_, before_).has_value());
+  EXPECT_EQ(::sched_getscheduler(::getpid()), SCHED_OTHER);
+  EXPECT_EQ(::sched_getscheduler(other_), SCHED_OTHER);
+  EXPECT_EQ(::sched_getscheduler(later), SCHED_IDLE);
+  cpu_set_t now;
+  ::sched_getaffinity(other_, sizeof now, &now);
+  EXPECT_TRUE(CPU_EQUAL(&now, &one));
+}
+
+// A thread that is not changed because it was not there is not in `before` with values that a changed one has given it.
+TEST_F(SchedulingOfThreads, ThreadsAreThoseOfTheFirstChange) {
+  const int niceness = niceness_of(::getpid());
+  EXPECT_FALSE(change_scheduling(own_, nice(niceness + 1), before_).has_value());
+  std::atomic<bool> done = false;
+  std::jthread later([&] { done.wait(false); });
+  EXPECT_FALSE(change_scheduling(own_, nice(niceness + 2), before_).has_value());
+  EXPECT_EQ(before_.threads.size(), 2u);
+  done = true;
+  done.notify_one();
+}
+
+// Without the capability a niceness can't be lowered again: what is refused is tried before.
+TEST_F(SchedulingOfThreads, TheNicenessIsNotChangedIfThePolicyIsRefused) {
+  const int niceness = niceness_of(::getpid());
+  ResourceLimits wanted = nice(niceness + 2);
+  wanted.policy = 77;
+  const std::optional<SchedulingFailure> failure = change_scheduling(own_, wanted, before_);
+  ASSERT_TRUE(failure.has_value());
+  EXPECT_FALSE(failure->leaves_changes);
+  EXPECT_EQ(niceness_of(::getpid()), niceness);
+}
+
 TEST(SchedulingFailures, SayWhatCannotBeDone) {
   EXPECT_EQ(failure_text({0, ENOTSUP}, {}), "it runs on another machine, where this can't be done yet");
   EXPECT_EQ(failure_text({0, EPERM}, {}),
             "not every thread gets back what it had (that needs the capability CAP_SYS_NICE): Operation not permitted");
+  EXPECT_EQ(failure_text({0, EINVAL}, {}), "not every thread gets back what it had: Invalid argument");
+  ResourceLimits wanted;
+  wanted.policy = 77;
+  EXPECT_EQ(failure_text({kStepPolicy, EINVAL, true}, wanted),
+            "cannot set the scheduling policy 77 with priority 0: Invalid argument; some threads stay changed, because "
+            "giving back what they had needs the capability CAP_SYS_NICE");
 }
 
 TEST(SchedulingOfAProcess, HoldsForItsDescendants) {
