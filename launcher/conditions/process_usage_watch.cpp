@@ -40,7 +40,7 @@ void ProcessUsageWatch::look_later(tracing::ConditionId id) {
 void ProcessUsageWatch::look(tracing::ConditionId id, Rule& rule) {
   const Duration now = loop_.now();
   const std::vector<Running> running = sources_.find(rule.condition.name);
-  std::map<pid_t, std::deque<Sample>> samples;
+  std::map<pid_t, History> processes;
   std::vector<pid_t> bad;
   tracing::ConditionChange change;
   for (const Running& process : running) {
@@ -48,7 +48,14 @@ void ProcessUsageWatch::look(tracing::ConditionId id, Rule& rule) {
     if (!usage) {
       continue;
     }
-    std::deque<Sample>& own = samples[process.pid] = std::move(rule.samples[process.pid]);
+    const auto known = rule.processes.find(process.pid);
+    History& history = processes[process.pid] = known == rule.processes.end() ? History{now} : std::move(known->second);
+    std::deque<Sample>& own = history.samples;
+    // What a process has got in its first window is its start, not its growth.
+    const bool starts = rule.condition.kind == Kind::kGrowth && now - history.since < rule.condition.window;
+    if (starts) {
+      own.clear();
+    }
     own.push_back({now, *usage});
     while (own.size() > 1 && own[1].time <= now - rule.condition.window) {
       own.pop_front();
@@ -63,11 +70,11 @@ void ProcessUsageWatch::look(tracing::ConditionId id, Rule& rule) {
       change.figure = std::max(change.figure, figure->value);
     }
   }
-  rule.samples = std::move(samples);
+  rule.processes = std::move(processes);
   rule.was_seen |= !running.empty();
   tell_unseen(id, rule);
   const bool has_ended =
-      std::none_of(rule.bad.begin(), rule.bad.end(), [&](pid_t pid) { return rule.samples.contains(pid); });
+      std::none_of(rule.bad.begin(), rule.bad.end(), [&](pid_t pid) { return rule.processes.contains(pid); });
   const bool is_over = bad.empty() && rule.holds && (has_ended || now - rule.last_bad >= rule.condition.window);
   if (!bad.empty()) {
     rule.bad = std::move(bad);

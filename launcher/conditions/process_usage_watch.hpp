@@ -45,10 +45,14 @@ class ProcessUsageWatch final : public ConditionWatch {
     Duration time;
     ProcessUsage usage;
   };
+  struct History {
+    Duration since{0};                // the first look at the process
+    std::deque<Sample> samples = {};  // of the window, and the last one before it
+  };
   struct Rule {
     tracing::LiveCondition condition;
     Duration begin{0};
-    std::map<pid_t, std::deque<Sample>> samples = {};  // of the window, and the last one before it
+    std::map<pid_t, History> processes = {};
     bool was_seen = false;
     bool told_unseen = false;
     bool holds = false;

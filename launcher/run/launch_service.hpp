@@ -90,7 +90,10 @@ class LaunchService {
 
   // Called before the system stops by Ctrl-Z and after it goes on.
   void observe_suspension(std::function<void(bool stops)> observer) {
-    signals_.observe_suspension(std::move(observer));
+    signals_.observe_suspension([this, observer = std::move(observer)](bool stops) {
+      handlers_.suspend(stops);
+      observer(stops);
+    });
   }
 
   // Called once, when the launch begins to end.

@@ -54,10 +54,14 @@ std::vector<std::string> events_of_conditions(const std::set<std::string>& needs
                                      "ros2:callback_start",
                                      "ros2:callback_end",
                                      "ros2_ext:*_client_callback_*"};
-  if (needs.contains("messages")) {
+  if (needs.contains("messages") || needs.contains("losses")) {
     events.insert(events.end(),
                   {"ros2:rmw_take", "ros2:rclcpp_construct_ring_buffer", "ros2:rclcpp_buffer_to_ipb",
                    "ros2:rclcpp_ipb_to_subscription", "ros2:rclcpp_ring_buffer_*", "ros2:message_link_*"});
+  }
+  if (needs.contains("losses")) {
+    // Whether a message was for a callback, and which messages a subscription does not want.
+    events.insert(events.end(), {"ros2:rclcpp_executor_*", "ros2_ext:rmw_*_qos"});
   }
   if (needs.contains("calls")) {
     events.insert(events.end(), {"ros2:rmw_send_request", "ros2:rmw_take_request", "ros2:rmw_send_response",

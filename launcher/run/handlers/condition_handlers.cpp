@@ -75,7 +75,7 @@ void ConditionHandlers::add(EventHandler handler) {
   }
   const auto added = std::make_shared<const EventHandler>(std::move(handler));
   const tracing::ConditionId id = ++last_id_;
-  handlers_.emplace(id, Watched{added, std::nullopt, nullptr});
+  handlers_.emplace(id, Watched{.handler = added});
   watch_of(*added).watch(id, condition_of(*added).condition);
 }
 
@@ -107,7 +107,11 @@ void ConditionHandlers::shutdown() {
 
 void ConditionHandlers::on_report(const tracing::ConditionReport& report) {
   std::visit(Overloaded{
-                 [this](const tracing::NodesAreRecorded&) { recorded_ = true; },
+                 [this](const tracing::NodesAreRecorded&) {
+                   if (std::exchange(recorded_, true)) {
+                     begin_anew();  // another program of the watch
+                   }
+                 },
                  [this](const tracing::ConditionChanged& changed) { on_change(changed.id, changed.change); },
                  [this](const tracing::NameNotSeen& unseen) { on_unseen(unseen); },
                  [this](const tracing::RecordingIsBehind& behind) {
@@ -123,6 +127,37 @@ void ConditionHandlers::on_report(const tracing::ConditionReport& report) {
              report);
 }
 
+void ConditionHandlers::begin_anew() {
+  constexpr std::chrono::seconds kStart{5};
+  for (auto& [id, watched] : handlers_) {
+    const tracing::LiveCondition& condition = condition_of(*watched.handler).condition;
+    if (is_of_process(condition) || !watched.holds) {
+      continue;
+    }
+    watched.holds = false;
+    watched.goes_on_until = loop_.now() + 2 * condition.window + kStart;
+    watched.owes_visit = watched.later != nullptr;
+    watched.later.reset();
+  }
+}
+
+void ConditionHandlers::suspend(bool stops) {
+  for (const auto& [id, watched] : handlers_) {
+    const tracing::LiveCondition& condition = condition_of(*watched.handler).condition;
+    if (is_of_process(condition)) {
+      continue;
+    }
+    if (stops) {
+      recorded_watch_->forget(id);
+    } else {
+      recorded_watch_->watch(id, condition);
+    }
+  }
+  if (!stops) {
+    begin_anew();
+  }
+}
+
 void ConditionHandlers::on_change(tracing::ConditionId id, const tracing::ConditionChange& change) {
   const auto found = handlers_.find(id);
   if (found == handlers_.end()) {
@@ -130,6 +165,15 @@ void ConditionHandlers::on_change(tracing::ConditionId id, const tracing::Condit
   }
   Watched& watched = found->second;
   const std::shared_ptr<const EventHandler> handler = watched.handler;
+  const Duration now = loop_.now();
+  if (change.holds && watched.holds) {
+    return;
+  }
+  watched.holds = change.holds;
+  const std::optional<Duration> goes_on_until = std::exchange(watched.goes_on_until, std::nullopt);
+  if (change.holds && goes_on_until && now < *goes_on_until && !std::exchange(watched.owes_visit, false)) {
+    return;  // it was visited for that
+  }
   const OnCondition& wanted = condition_of(*handler);
   const std::string of =
       change.processes.empty() ? std::string() : fmt::format(" ({})", fmt::join(change.processes, ", "));
@@ -140,7 +184,6 @@ void ConditionHandlers::on_change(tracing::ConditionId id, const tracing::Condit
   if (!change.holds) {
     return;
   }
-  const Duration now = loop_.now();
   if (watched.visited && now - *watched.visited < wanted.cool_down) {
     watched.later = loop_.after(*watched.visited + wanted.cool_down - now, [this, id, change] { visit(id, change); });
     return;

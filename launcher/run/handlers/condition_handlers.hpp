@@ -46,6 +46,8 @@ class ConditionHandlers {
   // Forgets the handlers of that name; false when there is none.
   bool remove(const std::string& name);
   void clear();
+  // Before the system stops, and after it goes on: what nodes do not do meanwhile is no fault of theirs.
+  void suspend(bool stops);
   // Ends the watch for good.
   void shutdown();
 
@@ -54,10 +56,16 @@ class ConditionHandlers {
     std::shared_ptr<const EventHandler> handler;
     std::optional<Duration> visited;  // when, the last time
     EventLoop::SourcePtr later;       // visits it after its cool_down, if the condition holds then
+    bool holds = false;
+    // The watch counts anew. If it says until then that the condition holds, it has held all the time.
+    std::optional<Duration> goes_on_until = std::nullopt;
+    bool owes_visit = false;  // which its cool_down has put off
   };
 
   ConditionWatch& watch_of(const EventHandler& handler) const;
   void on_report(const tracing::ConditionReport& report);
+  // Of what is recorded: the watch counts anew, and says nothing of what has ceased to hold meanwhile.
+  void begin_anew();
   void on_change(tracing::ConditionId id, const tracing::ConditionChange& change);
   void on_unseen(const tracing::NameNotSeen& unseen);
   void on_failure(const tracing::WatchFailed& failed);

@@ -51,6 +51,9 @@ class Handlers {
   // Ends all watches outside the launch. Returns the handlers of the shutdown, which are not in the queue.
   std::vector<Invocation> shutdown(const std::string& reason);
 
+  // As ConditionHandlers::suspend().
+  void suspend(bool stops) { live_.suspend(stops); }
+
   bool has_on_shutdown() const { return events_.has_on_shutdown(); }
   // Whether some handler wants lines.
   bool watch_output() const { return events_.watch_output(); }

@@ -117,7 +117,7 @@ TEST(Conditions, SayWhatMustBeRecordedForThem) {
   EXPECT_EQ(needs_of(kLateAction), "calls");
   EXPECT_EQ(needs_of(kLateTimer), "");
   EXPECT_EQ(needs_of(kLateChain), "messages");
-  EXPECT_EQ(needs_of(kLoss), "messages");
+  EXPECT_EQ(needs_of(kLoss), "losses");
 }
 
 TEST(ChainsOfConditions, AreNodesWithArrowsBetweenThem) {

@@ -113,6 +113,17 @@ TEST_F(ProcessUsageWatchTest, MemoryGrowsFromTheLeastInTheWindow) {
   EXPECT_THAT(run_for(70s), ElementsAre("45 holds 1.468e+07 mapper-1", "64 is over 0 mapper-1"));
 }
 
+// It loads its map: what it has after its first window is what growth counts from.
+TEST_F(ProcessUsageWatchTest, TheStartOfAProcessIsNoGrowth) {
+  watch_.watch(1, condition(Kind::kGrowth, 10 * kMib, 10s));
+  at(0s, 1, 20 * kMib);
+  at(2s, 1, 200 * kMib);
+  at(9s, 1, 300 * kMib);
+  at(13s, 1, 309 * kMib);
+  at(15s, 1, 311 * kMib);
+  EXPECT_THAT(run_for(16s), ElementsAre("15 holds 1.153e+07 mapper-1"));
+}
+
 TEST_F(ProcessUsageWatchTest, TheShareOfAProcessorIsThatOfTheWindow) {
   watch_.watch(1, condition(Kind::kProcessor, 0.9, 2s));
   at(0s, 1, 0, 0.1);

@@ -165,6 +165,88 @@ TEST_F(LateConditionsTest, ATimerWhoseCallsAreAllLaterIsDueLater) {
   EXPECT_THAT(told_until(9000), ElementsAre("1 holds 0.050 talker-1", "1 is over 0.000 talker-1"));
 }
 
+// It has to wait for others, now longer and now shorter.
+TEST_F(LateConditionsTest, ATimerThatIsAlwaysLateStaysLate) {
+  conditions_.watch(1, late(Subject::kTimer, "/talker", 20ms));
+  make(0);
+  publish_each(100, 100, 500);
+  for (std::int64_t period = 6; period <= 60; ++period) {
+    publish(period * 100 + 25 + 15 * (period % 2));
+  }
+  EXPECT_THAT(told_until(6050), ElementsAre("1 holds 0.025 talker-1"));
+}
+
+// A subscription that is transient local gets what was sent before it was there.
+TEST_F(LateConditionsTest, AMessageThatIsOlderThanItsSubscriptionIsNotLate) {
+  conditions_.watch(1, late(Subject::kTopic, "/chatter", 20ms));
+  conditions_.watch(2, late(Subject::kChain, "/talker -> /listener", 20ms));
+  make(0);
+  publish(100);
+  make_listener(5000);
+  hear(100, 4910);
+  publish(6000);
+  hear(6000, 25);
+  EXPECT_THAT(told_until(6100), ElementsAre("1 holds 0.025 talker-3", "2 holds 0.026 talker-1 talker-3"));
+}
+
+// The late ones of the process before do not count for the next one.
+TEST_F(LateConditionsTest, AShareBeginsAnewWithTheNextProcess) {
+  conditions_.watch(1, late(Subject::kNode, "/talker", 20ms, 0.5));
+  constexpr testing::Thread kNext{102, 102, "talker"};
+  const auto run = [&](std::int64_t time, std::int64_t takes, const testing::Thread& who) {
+    write(time, who, ros2::CallbackStart{0x31, false});
+    write(time + takes, who, ros2::CallbackEnd{0x31});
+  };
+  make(0);
+  for (const std::int64_t time : {100, 200, 300}) {
+    run(time, 30, kTalker);
+  }
+  launch_.ended = {kTalker.vpid};
+  make(500, kNext);
+  run(510, 1, kNext);
+  run(520, 1, kNext);
+  run(530, 30, kNext);
+  EXPECT_THAT(told_until(600), ElementsAre("1 holds 0.030 talker-1", "1 is over 0.000 talker-2"));
+}
+
+// Programs declare links once.
+TEST_F(LateConditionsTest, LinksOfMessagesHoldForAChainThatIsWatchedLater) {
+  make(0);
+  make_listener(0);
+  write(0, kListener, ros2::RmwPublisherInit{0x90, {}});
+  write(0, kListener, ros2::RclPublisherInit{0x91, 0x50, 0x90, "/merged", 10});
+  write(0, kListener, ros2::MessageLinkPartialSync{{0x61}, {0x91}});
+  write(10, kTalker, ros2::RmwSubscriptionInit{0xa0, {}});
+  write(10, kTalker, ros2::RclSubscriptionInit{0xa1, 0x10, 0xa0, "/merged", 10});
+  write(10, kTalker, ros2::RclcppSubscriptionInit{0xa1, 0xa2});
+  write(10, kTalker, ros2::RclcppSubscriptionCallbackAdded{0xa2, 0xa3});
+  publish(100);
+  hear(100, 5);
+  write(200, kListener, ros2::RmwPublish{0x90, 0x44, kBegin + 200 * kMs});
+  write(201, kTalker, ros2::RmwTake{0xa0, 0x44, kBegin + 200 * kMs, true});
+  write(201, kTalker, ros2::CallbackStart{0xa3, false});
+  write(202, kTalker, ros2::CallbackEnd{0xa3});
+  writer_.finish();
+  class WatchAt final : public TraceSink {
+   public:
+    WatchAt(LiveConditions& to, LiveCondition condition) : to_(to), condition_(std::move(condition)) {}
+    void on_event(const Event& event) override {
+      if (event.timestamp_ns >= kBegin + 50 * kMs && std::exchange(waits_, false)) {
+        to_.watch(1, condition_);
+      }
+      to_.on_event(event);
+    }
+    void on_loss(const Loss& loss) override { to_.on_loss(loss); }
+
+   private:
+    LiveConditions& to_;
+    LiveCondition condition_;
+    bool waits_ = true;
+  } sink(conditions_, late(Subject::kChain, "/talker -> /listener -> /talker", 20ms));
+  TraceReader(directory_.path()).read(sink);
+  EXPECT_THAT(told_, ElementsAre("1 holds 0.102 talker-1 talker-3"));
+}
+
 TEST_F(LateConditionsTest, TheWayThroughAChainIsLate) {
   conditions_.watch(1, late(Subject::kChain, "/talker -> /lis*", 20ms));
   conditions_.watch(2, late(Subject::kChain, "/listener -> /talker", 1ms));

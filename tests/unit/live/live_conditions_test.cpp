@@ -69,6 +69,30 @@ TEST_F(LiveConditionsTest, ANodeThatHasEndedDoesNotHangButItsTopicIsSilent) {
   EXPECT_THAT(told_until(2000), ElementsAre("1 holds 1.500 talker-1"));
 }
 
+// Whoever waits for a visit after a cool_down must not get one for it.
+TEST_F(LiveConditionsTest, TheSilenceOfANodeIsOverWhenItsProcessEnds) {
+  conditions_.watch(2, kSilentNode);
+  make(0);
+  publish(500);
+  EXPECT_THAT(told_until(2000), ElementsAre("2 holds 1.500 talker-1"));
+  launch_.ended = {kTalker.vpid};
+  conditions_.advance(kBegin + 2500 * kMs);
+  conditions_.advance(kBegin + 9000 * kMs);
+  EXPECT_THAT(told_, ElementsAre("2 holds 1.500 talker-1", "2 is over 2.000 talker-1"));
+}
+
+// With subscriptions in its process and in others.
+TEST_F(LiveConditionsTest, AMessageThatGoesBothWaysCountsOnce) {
+  conditions_.watch(1, rate(std::nullopt, 15));
+  conditions_.watch(2, rate(8, std::nullopt));
+  make(0);
+  for (std::int64_t time = 100; time <= 5000; time += 100) {
+    write(time, kTalker, ros2::RclcppIntraPublish{0x21, 0x40});
+    publish(time);
+  }
+  EXPECT_THAT(told_until(5000), IsEmpty());
+}
+
 TEST_F(LiveConditionsTest, TheNextProcessOfTheNameBeginsAnew) {
   conditions_.watch(1, kSilentTopic);
   conditions_.watch(2, kSilentNode);

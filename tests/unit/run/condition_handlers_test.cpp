@@ -55,6 +55,62 @@ class ConditionHandlersTest : public LaunchServiceTest {
   std::vector<EventLoop::SourcePtr> timers_;
 };
 
+constexpr const char* kOneCondition =
+    R"xml(<scope name="trace"/><executable cmd="talker"/>
+<on_silence topic="/chatter" for="2s"><log message="visited"/></on_silence>)xml";
+
+TEST_F(ConditionHandlersTest, AreNotVisitedAgainWhenAnotherProgramSaysThatAConditionHolds) {
+  tell_at(1s, tracing::NodesAreRecorded{});
+  holds_at(5s);
+  holds_at(6s);
+  tell_at(7s, tracing::NodesAreRecorded{});
+  holds_at(10s);  // within twice its window and 5 s
+  is_over_at(12s);
+  holds_at(13s);
+  EXPECT_EQ(run(kOneCondition), 0);
+  EXPECT_THAT(messages_,
+              ElementsAre("[launch.condition] no message on /chatter for 2.03 s (talker-1)", "[launch.user] visited",
+                          "[launch.condition] the silence of /chatter is over after 3.4 s (talker-1)",
+                          "[launch.condition] no message on /chatter for 2.03 s (talker-1)", "[launch.user] visited"));
+}
+
+TEST_F(ConditionHandlersTest, AConditionThatAnotherProgramFindsLaterHasBegunAgain) {
+  tell_at(1s, tracing::NodesAreRecorded{});
+  holds_at(5s);
+  tell_at(7s, tracing::NodesAreRecorded{});
+  holds_at(17s);
+  EXPECT_EQ(run(kOneCondition), 0);
+  EXPECT_THAT(messages_,
+              ElementsAre("[launch.condition] no message on /chatter for 2.03 s (talker-1)", "[launch.user] visited",
+                          "[launch.condition] no message on /chatter for 2.03 s (talker-1)", "[launch.user] visited"));
+}
+
+// What was put off is visited when it still holds, and not before that is known.
+TEST_F(ConditionHandlersTest, AVisitThatACoolDownHasPutOffWaitsForTheOtherProgram) {
+  tell_at(1s, tracing::NodesAreRecorded{});
+  holds_at(5s);
+  is_over_at(6s);
+  holds_at(7s, 1);
+  tell_at(8s, tracing::NodesAreRecorded{});
+  holds_at(12s, 1);
+  EXPECT_EQ(run(R"xml(<scope name="trace"/><executable cmd="talker"/>
+<on_silence topic="/chatter" for="2s" cool_down="10s"><log message="visited"/></on_silence>)xml"),
+            0);
+  EXPECT_EQ(std::count(messages_.begin(), messages_.end(), "[launch.user] visited"), 2);
+}
+
+TEST_F(ConditionHandlersTest, AVisitThatACoolDownHasPutOffIsLeftOutIfTheOtherProgramDoesNotFindIt) {
+  tell_at(1s, tracing::NodesAreRecorded{});
+  holds_at(5s);
+  is_over_at(6s);
+  holds_at(7s, 1);
+  tell_at(8s, tracing::NodesAreRecorded{});
+  EXPECT_EQ(run(R"xml(<scope name="trace"/><executable cmd="talker"/>
+<on_silence topic="/chatter" for="2s" cool_down="10s"><log message="visited"/></on_silence>)xml"),
+            0);
+  EXPECT_EQ(std::count(messages_.begin(), messages_.end(), "[launch.user] visited"), 1);
+}
+
 TEST_F(ConditionHandlersTest, AreVisitedEachTimeTheConditionBeginsToHold) {
   holds_at(5s);
   is_over_at(6s);

@@ -63,7 +63,7 @@ std::optional<std::chrono::nanoseconds> parse_time_text(const std::string& text)
 std::string needs_of(const LiveCondition& condition) {
   using Subject = LiveCondition::Subject;
   if (condition.kind == LiveCondition::Kind::kLoss) {
-    return "messages";
+    return "losses";
   }
   if (condition.kind != LiveCondition::Kind::kLate) {
     return "";

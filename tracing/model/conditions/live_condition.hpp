@@ -74,7 +74,7 @@ inline bool is_of_process(const LiveCondition& condition) {
 }
 
 // What must be recorded for it beside publications, callbacks and the objects of nodes: nothing, "messages" as they are
-// taken, or "calls" of services.
+// taken, "losses" of messages, or "calls" of services.
 std::string needs_of(const LiveCondition& condition);
 
 // "topic", "node", "service" and so on: the attribute that names the subject.

@@ -11,6 +11,7 @@ namespace {
 using Kind = LiveCondition::Kind;
 using Subject = LiveCondition::Subject;
 
+constexpr std::int64_t kLeastBetweenTrackers = 10'000'000'000;
 constexpr int kCallsToBelieve = 16;  // if all of them are late, the timer is due later than was thought
 
 }  // namespace
@@ -23,19 +24,31 @@ void LiveConditions::on_publication(const Publication& publication) {
   if (chains_ && is_ours(publication.thread.process)) {
     chains_->on_publication(publication);
   }
-  if (publication.publisher < of_publisher_.size()) {
-    for (Rule* const rule : of_publisher_[publication.publisher]) {
+  if (publication.publisher >= of_publisher_.size() || of_publisher_[publication.publisher].empty()) {
+    return;
+  }
+  // A message within the process goes through the middleware, too, if there are subscriptions elsewhere.
+  if (publication.intra_process) {
+    intra_process_.insert(publication.publisher);
+  }
+  const bool is_second_copy = !publication.intra_process && intra_process_.contains(publication.publisher);
+  for (Rule* const rule : of_publisher_[publication.publisher]) {
+    if (rule->condition.kind != Kind::kRate || !is_second_copy) {
       happened(*rule, publication.published_ns);
     }
   }
 }
 
 void LiveConditions::on_message(const MessageFlow& message) {
-  if (chains_ && is_ours(message.taking_thread.process)) {
+  // One that was there before the subscription, as subscriptions that are transient local get it, was not on its way
+  // all the time.
+  const bool is_older = message.publication.published_ns != 0 && message.subscription < subscription_since_.size() &&
+                        message.publication.published_ns < subscription_since_[message.subscription];
+  if (chains_ && is_ours(message.taking_thread.process) && !is_older) {
     chains_->on_message(message);
   }
   count_missed(message);
-  if (message.publication.published_ns == 0 || message.callback_begin_ns == 0 || message.is_estimated ||
+  if (is_older || message.publication.published_ns == 0 || message.callback_begin_ns == 0 || message.is_estimated ||
       message.subscription >= of_subscription_.size()) {
     return;
   }
@@ -128,8 +141,12 @@ void LiveConditions::timer_begins(const CallbackInstance& instance, const std::v
   }
   due.due_ns += (late_ns / period_ns + 1) * period_ns;
   due.least_late_ns = due.calls == 0 ? late_ns : std::min(due.least_late_ns, late_ns);
+  due.most_late_ns = due.calls == 0 ? late_ns : std::max(due.most_late_ns, late_ns);
   if (++due.calls == kCallsToBelieve) {
-    due.due_ns += std::exchange(due.least_late_ns, 0);
+    // A timer that was set anew is late by the same time at each call, one that has to wait is not.
+    if (due.most_late_ns - due.least_late_ns <= due.least_late_ns / 4) {
+      due.due_ns += due.least_late_ns;
+    }
     due.calls = 0;
   }
 }
@@ -255,6 +272,10 @@ void LiveConditions::Parts::step() {
 
 void LiveConditions::advance(std::int64_t until_ns) {
   now_ns_ = std::max(now_ns_, until_ns);
+  // Callbacks of processes that have ended are among those that it knows.
+  if (chains_ && chains_->is_full() && now_ns_ - chains_since_ns_ > kLeastBetweenTrackers) {
+    follow_chains();
+  }
   look_at_running();
   for (auto& [id, rule] : rules_) {
     check(rule, now_ns_);
@@ -266,6 +287,10 @@ void LiveConditions::check(Rule& rule, std::int64_t until_ns) {
     check_window(rule, until_ns);
   } else if (rule.seen_ns && !rule.holds) {
     check_silence(rule, until_ns);
+  } else if (rule.holds && rule.condition.subject == Subject::kNode && !lives(rule)) {
+    // A node that has ended does not hang.
+    change(rule, false, seconds_in(until_ns - rule.since_ns));
+    rule.seen_ns.reset();
   }
 }
 
@@ -300,6 +325,11 @@ void LiveConditions::check_window(Rule& rule, std::int64_t until_ns) {
     }
     parts.step();
   }
+}
+
+// Messages in the window, in Hz.
+double LiveConditions::rate_of(const Rule& rule) {
+  return static_cast<double>(rule.parts.sum) / seconds_in(rule.condition.window.count());
 }
 
 // For a whole window nothing was too late.

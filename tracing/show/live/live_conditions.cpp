@@ -104,6 +104,11 @@ void LiveConditions::follow_chains() {
                                               [this](std::size_t chain, std::int64_t input_ns, std::int64_t output_ns) {
                                                 took(*of_chain_[chain], input_ns, output_ns);
                                               });
+    chains_since_ns_ = now_ns_;
+    // Programs declare these once.
+    for (const auto& [publisher, subscriptions] : analysis_.chains().links()) {
+      chains_->on_message_link({.subscriptions = subscriptions, .publishers = {publisher}});
+    }
   }
 }
 
@@ -156,6 +161,7 @@ ProcessId LiveConditions::process_of(const ClientObject& client) const {
 }
 
 void LiveConditions::find_objects() {
+  subscription_since_.resize(analysis_.objects().subscriptions().size(), now_ns_);
   visit_objects([this](const auto& objects, auto& index, auto is_meant, auto process_of) {
     while (index.size() < objects.size()) {
       const auto& object = objects[index.size()];
@@ -193,11 +199,17 @@ void LiveConditions::see(Rule& rule, ProcessId process) {
   });
   rule.processes.insert(process);
   rule.was_seen = is_whole(rule);
+  const bool begins_anew = rule.holds || !rule.seen_ns || was_alone;
   if (rule.holds) {
-    change(rule, false, rule.condition.kind == Kind::kSilence ? seconds_in(now_ns_ - rule.since_ns) : 0);
+    const Kind kind = rule.condition.kind;
+    change(rule, false,
+           kind == Kind::kSilence ? seconds_in(now_ns_ - rule.since_ns)
+           : kind == Kind::kRate  ? rate_of(rule)
+                                  : 0);
+  }
+  if (begins_anew) {
     rule.seen_ns = now_ns_;
-  } else if (!rule.seen_ns || was_alone) {
-    rule.seen_ns = now_ns_;
+    rule.parts = {};
   }
 }
 

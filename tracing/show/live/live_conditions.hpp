@@ -99,6 +99,7 @@ class LiveConditions : public ExecutionSink, public TraceSink {
   struct Due {
     std::int64_t due_ns = 0;
     std::int64_t least_late_ns = 0;  // of the last calls
+    std::int64_t most_late_ns = 0;
     int calls = 0;
   };
   // What a subscription has missed.
@@ -145,6 +146,7 @@ class LiveConditions : public ExecutionSink, public TraceSink {
   void check_rate_part(Rule& rule, std::int64_t end_ns);
   void check_late_part(Rule& rule, std::int64_t end_ns);
   bool is_late(const Rule& rule) const;
+  static double rate_of(const Rule& rule);
   static double seconds_in(std::int64_t nanoseconds) { return static_cast<double>(nanoseconds) / 1e9; }
   void change(Rule& rule, bool holds, double figure);
   bool lives(const Rule& rule);
@@ -159,13 +161,16 @@ class LiveConditions : public ExecutionSink, public TraceSink {
   std::vector<std::vector<Rule*>> of_subscription_;
   std::vector<std::vector<Rule*>> of_node_;
   std::vector<std::vector<Rule*>> of_client_;
+  std::vector<std::int64_t> subscription_since_;  // by ObjectId: when it was seen first
+  std::set<ObjectId> intra_process_;              // publishers that have sent within their process
   std::vector<Running> running_;
   std::map<ObjectId, Due> due_;        // by callback of a timer
   std::map<ObjectId, Missed> missed_;  // by subscription
   std::unique_ptr<WatchedChains> chains_;
-  std::vector<Rule*> of_chain_;  // by definition of the tracker
-  std::int64_t now_ns_ = 0;      // up to which everything was told
-  std::int64_t doubt_ns_ = 0;    // until then, events may have been lost
+  std::int64_t chains_since_ns_ = 0;  // when the tracker was made
+  std::vector<Rule*> of_chain_;       // by definition of the tracker
+  std::int64_t now_ns_ = 0;           // up to which everything was told
+  std::int64_t doubt_ns_ = 0;         // until then, events may have been lost
 };
 
 }  // namespace tracing
