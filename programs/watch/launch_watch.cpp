@@ -87,8 +87,9 @@ class Watch {
   explicit Watch(bool tells_metrics) : tells_metrics_(tells_metrics) {}
 
   void run() {
-    // The state of lifecycle nodes that are older than the session is no event of ros2.
-    tracing::TracedNodes nodes({.events = {"ros2:*", "ros2_ext:rcl_lifecycle_state"}});
+    // The state of lifecycle nodes that are older than the session is no event of ros2. The launcher tells what it does
+    // if it has a trace of its own.
+    tracing::TracedNodes nodes({.events = {"ros2:*", "ros2_ext:rcl_lifecycle_state", "launch:*"}});
     watch(nodes);
     nodes.end();
     if (tells_metrics_) {

@@ -52,12 +52,15 @@ class Starts:
         self.spawned, self.executed, self.processes, self.first = {}, {}, {}, collections.defaultdict(dict)
         self.node_of_rcl, self.topic_of = {}, {}
         self.zeros = []  # of the monotonic clock, at the earliest
-        self.events = []  # (time of the monotonic clock, kind, subject, what, file, line)
+        self.zeros_of = {}  # of the monotonic clock of each launcher
+        self.events = []  # (launcher, time of its monotonic clock, kind, subject, what, file, line)
 
     def of_launcher(self, time, event, numbers, fields):
         texts = dict(TEXT.findall(fields))
         if numbers.get('time'):
-            self.zeros.append(time - numbers['time'])
+            zero = time - numbers['time']
+            self.zeros.append(zero)
+            self.zeros_of[numbers['vpid']] = min(zero, self.zeros_of.get(numbers['vpid'], zero))
         code = numbers.get('exit_code')
         ended = f'exit code {code}' if code is not None and code >= 0 else code and signal.Signals(-code).name
         subject, what = {'condition': (texts.get('condition'), texts.get('change')), 'scheduling': (texts.get('process'), texts.get('change')),
@@ -65,7 +68,7 @@ class Starts:
                          'exit': (texts.get('process'), ended), 'respawn': (texts.get('process'), ended),
                          'cut': (texts.get('event_class'), texts.get('events'))}.get(event, (None, None))
         if subject is not None:
-            self.events.append((numbers['time'], event, subject, what or None, texts.get('file') or None, numbers.get('line', 0)))
+            self.events.append((numbers['vpid'], numbers['time'], event, subject, what or None, texts.get('file') or None, numbers.get('line', 0)))
         if event == 'spawn':
             self.spawned[texts['file'], numbers['line'], texts['process']] = numbers['time']
         elif event == 'exec':
@@ -92,7 +95,7 @@ class Starts:
                 first.setdefault('publication', time)
 
     def event_rows(self):
-        return [(min(self.zeros) + time, *told) for time, *told in self.events]
+        return [(self.zeros_of[launcher] + time, *told) for launcher, time, *told in self.events]
 
     def rows(self):
         """On a busy machine the launcher may notice the exec after what the process did next, which then took no time."""

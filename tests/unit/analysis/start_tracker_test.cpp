@@ -205,17 +205,17 @@ TEST_F(StartOfProcesses, IsFollowedByWhatTheLauncherSawAndDid) {
 }
 
 TEST(LauncherEvent, IsToldAsASentence) {
-  using Kind = LauncherEventResult::Kind;
-  const auto sentence = [](Kind kind, const char* what) {
+  using Told = LauncherEventResult::Kind;
+  const auto sentence = [](Told kind, const char* what) {
     return LauncherEventResult{.kind = kind, .subject = "talker-1", .what = what}.sentence();
   };
-  EXPECT_EQ(sentence(Kind::kCondition, "as the condition says"), "as the condition says");
-  EXPECT_EQ(sentence(Kind::kScheduling, "nice 5"), "its threads get processors by nice 5");
-  EXPECT_EQ(sentence(Kind::kScheduling, ""), "its threads get processors as before");
-  EXPECT_EQ(sentence(Kind::kSignal, "SIGINT"), "was sent SIGINT");
-  EXPECT_EQ(sentence(Kind::kExit, "SIGSEGV"), "ended, SIGSEGV");
-  EXPECT_EQ(sentence(Kind::kRespawn, "exit code 1"), "ended, exit code 1, and is started again");
-  EXPECT_EQ(sentence(Kind::kCut, "ros2:rmw_take"),
+  EXPECT_EQ(sentence(Told::kCondition, "as the condition says"), "as the condition says");
+  EXPECT_EQ(sentence(Told::kScheduling, "nice 5"), "its threads get processors by nice 5");
+  EXPECT_EQ(sentence(Told::kScheduling, ""), "its threads get processors as before");
+  EXPECT_EQ(sentence(Told::kSignal, "SIGINT"), "was sent SIGINT");
+  EXPECT_EQ(sentence(Told::kExit, "SIGSEGV"), "ended, SIGSEGV");
+  EXPECT_EQ(sentence(Told::kRespawn, "exit code 1"), "ended, exit code 1, and is started again");
+  EXPECT_EQ(sentence(Told::kCut, "ros2:rmw_take"),
             "no longer recorded, because recording cost too much: ros2:rmw_take");
 }
 

@@ -12,12 +12,10 @@ namespace tracing {
 
 namespace {
 
-using Kind = LauncherEventResult::Kind;
-
-std::optional<Kind> kind_of(std::string_view event) {
+std::optional<LauncherEventResult::Kind> kind_of_launcher_event(std::string_view event) {
   for (std::size_t kind = 0; kind < LauncherEventResult::kKinds.size(); ++kind) {
     if (event.starts_with("launch:") && event.substr(7) == LauncherEventResult::kKinds[kind]) {
-      return static_cast<Kind>(kind);
+      return static_cast<LauncherEventResult::Kind>(kind);
     }
   }
   return std::nullopt;
@@ -52,8 +50,12 @@ std::string LauncherEventResult::sentence() const {
   return what;
 }
 
-void LauncherEventList::add(const Event& event, std::int64_t time) {
-  const std::optional<Kind> kind = kind_of(event.name());
+void LauncherEventList::add(const Event& event, std::int64_t time, ProcessId launcher) {
+  const std::int64_t zero_ns = event.timestamp_ns - time;
+  const auto [known, is_new] = zeros_ns_.emplace(launcher, zero_ns);
+  known->second = std::min(known->second, zero_ns);
+  using Kind = LauncherEventResult::Kind;
+  const std::optional<Kind> kind = kind_of_launcher_event(event.name());
   if (!kind) {
     return;
   }
@@ -80,16 +82,17 @@ void LauncherEventList::add(const Event& event, std::int64_t time) {
       result.what = text_of(event, "events");
       break;
   }
-  events_.push_back(std::move(result));
+  events_.push_back({launcher, std::move(result)});
   if (kept_ && events_.size() > 2 * *kept_) {
     events_.erase(events_.begin(), events_.end() - static_cast<std::ptrdiff_t>(*kept_));
   }
 }
 
-std::vector<LauncherEventResult> LauncherEventList::results(std::int64_t zero_ns) const {
-  std::vector<LauncherEventResult> results = events_;
-  for (LauncherEventResult& result : results) {
-    result.time_ns += zero_ns;
+std::vector<LauncherEventResult> LauncherEventList::results() const {
+  std::vector<LauncherEventResult> results;
+  for (const Told& told : events_) {
+    results.push_back(told.event);
+    results.back().time_ns += zeros_ns_.at(told.launcher);
   }
   std::stable_sort(results.begin(), results.end(),
                    [](const LauncherEventResult& a, const LauncherEventResult& b) { return a.time_ns < b.time_ns; });

@@ -103,7 +103,7 @@ void StartTracker::on_launcher_event(const Event& event, ProcessId launcher, Kin
   }
   const std::int64_t zero = event.timestamp_ns - time;
   monotonic_zero_ns_ = std::min(monotonic_zero_ns_.value_or(zero), zero);
-  events_.add(event, time);
+  events_.add(event, time, launcher);
   switch (kind) {
     case Kind::kSpawn:
       spawned_ = text_of(event, "process");
@@ -221,7 +221,7 @@ void StartTracker::finish(const ProcessTable& processes, const std::vector<std::
     condition.held_ns += zero;
   }
   results.startup = critical_start(started, conditions, steps);
-  results.launcher_events = events_.results(zero);
+  results.launcher_events = events_.results();
 }
 
 }  // namespace tracing

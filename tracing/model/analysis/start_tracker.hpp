@@ -39,7 +39,7 @@ class StartTracker {
               const FirstActivity& first, TraceResults& results) const;
   // As of LauncherEventList.
   void keep_last_launcher_events(std::size_t count) { events_.keep_last(count); }
-  std::vector<LauncherEventResult> launcher_events() const { return events_.results(monotonic_zero_ns_.value_or(0)); }
+  std::vector<LauncherEventResult> launcher_events() const { return events_.results(); }
   // When the launcher asked each process to end, or saw that it had ended.
   std::vector<std::pair<ProcessId, std::int64_t>> ends(const ProcessTable& processes) const;
 

@@ -39,9 +39,6 @@ class PerfettoWriter {
     for (const StartResult& start : system_.results.starts) {
       origin_ns_ = std::min(origin_ns_, start.exec_ns);
     }
-    for (const LauncherEventResult& event : system_.results.launcher_events) {
-      origin_ns_ = std::min(origin_ns_, event.time_ns);
-    }
   }
 
   void write() {
@@ -144,7 +141,7 @@ class PerfettoWriter {
   // Over all processes.
   void write_launcher_events() {
     for (const LauncherEventResult& one : system_.results.launcher_events) {
-      if (!one.is_ordinary()) {
+      if (!one.is_ordinary() && one.time_ns >= origin_ns_) {
         event(fmt::format(
             R"("ph":"i","s":"g","cat":"launcher","name":{},"pid":0,"tid":0,"ts":{},"args":{{"kind":"{}","file":{},"line":{}}})",
             json_text(one.subject + ": " + one.sentence()), time(one.time_ns), one.kind_name(), json_text(one.file),

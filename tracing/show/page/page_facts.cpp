@@ -98,10 +98,29 @@ Json starts(const TracedSystem& system) {
   return list;
 }
 
+// Null if the timeline is that of the whole trace.
+Json whole_trace(const TracedSystem& system) {
+  const Timeline& timeline = system.timeline;
+  const std::int64_t begin_ns = system.results.overview.begin_ns.value_or(timeline.begin_ns);
+  const std::int64_t end_ns = system.results.overview.end_ns.value_or(timeline.end_ns);
+  if (begin_ns == timeline.begin_ns && end_ns == timeline.end_ns) {
+    return nullptr;
+  }
+  // What --from and --to count from.
+  const std::int64_t first_ns = system.first_event_ns != 0 ? system.first_event_ns : begin_ns;
+  return {{"begin", begin_ns - timeline.begin_ns},
+          {"end", end_ns - timeline.begin_ns},
+          {"first", first_ns - timeline.begin_ns}};
+}
+
 Json launcher_events(const TracedSystem& system) {
   const ResultFacts facts(system.timeline.begin_ns);
+  const bool is_part = !whole_trace(system).is_null();
   Json list = Json::array();
   for (const LauncherEventResult& event : system.results.launcher_events) {
+    if (is_part && (event.time_ns < system.timeline.begin_ns || event.time_ns > system.timeline.end_ns)) {
+      continue;
+    }
     list.push_back(facts.with({{"sentence", event.sentence()}, {"ordinary", event.is_ordinary()}}, event));
   }
   return list;
@@ -260,21 +279,6 @@ Json folded_processes(const TraceOverview& overview) {
     }
   }
   return list;
-}
-
-// Null if the timeline is that of the whole trace.
-Json whole_trace(const TracedSystem& system) {
-  const Timeline& timeline = system.timeline;
-  const std::int64_t begin_ns = system.results.overview.begin_ns.value_or(timeline.begin_ns);
-  const std::int64_t end_ns = system.results.overview.end_ns.value_or(timeline.end_ns);
-  if (begin_ns == timeline.begin_ns && end_ns == timeline.end_ns) {
-    return nullptr;
-  }
-  // What --from and --to count from.
-  const std::int64_t first_ns = system.first_event_ns != 0 ? system.first_event_ns : begin_ns;
-  return {{"begin", begin_ns - timeline.begin_ns},
-          {"end", end_ns - timeline.begin_ns},
-          {"first", first_ns - timeline.begin_ns}};
 }
 
 Json topic_at(const Timeline& timeline, const std::string& name) {

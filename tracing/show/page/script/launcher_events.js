@@ -15,7 +15,8 @@ function launcherEventPanel(data) {
   const events = launcherEvents(data);
   if (events.length === 0) return null;
   return panel('While it ran', dataTable(events, [
-    {title: 'Time', value: event => event.time, show: event => element('button', {onclick: () => showTime(data, event.time)}, formatTime(event.time))},
+    {title: 'Time', value: event => event.time, show: event => event.time < 0 || event.time > data.duration ? formatTime(event.time) :
+      element('button', {onclick: () => showTime(data, event.time)}, formatTime(event.time))},
     {title: 'Of', value: event => event.subject, wide: true}, {title: 'What', value: event => event.sentence, wide: true},
     {title: 'Asked for in', value: event => event.file && `${event.file}:${event.line}`},
   ], {name: 'event', sort: 0}));
@@ -30,9 +31,11 @@ function showTime(data, time) {
 }
 
 // The one whose line is near a place of the chart, or undefined.
-function launcherEventAt(chart, x) {
+function launcherEventAt(chart, x, y) {
+  const {begin, end} = chart.view;
   const near = event => Math.abs(timeX(chart, event.time) - x);
-  return launcherEvents(chart.data).filter(event => near(event) < 4).sort((a, b) => near(a) - near(b))[0];
+  if (x < labelWidth(chart) || y < kMapHeight) return undefined;
+  return launcherEvents(chart.data).filter(event => event.time >= begin && event.time <= end && near(event) < 4).sort((a, b) => near(a) - near(b))[0];
 }
 
 // A line over all rows for each of them, and a short one in the map.

@@ -225,7 +225,7 @@ function listenToPointer(chart) {
     }
     const instance = chart.instanceAt(event.offsetX, event.offsetY);
     const state = chart.stateAt(event.offsetX, event.offsetY, instance);
-    const ofLauncher = launcherEventAt(chart, event.offsetX);
+    const ofLauncher = launcherEventAt(chart, event.offsetX, event.offsetY);
     tip.hidden = instance < 0 && state < 0 && !ofLauncher;
     if (tip.hidden) return;
     tip.textContent = [ofLauncher ? launcherEventText(ofLauncher) : null, instance < 0 ? null : instanceText(data, instance), state < 0 ? null : `here: ${stateText(data, state)}`].filter(Boolean).join('\n');
